@@ -21,7 +21,8 @@ struct Upwind {
     double weight = 0.0;
 };
 
-/// The larger root of the sum of both axes = 1; of the nearer axis alone where the other lies ahead.
+/// Returns the larger root of sum of both axes = 1, or of the nearer axis alone if the front has not reached
+/// the other.
 double solve(Upwind a, Upwind b) {
     if (a.base > b.base)
         std::swap(a, b);
@@ -34,13 +35,13 @@ double solve(Upwind a, Upwind b) {
     return a.base + (b.weight * gap + std::sqrt(std::max(root, 0.0))) / sum;
 }
 
-/// The shortest way to `to` over the segment from `a` to `b`, at whose ends u is `u_a` and `u_b` and between
-/// them linear. Either may be infinite.
+/// Returns the shortest distance at `to` over the segment from `a` to `b`, with u linear from `u_a` to `u_b`.
+/// Either end may be infinite.
 double over_segment(Point to, Point a, double u_a, Point b, double u_b) {
     const double from_ends = std::min(u_a + distance(to, a), u_b + distance(to, b));
     const double length = distance(a, b);
     const double slope = (u_b - u_a) / length;
-    if (!(std::abs(slope) < 1.0)) // NaN too: an end without a value, two crossings in one point
+    if (!(std::abs(slope) < 1.0)) // also NaN: an end without a value, or two crossings at one point
         return from_ends;
     const Point along{(b.x - a.x) / length, (b.y - a.y) / length};
     const Point offset{to.x - a.x, to.y - a.y};
@@ -92,7 +93,7 @@ private:
                                : shore_.crossings()[size_t(vertex) - map_.heights.size()];
     }
 
-    /// The node `steps` from `node` in direction (dx, dy), or -1 beyond the edge.
+    /// Returns the node `steps` from `node` in direction (dx, dy), or -1 beyond the edge.
     int beside(int node, int dx, int dy, int steps) const {
         const int x = node % map_.side + dx * steps, y = node / map_.side + dy * steps;
         return x < 0 || y < 0 || x >= map_.side || y >= map_.side ? -1 : map_.node(x, y);
@@ -102,8 +103,8 @@ private:
         return node >= 0 && accepted_[size_t(node)] ? u_[size_t(node)] : k_infinite;
     }
 
-    /// The side of an axis from which the front comes. Nodes of water that follow each other have water
-    /// between.
+    /// Returns the difference towards the side from which the front comes. There is always water between
+    /// adjacent water nodes.
     Upwind upwind(int node, int dx, int dy) const {
         const double ahead = accepted_value(beside(node, dx, dy, 1));
         const double behind = accepted_value(beside(node, -dx, -dy, 1));
@@ -145,7 +146,7 @@ private:
             if (x.base < k_infinite || y.base < k_infinite)
                 reached = std::min(reached, solve(x, y));
         }
-        // A correction below rounding is none: the march must end.
+        // A correction below this limit is rounding; without the limit the march might not end.
         if (!(reached < value(vertex) - (again ? k_correction * map_.spacing() : 0.0)))
             return;
         value(vertex) = reached;
@@ -167,7 +168,7 @@ private:
         }
     }
 
-    static constexpr double k_correction = 1e-9; ///< of a spacing
+    static constexpr double k_correction = 1e-9; ///< in spacings
 
     using Entry = std::pair<double, int>;
     const HeightMap& map_;

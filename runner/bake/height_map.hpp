@@ -1,5 +1,5 @@
-// Heights above the sea at the nodes of a square grid: what the shore, the marching and the baked fields are
-// all read from.
+// Heights above sea level at the nodes of a square grid: the input of the shore, the marching and the baked
+// fields.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace tidemark::bake {
 
-/// Metres; x to the east, y to the north, (0,0) the middle of the map.
+/// Position in metres; x to the east, y to the north, (0,0) at the centre of the map.
 struct Point {
     double x = 0.0;
     double y = 0.0;
@@ -16,17 +16,18 @@ struct Point {
 
 inline double length(Point p) {
     return std::sqrt(p.x * p.x +
-                     p.y * p.y); // std::hypot's last bit is the library's, a root's is the standard's
+                     p.y * p.y); // std::hypot's last bit depends on the library, a root's is standard
 }
 
 inline double distance(Point a, Point b) {
     return length({a.x - b.x, a.y - b.y});
 }
 
-/// `side` nodes a side, rows from the south; a node stands in the middle of its texel. Below 0 is water.
+/// Square grid of `side` x `side` nodes, rows from the south; a node is at the centre of its texel. Below 0
+/// is water.
 struct HeightMap {
     int side = 0;
-    double extent = 0.0; ///< metres from edge to edge of the outermost texels
+    double extent = 0.0; ///< metres between the outer edges of the outermost texels
     std::vector<double> heights;
 
     HeightMap(int nodes_a_side, double metres)

@@ -13,7 +13,7 @@ constexpr double k_land_reach = 27.0;
 constexpr double k_rock_reach = 20.0;
 constexpr int k_rocks = 18;
 
-/// 0..1 from a lattice point: one odd multiplication each way and the high bits folded down between.
+/// Returns 0..1 for a lattice point: odd multiplications, with the high bits folded down between them.
 double lattice(int64_t x, int64_t y, uint32_t seed) {
     uint32_t bits = uint32_t(x) * 0x9e3779b1u ^ uint32_t(y) * 0x85ebca77u ^ seed * 0xc2b2ae3du;
     bits = (bits ^ (bits >> 15)) * 0x2c1b3c6du;
@@ -21,7 +21,7 @@ double lattice(int64_t x, int64_t y, uint32_t seed) {
     return double(bits ^ (bits >> 15)) / 4294967296.0;
 }
 
-/// -1..1, one lattice cell a unit.
+/// Returns -1..1; a lattice cell has the size 1.
 double value_noise(Point p, uint32_t seed) {
     const double cell_x = std::floor(p.x), cell_y = std::floor(p.y);
     const double part_x = rise(0.0, 1.0, p.x - cell_x), part_y = rise(0.0, 1.0, p.y - cell_y);
@@ -34,19 +34,20 @@ double value_noise(Point p, uint32_t seed) {
     return 2.0 * (low + part_y * (row(y + 1) - low)) - 1.0;
 }
 
-/// About -1..1; the coarsest bumps are `size` metres apart, each octave half as large and 0.45 as high.
+/// Returns about -1..1; the coarsest bumps are `size` metres apart, each octave half as large and 0.45 as
+/// high.
 double fractal(Point p, double size, int octaves, uint32_t seed) {
     double sum = 0.0, weight = 0.55;
     Point at{p.x / size, p.y / size};
     for (int octave = 0; octave < octaves; ++octave) {
         sum += weight * value_noise(at, seed + uint32_t(octave));
         weight *= 0.45;
-        at = {1.6 * at.x - 1.2 * at.y + 17.3, 1.2 * at.x + 1.6 * at.y - 5.9}; // twice as fine, turned
+        at = {1.6 * at.x - 1.2 * at.y + 17.3, 1.2 * at.x + 1.6 * at.y - 5.9}; // twice as fine, rotated
     }
     return sum;
 }
 
-/// The larger, with a fillet of about `radius` where both are near.
+/// Returns the larger, with a fillet of about `radius` where both are near.
 double smooth_max(double a, double b, double radius) {
     const double near = std::max(radius - std::abs(a - b), 0.0) / radius;
     return std::max(a, b) + 0.25 * radius * near * near;
@@ -57,7 +58,7 @@ struct Disc {
     double radius;
 };
 
-/// Metres inwards from an outline that a few discs and noise make; below 0 at sea.
+/// Returns metres inwards from an outline made of a few discs and noise; below 0 at sea.
 double inland(Point p, uint32_t seed) {
     static constexpr std::array<Disc, 5> k_discs{{{{2.0, 1.0}, 8.2},
                                                   {{-8.8, 5.6}, 4.6},
@@ -71,7 +72,7 @@ double inland(Point p, uint32_t seed) {
     return inward;
 }
 
-/// A beach on both sides of the waterline, hills behind it, and a floor that falls off to sea.
+/// Returns a beach on both sides of the waterline, hills inland of it, and a floor that falls off to sea.
 double ground(Point p, uint32_t seed) {
     const double inward = inland(p, seed);
     const double beach = 0.2 * inward * (inward < 0.0 ? rise(8.0, 0.0, -inward) * 0.9 + 0.1 : 1.0);
@@ -128,7 +129,7 @@ HeightMap make_island(int side, uint32_t seed) {
     for (int node = 0; node < side * side; ++node) {
         const Point p = map.position(node);
         const double height = with_rocks(ground(p, seed), p, rocks, seed);
-        // Whatever the seed, the open sea begins at k_land_reach.
+        // The open sea begins at k_land_reach for every seed.
         map.heights[size_t(node)] = height - (height + 5.0) * rise(k_rock_reach, k_land_reach, length(p));
     }
     return map;

@@ -36,7 +36,7 @@ double disc_height(Point p) {
     return k_disc_radius - distance(p, k_disc);
 }
 
-/// How near the straight way outwards from `p` comes to the disc's middle.
+/// Returns how near the straight path outwards from `p` comes to the disc's centre.
 double passes_disc(Point p) {
     const double r = std::max(length(p), 1e-300);
     const double ahead = (p.x * k_disc.x + p.y * k_disc.y) / r - r;
@@ -44,8 +44,8 @@ double passes_disc(Point p) {
     return ahead > 0.0 ? across : distance(p, k_disc);
 }
 
-/// The way from the circle ends at right angles to it: it touches the disc along a line through the middle of
-/// the map, follows an arc, and leaves on the tangent to `p`; on that side where it is shorter.
+/// The path starts at a right angle to the circle, touches the disc along a line through the centre of the
+/// map, follows an arc, and leaves on the tangent to `p`, on the side where it is shorter.
 double disc_exact(Point p) {
     if (passes_disc(p) >= k_disc_radius)
         return straight(p);
@@ -55,7 +55,7 @@ double disc_exact(Point p) {
     const double turned = angle_of({p.x - k_disc.x, p.y - k_disc.y}) - to_middle;
     const double off_axis = std::abs(std::atan2(std::sin(turned), std::cos(turned)));
     const double touched = std::acos(k_disc_radius / middle), left = std::acos(k_disc_radius / away);
-    const double arc = std::max(touched - off_axis - left, 0.0); // to the nearer side: the shorter
+    const double arc = std::max(touched - off_axis - left, 0.0); // towards the nearer side: the shorter
     return 1.0 - std::sqrt(middle * middle - k_disc_radius * k_disc_radius) + k_disc_radius * arc +
            std::sqrt(away * away - k_disc_radius * k_disc_radius);
 }
@@ -71,7 +71,7 @@ Region disc_region(Point p) {
 constexpr double k_inner = 0.45, k_outer = 0.65;
 constexpr double k_gap_middle = 0.3, k_gap_half = 0.6; // radians
 
-/// Radians beyond the gap's nearer face; below 0 in the gap.
+/// Returns radians beyond the gap's nearer face; below 0 in the gap.
 double beyond_gap(Point p) {
     const double turned = angle_of(p) - k_gap_middle;
     return std::abs(std::atan2(std::sin(turned), std::cos(turned))) - k_gap_half;
@@ -82,7 +82,8 @@ double ring_height(Point p) {
     return std::min({r - k_inner, k_outer - r, r * std::sin(std::min(beyond_gap(p), 1.5))});
 }
 
-/// Where a radius through the gap leads to `p`, straight; else round the nearer of the two inner corners.
+/// Returns the straight distance if a radius through the gap leads to `p`, otherwise that around the nearer
+/// inner corner.
 double ring_exact(Point p) {
     if (length(p) >= k_inner || beyond_gap(p) <= 0.0)
         return straight(p);

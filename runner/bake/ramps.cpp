@@ -31,7 +31,7 @@ Rgba blend(const Rgba& a, const Rgba& b, double part) {
     return result;
 }
 
-/// `stops` in rising order.
+/// Returns the colour at `x`; `stops` are in rising order.
 Rgba palette(std::span<const Stop> stops, double x) {
     Rgba color = stops.front().color;
     for (size_t i = 1; i < stops.size(); ++i) {
@@ -40,8 +40,8 @@ Rgba palette(std::span<const Stop> stops, double x) {
     return color;
 }
 
-/// Troughs show the depth below, crests the light through them; towards the horizon only the sky's mirror
-/// and the air are left and the contrast goes.
+/// Troughs show the depth below, crests the light through them; towards the horizon only the reflected sky
+/// and the air remain, and the contrast fades.
 Rgba water(double lightness, double distance) {
     static constexpr std::array<Stop, 6> k_near{{
         {0.00, {0.015, 0.130, 0.225, 1.0}},
@@ -67,7 +67,7 @@ Rgba water(double lightness, double distance) {
     return blend(up_to_middle, palette(k_far, lightness), rise(0.08, 1.0, distance));
 }
 
-/// Only the lightest of the noise breaks into foam, less of it the farther off.
+/// Only the lightest part of the noise breaks into foam, and less of it with distance.
 Rgba foam(double lightness, double distance) {
     const double from = 0.64 + 0.12 * distance;
     const double cover = rise(from, from + 0.3, lightness) * (1.0 - 0.66 * rise(0.0, 0.7, distance));
@@ -76,7 +76,7 @@ Rgba foam(double lightness, double distance) {
     return blend(near, far, distance);
 }
 
-/// Height, front, tail, rollback.
+/// Returns height, front, tail and rollback.
 Rgba wave(double phase) {
     const double climb = rise(0.02, 0.70, phase);
     const double fall = 1.0 - rise(0.70, 0.86, phase);

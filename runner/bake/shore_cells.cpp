@@ -6,7 +6,7 @@
 namespace tidemark::bake {
 namespace {
 
-/// Gives each grid line between water and land its one crossing.
+/// Computes the one crossing of each grid line between water and land.
 class Crossings {
 public:
     Crossings(const HeightMap& map, std::vector<Point>& points)
@@ -32,7 +32,8 @@ private:
 
     const HeightMap* map_;
     std::vector<Point>* points_;
-    std::vector<int> east_, north_; ///< crossing on the line from a node to its neighbour there, or -1
+    std::vector<int> east_, north_; ///< crossing on the line from a node to its neighbour in that direction,
+                                    ///< or -1
 };
 
 } // namespace

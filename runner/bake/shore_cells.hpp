@@ -1,6 +1,6 @@
-// The grid cells that the shoreline cuts, as convex polygons of water whose corners are nodes and crossings
-// of the shore with grid lines. With them a way along the shore has the shore's own length instead of that of
-// a staircase.
+// Splits the grid cells that the shoreline cuts into convex polygons of water, whose corners are nodes and
+// crossings of the shore with grid lines. With them a path along the shore has the shore's own length instead
+// of that of a staircase.
 #pragma once
 
 #include "bake/height_map.hpp"
@@ -12,15 +12,15 @@
 
 namespace tidemark::bake {
 
-/// Corners in order round the polygon; a number below side² is a node of the map, others are crossings.
+/// Corners in order around the polygon; a number below side² is a node of the map, others are crossings.
 struct WaterPolygon {
     std::array<int, 5> corners{};
     int size = 0;
 };
 
-/// Marching squares. A crossing is where the height, linear along the grid line, is 0: for a shore with a
-/// curvature its distance from the true one is O(spacing²). Where two opposite corners of a cell are land,
-/// the land is taken to connect.
+/// The polygons of a map, by marching squares. A crossing is where the height, linear along the grid line, is
+/// 0: for a curved shore its distance from the true one is O(spacing²). Where two opposite corners of a cell
+/// are land, the land is taken to connect.
 class ShoreCells {
 public:
     explicit ShoreCells(const HeightMap& map);
@@ -28,7 +28,7 @@ public:
     int vertices() const { return int(nodes_ + crossings_.size()); }
     const std::vector<Point>& crossings() const { return crossings_; }
 
-    /// The polygons that have `vertex` as a corner.
+    /// Returns the polygons that have `vertex` as a corner.
     std::span<const int> polygons_at(int vertex) const {
         const auto first = size_t(first_[size_t(vertex)]);
         return std::span(incidence_).subspan(first, size_t(first_[size_t(vertex) + 1]) - first);
@@ -41,7 +41,7 @@ private:
     size_t nodes_;
     std::vector<Point> crossings_;
     std::vector<WaterPolygon> polygons_;
-    std::vector<int> first_; ///< of each vertex in incidence_; one more than there are vertices
+    std::vector<int> first_; ///< index of each vertex in incidence_, plus one entry for the end
     std::vector<int> incidence_;
 };
 

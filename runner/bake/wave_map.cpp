@@ -16,7 +16,7 @@ tl::unexpected<Error> refuse(std::string why) {
     return fail(ErrorCode::load, std::move(why));
 }
 
-/// Counted as people and picture programs do: from the top left, from 0.
+/// Returns column and row, counted from 0 at the top left as image editors do.
 std::string place_of(const HeightMap& map, int node) {
     return fmt::format("column {}, row {}", node % map.side, map.side - 1 - node / map.side);
 }
@@ -28,7 +28,7 @@ Result<void> check_water(const HeightMap& map) {
             "there is no water: the lowest height is {:.3g} m above the sea; raise --sea", least));
     const double radius = circle_radius(map);
     for (int node = 0; node < map.side * map.side; ++node) {
-        // From the last node that the march takes as known to the first outside.
+        // The nodes that the march takes as known, and one spacing more.
         const double inside = radius - length(map.position(node));
         if (std::abs(inside) <= 3.5 * map.spacing() && !map.is_water(node))
             return refuse(
@@ -39,10 +39,10 @@ Result<void> check_water(const HeightMap& map) {
     return {};
 }
 
-/// Gives every node without a value (an infinite one) that of the nearest shore plus the way from there: in
-/// the order of that way, a value is the mean of those it came by (D. Adalsteinsson and J. A. Sethian, "The
-/// fast construction of extension velocities in level set methods", 1999). Over land the march of the waves
-/// itself would come from the weather side and meet those of the lee shore in a step.
+/// Gives every node without a value (an infinite one) that of the nearest shore plus the path from there. In
+/// the order of that path's length, a value is the mean of the neighbours that it came from (D. Adalsteinsson
+/// and J. A. Sethian, "The fast construction of extension velocities in level set methods", 1999). A march of
+/// the waves over land would come from the weather side and meet those of the lee shore in a step.
 void extend_inland(const HeightMap& map, std::vector<double>& path) {
     HeightMap passable(map.side, map.extent);
     std::fill(passable.heights.begin(), passable.heights.end(), -1.0);
@@ -53,7 +53,7 @@ void extend_inland(const HeightMap& map, std::vector<double>& path) {
             at_shore[node] = std::numeric_limits<double>::quiet_NaN();
             inland.push_back(int(node));
         }
-    // 0 over all water is no distance that a difference of the second order could be taken from.
+    // The value is 0 on all water, so that second-order differences would be wrong there.
     const std::vector<double> away = fast_march(passable, at_shore, Stencil::first_order).of_node;
     std::sort(inland.begin(), inland.end(), [&](int a, int b) { return away[size_t(a)] < away[size_t(b)]; });
 
@@ -73,11 +73,12 @@ void extend_inland(const HeightMap& map, std::vector<double>& path) {
     }
 }
 
-/// Finite everywhere: outside the circle straight, inside over water, elsewhere from the nearest shore.
+/// Returns finite values everywhere: outside the circle straight, inside over water, elsewhere from the
+/// nearest shore.
 std::vector<double> path_distances(const HeightMap& map) {
     const std::vector<double> known = known_from_circle(map, circle_radius(map));
     std::vector<double> path = fast_march(map, known).of_node;
-    for (size_t node = 0; node < path.size(); ++node) // land that lies outside the circle
+    for (size_t node = 0; node < path.size(); ++node) // land outside the circle
         if (std::isinf(path[node]) && !std::isnan(known[node]))
             path[node] = known[node];
     extend_inland(map, path);

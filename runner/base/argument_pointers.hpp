@@ -1,4 +1,4 @@
-// Words as the system wants them for another program. Valid as long as the words are.
+// argv for exec and posix_spawn. The pointers are valid while the strings live.
 #pragma once
 
 #include <string>
@@ -6,7 +6,8 @@
 
 namespace tidemark {
 
-/// With the null at the end. Nobody writes into them: the system only forgets to say so.
+/// Returns the strings' pointers and a null at the end. The system does not write to them, although its
+/// interface takes `char*`.
 inline std::vector<char*> argument_pointers(const std::vector<std::string>& words) {
     std::vector<char*> pointers;
     for (const std::string& word : words)

@@ -1,4 +1,4 @@
-// Bytes as text, RFC 4648.
+// Encodes bytes as base64 text (RFC 4648).
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@
 #include <cerrno>
 #include <csignal>
 
-extern "C" { // glibc 2.36 leaves it to us
+extern "C" { // glibc 2.36's header lacks it
 #include <sys/pidfd.h>
 }
 
@@ -43,7 +43,7 @@ void close_and_forget(int& fd) {
         ::close(std::exchange(fd, -1));
 }
 
-/// Both ends, the reading one first; they close with it.
+/// A pipe's two ends, the reading one first, of which `our_end` does not block. The destructor closes them.
 struct Pipe {
     std::array<int, 2> ends = {-1, -1};
 
@@ -60,7 +60,8 @@ struct Pipe {
     bool good() const { return ends[0] >= 0; }
 };
 
-/// What the child's descriptors and signals are to be.
+/// File actions and attributes for posix_spawn: standard streams, no other descriptors, default signals and
+/// an own process group.
 class SpawnPlan {
 public:
     SpawnPlan(ChildProcess::Input kind, int input, int output, int words) {
@@ -96,7 +97,7 @@ private:
     posix_spawnattr_t attributes_;
 };
 
-/// read() that is not interrupted; -1 with EAGAIN when there is nothing yet.
+/// Calls read() again after EINTR; returns -1 with EAGAIN while data is missing.
 ssize_t read_some(int fd, void* to, size_t size) {
     ssize_t count;
     do
@@ -105,7 +106,7 @@ ssize_t read_some(int fd, void* to, size_t size) {
     return count;
 }
 
-/// For poll(): how long until then; a minute where that is never.
+/// Returns poll()'s timeout in milliseconds: the time left; one minute without a deadline.
 int wait_ms(Clock::time_point until) {
     if (until == Clock::time_point::max())
         return k_patience_ms;
@@ -158,7 +159,7 @@ ChildProcess::~ChildProcess() {
     close_pipes();
     if (process_ <= 0)
         return;
-    leftover_.forget(); // its number may soon be another's
+    leftover_.forget(); // the system may soon reuse its number
     ::kill(-process_, SIGKILL);
     while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
     }
@@ -168,7 +169,7 @@ void ChildProcess::read_words(std::string& words) {
     if (words.size() > most_words_)
         words.erase(0, words.size() - most_words_);
     std::array<char, 4096> block;
-    // No more than a pipe holds: who writes without end is not listened to without end.
+    // At most a pipe's capacity, so that a child that writes without end cannot hold the caller here.
     for (size_t left = k_pipe_holds; words_ >= 0 && left > 0; left -= block.size()) {
         const ssize_t count = read_some(words_, block.data(), block.size());
         if (count > 0)

@@ -1,5 +1,5 @@
-// Another program, run for what it prints or for what it makes of what it is told. No shell is in between; no
-// child outlives its object.
+// Runs another program and exchanges bytes with its standard streams. Uses no shell; no child outlives its
+// object.
 #pragma once
 
 #include "base/leftovers.hpp"
@@ -22,15 +22,16 @@ struct OutputLimits {
     std::chrono::steady_clock::time_point until = std::chrono::steady_clock::time_point::max();
 };
 
-/// The child's standard output and error are read here; its standard input is empty, or written here. It is
-/// in a process group of its own, so that Ctrl-C in the terminal does not cut off its output.
+/// A program that was started. Its standard output and error are read here; its standard input is empty, or
+/// written here. It has a process group of its own, so that Ctrl-C in the terminal does not cut off its
+/// output.
 class ChildProcess {
 public:
     enum class Input { none, written };
     using Clock = std::chrono::steady_clock;
 
-    /// Runs the program of that name in PATH. ErrorCode::load names the program; `advice` is what to do where
-    /// there is none.
+    /// Starts the program of that name in PATH. ErrorCode::load names the program; `advice` says what to do
+    /// if there is none.
     static Result<ChildProcess> start(const std::vector<std::string>& arguments, Input input,
                                       std::string_view advice);
 
@@ -47,30 +48,31 @@ public:
         std::swap(leftover_, other.leftover_);
         return *this;
     }
-    /// Kills the child, and what it started, if it still runs, and reaps it.
+    /// Kills the child's process group if the child has not been waited for, and reaps the child.
     ~ChildProcess();
 
-    /// Waits for bytes of standard output and gives their number, 0 at the end. What comes on standard error
-    /// in the meantime is appended to `words`. Fails (ErrorCode::timed_out) at `until`; where none is given,
-    /// when the child is silent for a minute.
+    /// Waits for standard output and returns the number of bytes read, 0 at the end. Appends standard error
+    /// that comes meanwhile to `words`. Fails with ErrorCode::timed_out at `until`; without a deadline, with
+    /// ErrorCode::load after a minute of silence.
     Result<size_t> read(std::span<std::byte> to, std::string& words,
                         Clock::time_point until = Clock::time_point::max());
 
-    /// Waits until the child has taken all bytes. False when it takes no more of them: it has ended, or does
-    /// nothing for a minute. SIGPIPE must be ignored. What comes on standard error is appended to `words`.
+    /// Waits until the child has taken all bytes. Returns false if it takes no more: it has ended, or has
+    /// done nothing for a minute. Appends standard error to `words`. SIGPIPE must be ignored.
     bool write(std::span<const std::byte> bytes, std::string& words);
-    /// The end of its standard input.
+    /// Closes the child's standard input.
     void close_input();
 
-    /// Appends what standard error has now; does not wait.
+    /// Appends the standard error received so far; does not wait.
     void read_words(std::string& words);
 
-    /// Whether it ends before then; waits for that.
+    /// Waits until the child ends; returns false if `until` comes first.
     bool ends_before(Clock::time_point until) const;
-    /// Ends it, and with it a `read` that another thread waits in.
+    /// Kills the child, which also ends a `read` in another thread.
     void stop();
 
-    /// After the end of its output: waits for it. True when it ended with status 0.
+    /// Waits for the child to end; to be called after the end of its output. Returns whether its exit status
+    /// is 0.
     bool succeeded();
 
 private:
@@ -83,12 +85,12 @@ private:
     int input_ = -1;
     int output_ = -1;
     int words_ = -1;
-    size_t most_words_ = std::string::npos; ///< bytes; beyond, the oldest are forgotten
+    size_t most_words_ = std::string::npos; ///< limit in bytes; the oldest text is dropped first
     Leftover leftover_;
 };
 
-/// All that a program prints on standard output. Fails when it fails: the message is the last line of its
-/// standard error, which may be empty. `advice` as for `start`.
+/// Runs a program and returns its standard output. Fails beyond `limits`, or if the program fails: the
+/// message is the last line of its standard error, which may be empty. `advice` as for `start`.
 Result<std::string> output_of(const std::vector<std::string>& arguments, const OutputLimits& limits,
                               std::string_view advice);
 

@@ -27,7 +27,7 @@ tl::expected<std::string, int> read_all(int fd, size_t largest) {
     std::string bytes;
     bytes.reserve(size_t(facts.st_size));
     char block[1 << 13]; // a thread's stack may be small
-    for (;;) {           // it may grow meanwhile, and files of /proc have no size
+    for (;;) {           // the file may grow meanwhile, and files of /proc have size 0
         const ssize_t count = ::read(fd, block, sizeof block);
         if (count < 0 && errno == EINTR)
             continue;

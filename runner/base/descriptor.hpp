@@ -1,5 +1,5 @@
-// POSIX file descriptors: one that is closed by its owner, and whole contents through one. Errors are
-// errno's.
+// POSIX file descriptors: an owning type, and functions that read or write whole contents. Errors are errno
+// values.
 #pragma once
 
 #include <tl/expected.hpp>
@@ -10,7 +10,7 @@
 
 namespace tidemark {
 
-/// Owns a file descriptor; -1: none.
+/// Owns a file descriptor; -1 means none.
 class Descriptor {
 public:
     explicit Descriptor(int fd) : fd_(fd) {}
@@ -20,18 +20,19 @@ public:
 
     int get() const { return fd_; }
     int release();
-    /// Closes now and gives the error that the destructor swallows; 0: none.
+    /// Closes now and returns the errno value that the destructor ignores, 0 for none.
     int close();
 
 private:
     int fd_;
 };
 
-/// To the end, from where it stands; EFBIG where there are more than `largest` bytes, of which no more are
-/// read.
+/// Reads from the current position to the end. Stops and fails with EFBIG if there are more than `largest`
+/// bytes.
 tl::expected<std::string, int> read_all(int fd, size_t largest);
 
-/// 0, or the error of the first write that failed. Waits where the descriptor itself does not.
+/// Writes all bytes; returns 0 or the errno of the first write that failed. Waits even if the descriptor does
+/// not block.
 int write_all(int fd, std::span<const std::byte> bytes);
 
 } // namespace tidemark

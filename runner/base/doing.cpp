@@ -9,7 +9,7 @@
 namespace tidemark {
 namespace {
 
-/// Of the process: a crash is the whole process's end, whichever thread it happens on.
+/// One per process, not per thread: a crash ends the whole process, whichever thread it happens on.
 std::atomic<DoingPage*> the_page = nullptr;
 
 int64_t now_nanoseconds() {
@@ -24,7 +24,7 @@ DoingPage* DoingPage::make() {
     return memory == MAP_FAILED ? nullptr : new (memory) DoingPage{};
 }
 
-/// Words that change while they are read come out mixed, which a person can live with.
+/// A text that changes while it is read comes out mixed, which is acceptable in a message.
 DoingPage::Seen DoingPage::seen() const {
     const size_t size = std::min<size_t>(size_, k_longest);
     if (size == 0)

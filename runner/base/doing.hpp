@@ -1,5 +1,5 @@
-// What this process has a driver do at the moment, written where the process that supervises it can still
-// read it when a driver has crashed. Comes in as words, goes out as words; nothing is decided here.
+// The current driver call, kept in shared memory so that the supervisor can report it after a crash. Takes
+// and returns texts; makes no decisions.
 #pragma once
 
 #include <atomic>
@@ -11,28 +11,28 @@
 
 namespace tidemark {
 
-/// A page that is shared with the processes forked after it was made. Lives as long as the process.
+/// A memory page shared with the processes forked after it was made. It is never freed.
 class DoingPage {
 public:
-    /// nullptr where the system has no page left: then nothing is noted.
+    /// Returns nullptr if the system has no page left; then nothing is recorded.
     static DoingPage* make();
 
     struct Seen {
-        std::string what;      ///< empty: no driver is at work
-        double seconds = 0;    ///< since when
+        std::string what;      ///< empty: the driver is idle
+        double seconds = 0;    ///< time since it began
         bool starting = false; ///< the driver itself is being started
     };
     Seen seen() const;
-    /// Whether a driver was ever started: then it has threads of its own.
+    /// Returns whether a driver was ever started: it then has threads of its own.
     bool has_driver() const { return has_driver_; }
-    /// The frame of a capture that is in hand, from being drawn until the next one is; not begun: the first
-    /// is next.
+    /// The current frame of a capture, from the start of its drawing to the start of the next. `begun` is
+    /// false before the first frame: then `number` is the first one.
     struct Frame {
         int number = 0;
         bool begun = false;
     };
     std::optional<Frame> frame() const;
-    /// Whether what is cut short can be gone on with.
+    /// Returns whether an interrupted run can be resumed.
     bool resumable() const { return resumable_; }
 
 private:
@@ -51,7 +51,7 @@ private:
     char what_[k_longest];
 };
 
-/// Notes what a driver does until it is destroyed; then what it did before goes on.
+/// Records what the driver does while this object lives; the destructor restores the entry before it.
 class Doing {
 public:
     enum class Kind { work, start };
@@ -62,13 +62,13 @@ public:
     Doing(const Doing&) = delete;
     Doing& operator=(const Doing&) = delete;
 
-    /// Where everything of this process is noted from now on; nullptr: nowhere.
+    /// Sets the page that this process records on from now on; nullptr: none.
     static void note_on(DoingPage* page);
-    /// Which frame of a capture is in hand from now on; nothing: none is.
+    /// Records the current frame of a capture; nullopt: none.
     static void note_frame(std::optional<DoingPage::Frame> frame);
-    /// What is cut short from now on can be gone on with.
+    /// Records that the run can be resumed if it is interrupted from now on.
     static void note_resumable();
-    /// What a process that noted on the same page, and has crashed since, was at; it is at nothing any more.
+    /// Returns and clears the entry of a process that recorded on the same page and has crashed.
     static std::string left_behind();
 
 private:

@@ -1,5 +1,4 @@
-// What can go wrong and where. An expected failure is a value of type Error; it says what is wrong,
-// in which file and line, and what to do. Nothing here prints.
+// Errors as values: what is wrong, in which file and line, and what to do. Nothing here prints.
 #pragma once
 
 #include <string>
@@ -8,8 +7,7 @@
 
 namespace tidemark {
 
-/// A place in a text that a person wrote. `line` and `column` count from 1; 0 means "the whole file"
-/// and "the whole line".
+/// A place in a source text. `line` and `column` count from 1; 0 means the whole file or the whole line.
 struct SourceLocation {
     std::string file;
     int line = 0;
@@ -20,7 +18,6 @@ struct SourceLocation {
 
 enum class Severity { note, warning, error };
 
-/// "note", "warning", "error".
 std::string_view to_string(Severity severity);
 
 /// One message about one place.
@@ -32,18 +29,19 @@ struct Diagnostic {
     bool operator==(const Diagnostic&) const = default;
 };
 
-/// `file:line:column: error: message`, the form that editors open; parts that are unknown are left out.
+/// Returns `file:line:column: error: message`, the form that editors open, without the parts that are
+/// unknown.
 std::string to_string(const Diagnostic& diagnostic);
 
-/// Why a command ends. `exit_code` is the one table from these to what the shell sees.
+/// Reasons for which a command ends; `exit_code` maps them to exit statuses.
 enum class ErrorCode {
-    check_failed, ///< a check, a comparison
-    usage,        ///< the command line
+    check_failed, ///< a check or a comparison failed
+    usage,        ///< the command line is wrong
     load,         ///< a scene, shader or picture does not load or compile
     write,        ///< an output cannot be written
-    no_memory,    ///< the machine has no more, or the driver
+    no_memory,    ///< the machine or the driver is out of memory
     timed_out,
-    no_context, ///< there is no OpenGL context to be had
+    no_context, ///< no OpenGL context can be made
 };
 
 int exit_code(ErrorCode code);
@@ -52,21 +50,21 @@ struct Error {
     ErrorCode code = ErrorCode::load;
     std::string message;
     std::vector<Diagnostic> diagnostics{};
-    /// Of a text that does not load: the files it is made of as far as that is known, a missing one included.
-    /// A change of one of them may mend it.
+    /// For a text that does not load: the files that it is made of, as far as they are known, including a
+    /// missing one. A change to one of them may fix the error.
     std::vector<std::string> files{};
 };
 
-/// An Error about one place in a text.
+/// Makes an Error about one place in a text.
 Error error_at(SourceLocation where, std::string message, ErrorCode code = ErrorCode::load);
 
-/// What the system says of an errno.
+/// Returns the system's message for an errno value.
 std::string system_reason(int error_number);
 
-/// The whole error for people: the message (when there is one), then a line for each diagnostic.
+/// Formats the whole error: the message, if there is one, then one line per diagnostic.
 std::string to_string(const Error& error);
 
-/// The candidate most like `word`, for "did you mean …?"; empty when none is near.
+/// Returns the candidate closest to `word`, for "did you mean …?"; empty if none is close.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates);
 
 } // namespace tidemark

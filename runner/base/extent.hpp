@@ -15,7 +15,7 @@ struct Extent {
     size_t pixels() const { return size_t(width) * size_t(height); }
 };
 
-/// `640x360`, and nothing else; both are at least 1.
+/// Parses `640x360`; nullopt for any other text or a side below 1.
 std::optional<Extent> parse_extent(std::string_view text);
 
 } // namespace tidemark

@@ -14,7 +14,7 @@ namespace tidemark {
 namespace fs = std::filesystem;
 namespace {
 
-/// Of a path at which there is nothing: the link on the way that leads nowhere is named.
+/// Returns why nothing exists at `path`; names the dangling link if there is one on the way.
 std::string why_missing(const fs::path& path) {
     fs::path way;
     for (const fs::path& part : path) {
@@ -51,7 +51,7 @@ Result<std::string> read_file(const fs::path& path, size_t largest) {
     };
     if (const std::string why = why_unreadable(path); !why.empty())
         return refuse(why);
-    // Without waiting: it may have become a pipe since, and files of /proc may never have anything to say.
+    // Non-blocking: the path may have become a pipe since the check, and files of /proc may never have data.
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
     if (file.get() < 0)
         return refuse(system_reason(errno));

@@ -24,7 +24,7 @@ namespace {
 
 constexpr size_t k_digest_size = 64;
 
-/// Of the key too: what was kept under another one is not what is asked for.
+/// Includes the key, so that an entry stored under another key is not accepted.
 std::string digest_of(std::string_view key, std::string_view bytes) {
     Sha256 hash;
     hash.add(std::as_bytes(std::span(key)));
@@ -37,7 +37,7 @@ bool is_key(std::string_view name) {
            name.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-/// While it is written: a dot, its key, and which writer's it is.
+/// Part of the name of a file while it is written: `.KEY.part-PID-COUNT`.
 constexpr std::string_view k_half_written = ".part-";
 
 bool is_ours_by_name(std::string_view name) {
@@ -51,7 +51,7 @@ bool is_ours(const struct stat& facts) {
     return facts.st_uid == ::geteuid() && (facts.st_mode & (S_IWGRP | S_IWOTH)) == 0;
 }
 
-/// The file of that name in the folder; nothing where it is no regular file of this user's. Never waits.
+/// Reads the file of that name in the folder; nullopt if it is not a regular file of this user. Never blocks.
 std::optional<std::string> read_entry(int folder, const std::string& name, uint64_t largest) {
     const Descriptor file(::openat(folder, name.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
     struct stat facts {};
@@ -60,7 +60,7 @@ std::optional<std::string> read_entry(int folder, const std::string& name, uint6
     auto bytes = read_all(file.get(), largest);
     if (!bytes)
         return std::nullopt;
-    ::futimens(file.get(), nullptr); // it was asked for
+    ::futimens(file.get(), nullptr); // marks it as recently used
     return *std::move(bytes);
 }
 
@@ -68,7 +68,7 @@ struct CloseFolder {
     void operator()(DIR* folder) const { ::closedir(folder); }
 };
 
-/// An absolute path that the environment names; the XDG rules want others ignored.
+/// Returns the absolute path in an environment variable; the XDG rules say to ignore relative ones.
 std::optional<fs::path> folder_in(const char* variable) {
     const char* value = std::getenv(variable);
     if (!value || *value != '/')
@@ -90,7 +90,7 @@ std::optional<fs::path> user_cache_folder() {
     return std::nullopt;
 }
 
-/// -1 where it is not this user's alone to write to, or a link to somewhere else.
+/// Returns -1 if others may write to the folder, or if it is a link.
 int FileCache::open_folder() const {
     Descriptor folder(::open(folder_.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY | O_NOFOLLOW));
     struct stat facts {};
@@ -120,7 +120,7 @@ void FileCache::keep(const std::string& key, std::string_view bytes) const {
     const Descriptor folder(open_folder());
     if (folder.get() < 0)
         return;
-    static std::atomic<unsigned> count = 0; // two threads may keep the same
+    static std::atomic<unsigned> count = 0; // two threads may keep the same key
     const std::string half = fmt::format(".{}{}{}-{}", key, k_half_written, ::getpid(), ++count);
     Descriptor file(
         ::openat(folder.get(), half.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600));
@@ -134,7 +134,7 @@ void FileCache::keep(const std::string& key, std::string_view bytes) const {
         ::unlinkat(folder.get(), half.c_str(), 0);
 }
 
-/// Files that a process left half-written go like all others; what is not ours stays.
+/// Removes the least recently used files beyond the limit, unfinished ones included, but only files of ours.
 void FileCache::make_room(int folder) const {
     struct Kept {
         int64_t asked_for;

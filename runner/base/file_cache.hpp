@@ -1,5 +1,5 @@
-// Bytes that can be made again, kept from run to run. A cache is a favour: whatever goes wrong with it,
-// nobody hears of it, and what it gives is what was kept or nothing.
+// Best-effort cache from run to run for bytes that can be made again. All errors are ignored; a lookup
+// returns exactly the stored bytes or nothing.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,21 @@
 
 namespace tidemark {
 
-/// `$XDG_CACHE_HOME/tidemark`, else `~/.cache/tidemark`. Nothing where `TIDEMARK_CACHE` is `off` or there is
-/// no home.
+/// Returns `$XDG_CACHE_HOME/tidemark`, else `~/.cache/tidemark`; nullopt if `TIDEMARK_CACHE` is `off` or
+/// without a home folder.
 std::optional<std::filesystem::path> user_cache_folder();
 
-/// One file for each key in a folder of its own, which is made when there is something to keep. A folder that
-/// others may write to, or that is a link, is left alone; so is what does not look like ours in it: links,
-/// pipes, other people's files, files with other names. Several processes may use it at once.
+/// One file per key in a folder of its own, which the first `keep` makes. A folder that is a link or that
+/// others may write to is not used. Links, pipes, other users' files and files with other names in it are
+/// left alone. Several processes may use it at once.
 class FileCache {
 public:
-    /// Holds about `most_bytes`: beyond, what was not asked for the longest goes.
+    /// Holds about `most_bytes`; beyond that the least recently used entries are removed.
     FileCache(std::filesystem::path folder, uint64_t most_bytes)
         : folder_(std::move(folder)), most_bytes_(most_bytes) {}
 
-    /// What was kept under that very key, whole. A key is a SHA-256 as `sha256` writes it.
+    /// Returns the bytes stored under the key; nullopt if there are none or they are damaged. A key is a
+    /// SHA-256 as returned by `sha256`.
     std::optional<std::string> find(const std::string& key) const;
     void keep(const std::string& key, std::string_view bytes) const;
 

@@ -1,4 +1,4 @@
-// Fingerprints of bytes.
+// Computes SHA-256 fingerprints.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,14 @@
 
 namespace tidemark {
 
-/// SHA-256 of bytes that come piece by piece.
+/// SHA-256 of data that comes piece by piece.
 class Sha256 {
 public:
     Sha256();
     ~Sha256();
 
     void add(std::span<const std::byte> bytes);
-    /// 64 lower-case hexadecimal digits; once, after the last piece.
+    /// Returns 64 lower-case hexadecimal digits. To be called once, after the last piece.
     std::string digits();
 
 private:
@@ -23,7 +23,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// SHA-256 as 64 lower-case hexadecimal digits.
+/// Returns the SHA-256 as 64 lower-case hexadecimal digits.
 std::string sha256(std::span<const std::byte> bytes);
 
 } // namespace tidemark

@@ -1,4 +1,4 @@
-// What helps somebody who named what is not there.
+// Suggests names after an unknown one.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace tidemark {
 
-/// "did you mean 'x'?" where one of `names` is near, else "it has x, y"; `none` where there are no names.
+/// Returns "did you mean 'x'?" if one of `names` is close, else "it has x, y"; `none` if `names` is empty.
 std::string hint_for(std::string_view name, const std::vector<std::string>& names, std::string_view none);
 
 } // namespace tidemark

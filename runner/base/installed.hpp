@@ -1,4 +1,4 @@
-// Where the program and what comes with it lie: in a build folder, and as installed.
+// Locates the program and the files that come with it, in a build folder or as installed.
 #pragma once
 
 #include <filesystem>
@@ -6,18 +6,18 @@
 
 namespace tidemark {
 
-/// The folder of the program that runs, links followed.
+/// Returns the folder of the running program, links resolved.
 std::filesystem::path program_folder();
 
-/// The shader library, which `#include <tidemark/…>` reads: shaders/lib beside the program, else where it
-/// is installed (which need not be there).
+/// Returns the folder of the shader library, which `#include <tidemark/…>` reads: shaders/lib in the
+/// program's folder, else the installed one (which may not exist).
 std::filesystem::path library_folder();
 
-/// Why there is none, and where it was looked for; empty: there is one.
+/// Returns why the library is missing and which folders were searched; empty if it is there.
 std::string why_no_library();
 
-/// The projects that a device is held against: conformance beside the program, else where they are installed
-/// (which need not be there).
+/// Returns the folder of the projects that test a device's conformance: conformance in the program's folder,
+/// else the installed one (which may not exist).
 std::filesystem::path conformance_folder();
 
 } // namespace tidemark

@@ -16,17 +16,17 @@
 namespace tidemark {
 namespace {
 
-/// What a signal handler may read: it can neither lock nor allocate.
+/// A registered file or child. A signal handler reads it, which can neither lock nor allocate.
 struct Slot {
     static constexpr pid_t k_free = 0, k_in_hand = -1;
-    std::atomic<pid_t> owner = k_free; ///< a forked child does not tidy up for its parent
-    pid_t child = 0;                   ///< 0: it is a file
+    std::atomic<pid_t> owner = k_free; ///< a forked child does not clean up for its parent
+    pid_t child = 0;                   ///< 0: this is a file
     std::array<char, PATH_MAX> path{};
 };
 
-using Slots = std::array<Slot, 128>; // a report of a hundred pictures appears at once
+using Slots = std::array<Slot, 128>; // a report has about a hundred pictures under construction at once
 
-/// One for a process and all that are forked from it, which may end without a word.
+/// Returns the slots shared by a process and all its forks, which may end without cleaning up.
 Slots& slots() {
     static Slots* const shared = [] {
         void* const memory =
@@ -40,7 +40,7 @@ std::atomic<bool> process_ends = false;
 constexpr int k_last_moment_ms = 2;
 constexpr int k_interrupted = 130; ///< as shells report SIGINT
 
-/// -1: they are all taken.
+/// Returns -1 if all slots are taken.
 int take(const char* path, pid_t child) {
     while (process_ends)
         ::pause(); // another thread is about to end the process
@@ -62,7 +62,7 @@ void remove_files(pid_t self) {
             ::unlink(slot.path.data());
 }
 
-/// Children first, who may be about to make a file.
+/// Ends the children first, since they may be about to make a file.
 void clear() {
     process_ends = true;
     const pid_t self = ::getpid();
@@ -73,7 +73,8 @@ void clear() {
             }
         }
     remove_files(self);
-    ::poll(nullptr, 0, k_last_moment_ms); // another thread had its name and no file yet
+    // another thread may have registered a path and not made its file yet
+    ::poll(nullptr, 0, k_last_moment_ms);
     remove_files(self);
 }
 
@@ -114,13 +115,13 @@ void clear_leftovers_of_the_dead() {
 }
 
 void clear_leftovers_on_signals() {
-    slots(); // a handler finds it there
+    slots(); // allocates it before a handler needs it
     struct sigaction action {};
     action.sa_handler = [](int signal) {
         clear();
         if (signal != SIGQUIT)
             ::_exit(k_interrupted);
-        ::raise(signal); // which leaves a core: SA_RESETHAND
+        ::raise(signal); // leaves a core: SA_RESETHAND
     };
     action.sa_flags = int(SA_RESETHAND);
     sigemptyset(&action.sa_mask);

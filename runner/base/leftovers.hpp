@@ -1,5 +1,5 @@
-// What must not outlive a process that ends early, by a signal or by a driver that cannot be waited for:
-// files under construction are removed, programs that were started are ended.
+// Cleans up after a process that ends early, by a signal or because a driver hangs: removes files under
+// construction and kills started programs.
 #pragma once
 
 #include <sys/types.h>
@@ -9,13 +9,13 @@
 
 namespace tidemark {
 
-/// Holds one such thing in mind while it lives. More than a hundred or so at once are not minded.
+/// Registers one file or child while it lives. Beyond 128 at once, further ones are not registered.
 class Leftover {
 public:
     Leftover() = default;
-    /// Before the file is made.
+    /// Registers a file; to be called before the file is made.
     static Leftover file(const std::filesystem::path& path);
-    /// The leader of a process group.
+    /// Registers the leader of a process group.
     static Leftover child(pid_t process);
 
     Leftover(Leftover&& other) noexcept : slot_(std::exchange(other.slot_, -1)) {}
@@ -30,16 +30,16 @@ private:
     int slot_ = -1;
 };
 
-/// Instead of `exit` and its destructors.
+/// Cleans up and exits without running destructors, unlike `exit`.
 [[noreturn]] void exit_at_once(int code);
 
-/// What processes minded that were forked from this one and have ended: a crash or SIGKILL leaves no time for
-/// it.
+/// Removes the files registered by forked processes that have died, by a crash or SIGKILL, without cleaning
+/// up. Does not end their children.
 void clear_leftovers_of_the_dead();
 
-/// To be called before the first fork. SIGHUP, SIGINT, SIGQUIT and SIGTERM take what is minded with them,
-/// where nobody else asked for them, and end the process with 130, SIGQUIT with a core. One that is ignored
-/// stays so.
+/// Installs handlers of SIGHUP, SIGINT, SIGQUIT and SIGTERM that clean up and end the process with 130,
+/// SIGQUIT with a core. A signal that is ignored or has a handler stays as it is. To be called before the
+/// first fork.
 void clear_leftovers_on_signals();
 
 } // namespace tidemark

@@ -13,9 +13,9 @@ namespace tidemark {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int k_most_links = 40; ///< as Linux follows
+constexpr int k_most_links = 40; ///< Linux's own limit
 
-/// N of `/dev/fd/N` and `/proc/self/fd/N`: a name that is a link only for show.
+/// Returns N of `/dev/fd/N` and `/proc/self/fd/N`: links that stand for a descriptor, not for a path.
 std::optional<int> descriptor_named(const fs::path& path) {
     std::error_code error;
     const fs::path parent = path.parent_path();
@@ -28,7 +28,7 @@ std::optional<int> descriptor_named(const fs::path& path) {
     return wrong == std::errc() && *end == '\0' ? std::optional(number) : std::nullopt;
 }
 
-/// Where a link leads, the file there or not: it is what is replaced, and not the link.
+/// Follows links to their final target, which need not exist: the target is replaced, not the link.
 Result<fs::path> behind_links(fs::path path) {
     const fs::path asked = path;
     for (int i = 0; i < k_most_links; ++i) {
@@ -60,7 +60,7 @@ OutputPath OutputPath::typed_or(const fs::path& typed, fs::path choice) {
 }
 
 OutputPath OutputPath::operator/(const fs::path& name) const {
-    const fs::path below = name.relative_path(); // one that begins with a slash would be another place
+    const fs::path below = name.relative_path(); // an absolute name would leave the folder
     OutputPath output = *this;
     output.whole_ /= below;
     output.chosen_parts_ += size_t(std::distance(below.begin(), below.end()));

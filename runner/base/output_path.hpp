@@ -1,6 +1,6 @@
-// Where an output goes: how much of its path a person named, and which files it must not replace. Links in
-// the part that was named are the person's own and are followed; behind any other nothing is written, for the
-// folder may be a stranger's. Makes and opens nothing.
+// The path of an output: how much of it the user named, and which files it must not replace. Links in the
+// part that the user named are followed. Links in the rest are refused, since the folder may belong to
+// another user. Makes and opens nothing.
 #pragma once
 
 #include "base/result.hpp"
@@ -24,42 +24,44 @@ concept PlainPath = std::constructible_from<std::filesystem::path, Path> &&
 class OutputPath {
 public:
     OutputPath() = default;
-    /// A name of our own choice: only the folder that it is in was named.
+    /// Makes a path whose last part the program chose: the user named only its folder.
     template <PlainPath Path>
     OutputPath(Path&& path) // NOLINT(bugprone-forwarding-reference-overload): of no OutputPath
         : whole_(std::forward<Path>(path)), chosen_parts_(1) {}
-    /// A person typed it, to its last part.
+    /// Makes a path that the user typed, including its last part.
     static OutputPath typed(std::filesystem::path path);
-    /// As typed; where nothing was, our own choice.
+    /// Returns the typed path, or the program's choice if none was typed.
     static OutputPath typed_or(const std::filesystem::path& typed, std::filesystem::path choice);
 
-    /// A name of our own choice in this folder.
+    /// Returns a path in this folder; the program chose the name.
     OutputPath operator/(const std::filesystem::path& name) const;
-    /// A name of our own choice in the same folder: this one with that at its end.
+    /// Returns a path in the same folder, this one with `ending` appended; the program chose the name.
     OutputPath beside(std::string_view ending) const;
-    /// Files that are read and must not be replaced, here or below.
+    /// Returns this path with input files that it, and paths made from it, must not replace.
     OutputPath sparing(const std::vector<std::filesystem::path>& files) const;
 
     const std::filesystem::path& path() const { return whole_; }
     std::string string() const { return whole_.string(); }
     bool empty() const { return whole_.empty(); }
 
-    /// Where the bytes go.
+    /// The resolved destination.
     struct Place {
-        std::filesystem::path path{};    ///< its last part is no link
-        std::optional<int> descriptor{}; ///< of this process, where that is what it names: `/dev/stdout`
-        bool stream = false;             ///< a device, a pipe or such a descriptor: takes bytes as they come
+        std::filesystem::path path{};    ///< its last part is not a link, unless `descriptor` is set
+        /// the descriptor of this process that the path names: `/dev/stdout`
+        std::optional<int> descriptor{};
+        bool stream = false;             ///< a device, a pipe or such a descriptor: written to directly
     };
-    /// Fails (ErrorCode::write) where a link lies that was not named, and on a file that is to be spared.
+    /// Resolves the destination. Fails (ErrorCode::write) on a link that the user did not name, and on a file
+    /// that must not be replaced.
     Result<Place> place() const;
-    /// As `place` does, of the links alone.
+    /// Checks only the links, as `place` does.
     Result<void> check_links() const;
 
 private:
     Result<void> check_spared(const std::filesystem::path& final_path) const;
 
     std::filesystem::path whole_;
-    size_t chosen_parts_ = 0; ///< of `whole_`, from its end: not named by anybody
+    size_t chosen_parts_ = 0; ///< number of parts at the end of `whole_` that the program chose
     std::vector<std::filesystem::path> spared_;
 };
 

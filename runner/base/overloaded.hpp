@@ -1,4 +1,4 @@
-// One function for each type of a std::variant: std::visit(Overloaded{…}, variant).
+// A visitor with one function per type of a std::variant: std::visit(Overloaded{…}, variant).
 #pragma once
 
 namespace tidemark {

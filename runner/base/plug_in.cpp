@@ -37,8 +37,8 @@ Result<const void*> table_of(void* library, const PlugIn& plug_in, const fs::pat
 }
 
 void* open_library(const fs::path& file) {
-    // Lazy, because most of the thousands of functions in what a plug-in brings are never called; for good,
-    // because their destructors run at exit; local, because they bring symbols of everyone's.
+    // Lazy, because most of the thousands of functions in a plug-in's libraries are never called; never
+    // unloaded, because their destructors run at exit; local, because they bring common libraries' symbols.
     return ::dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
 }
 
@@ -65,7 +65,7 @@ Result<const void*> load_plug_in(const PlugIn& plug_in, const std::vector<fs::pa
     if (void* library = open_library(plug_in.file))
         return table_of(library, plug_in, plug_in.file);
     const std::string why = last_loader_error();
-    // The loader's own words matter only where it found the plug-in and missed something else.
+    // The loader's message matters only if it found the plug-in and missed something else.
     if (why.find(plug_in.file.string() + ": cannot open shared object file") == std::string::npos)
         return unusable(plug_in, plug_in.file, why);
     return fail(ErrorCode::load,

@@ -1,5 +1,5 @@
-// Libraries of our own that hold what most runs do not need: they lie beside the program and are loaded when
-// they are needed. Once loaded, one stays until the process ends.
+// Loads the program's own plug-in libraries, which hold code that most runs do not need, on demand. Once
+// loaded, one stays until the process ends.
 #pragma once
 
 #include "base/result.hpp"
@@ -15,19 +15,19 @@ struct PlugIn {
     std::string_view name;        ///< "picture plug-in"
     std::string_view purpose;     ///< "reading and writing pictures"
     std::string_view requirement; ///< what it is linked with: "OpenImageIO 2.4"
-    const char* entry;            ///< the function that gives its table
-    unsigned version;             ///< of that table, which begins with it: it refuses one of another build
+    const char* entry;            ///< the function that returns its table
+    unsigned version;             ///< version of that table, which begins with it; another version is refused
 };
 
-/// Where this program looks first: beside itself, and in ../lib/tidemark from there (as installed).
+/// Returns the folders searched first: the program's own, and ../lib/tidemark from there (as installed).
 std::vector<std::filesystem::path> plug_in_folders();
 
-/// The table of the plug-in in the first of the `folders` that has one, else of the one that the system's
-/// loader finds by its name alone (RUNPATH, LD_LIBRARY_PATH). ErrorCode::load says where it was looked for
-/// and what to do.
+/// Returns the table of the plug-in in the first of the `folders` that has it, else of the one that the
+/// system's loader finds by name (RUNPATH, LD_LIBRARY_PATH). ErrorCode::load names the places searched and
+/// says what to do.
 Result<const void*> load_plug_in(const PlugIn& plug_in, const std::vector<std::filesystem::path>& folders);
 
-/// The table of a plug-in of this program.
+/// Loads a plug-in of this program and returns its table.
 template <class Table>
 Result<const Table*> load_plug_in(const PlugIn& plug_in) {
     return load_plug_in(plug_in, plug_in_folders()).map([](const void* table) {

@@ -8,8 +8,8 @@
 namespace tidemark {
 namespace {
 
-/// Controls of Unicode's C1, and what people do not see but terminals obey: directions of writing, line and
-/// paragraph ends, the mark of byte order.
+/// Returns whether a terminal obeys the character without showing it: Unicode's C1 controls, writing
+/// direction, line and paragraph separators, byte order mark.
 bool steers(int code) {
     return (code >= 0x7f && code < 0xa0) || code == 0x61c || code == 0x200e || code == 0x200f ||
            (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069) || code == 0xfeff;
@@ -22,7 +22,7 @@ std::string shown(std::string_view text, std::string_view kept) {
         const auto [length, code] = first_character(text);
         if (code < 0 || (code < 0x20 && kept.find(text[0]) == kept.npos))
             fmt::format_to(std::back_inserter(result), "\\x{:02x}", static_cast<unsigned char>(text[0]));
-        else if (steers(code)) // as JSON writes it, too
+        else if (steers(code)) // the same form as in JSON
             fmt::format_to(std::back_inserter(result), "\\u{:04x}", code);
         else
             result.append(text.substr(0, length));

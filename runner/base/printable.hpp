@@ -1,5 +1,5 @@
-// Texts of scenes, files and drivers as a terminal, a title or a shell may be given them: what would steer it
-// instead of being shown is made visible.
+// Makes texts of scenes, files and drivers safe to show in a terminal, a title or a shell: characters that
+// would control it become visible escapes.
 #pragma once
 
 #include <string>
@@ -7,24 +7,24 @@
 
 namespace tidemark {
 
-/// The text with every control character but tab and line feed, every byte that is no UTF-8, and what turns
-/// the direction of writing as an escape: `\x1b`, `\u202e`.
+/// Escapes control characters except tab and line feed, bytes that are not UTF-8, and invisible characters
+/// that change the layout or the writing direction: `\x1b`, `\u202e`.
 std::string printable(std::string_view text);
 
-/// As printable, in one line: tab and line feed are escapes too.
+/// Like printable, but for one line: escapes tab and line feed too.
 std::string printable_line(std::string_view text);
 
-/// Whether `printable_line` would change nothing.
+/// Returns whether `printable_line` would change nothing.
 bool is_printable_line(std::string_view text);
 
-/// The text with U+FFFD for every byte that is no UTF-8.
+/// Replaces every byte that is not UTF-8 with U+FFFD.
 std::string valid_utf8(std::string_view text);
 
-/// The text where it has no more than `most` bytes, else what of it ends with a whole character, and `...`.
+/// Returns the text; if it is longer than `most` bytes, its first whole characters and `...`.
 std::string cut_text(std::string_view text, size_t most);
 
-/// The length of the first character of `text` where it is UTF-8 and its code point, else 1 and -1. `text` is
-/// not empty.
+/// The first character of `text`, which must not be empty: its length in bytes and its code point, or 1 and
+/// -1 if it is not valid UTF-8.
 struct Character {
     size_t length = 1;
     int code = -1;

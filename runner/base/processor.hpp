@@ -1,11 +1,11 @@
-// Who made the processor: drivers that draw on it round as its instructions do (rcpps).
+// Names the processor's maker: software drivers round as its instructions do (rcpps).
 #pragma once
 
 #include <string>
 
 namespace tidemark {
 
-/// `GenuineIntel`, `AuthenticAMD`; empty where it does not say.
+/// Returns `GenuineIntel` or `AuthenticAMD`, for example; empty if the processor has no such instruction.
 std::string processor_maker();
 
 } // namespace tidemark

@@ -1,4 +1,4 @@
-// A part of a picture, target or window in whole pixels; x and y of its bottom left one.
+// A part of a picture, target or window in whole pixels; x and y are its bottom left pixel.
 #pragma once
 
 #include "base/extent.hpp"
@@ -17,7 +17,7 @@ struct Rectangle {
     bool contains(int column, int row) const {
         return column >= x && row >= y && column - x < extent.width && row - y < extent.height;
     }
-    /// The pixels that both have; an empty extent where there are none.
+    /// Returns the common pixels; an empty extent if there are none.
     Rectangle within(const Rectangle& other) const {
         const int left = std::max(x, other.x);
         const int bottom = std::max(y, other.y);

@@ -1,4 +1,4 @@
-// A folder of our own among the temporary files, for another program's files; it goes with all that is in it.
+// A temporary folder for another program's files. The destructor removes it with its contents.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@ namespace tidemark {
 
 class ScratchFolder {
 public:
-    /// Only its owner may look into it. Empty where it cannot be made.
+    /// Makes a folder that only its owner may open. `path` is empty if it cannot be made.
     ScratchFolder();
     ~ScratchFolder();
     ScratchFolder(const ScratchFolder&) = delete;

@@ -1,5 +1,5 @@
-// Libraries of the system that only some runs need: loaded by the first that asks, and there until the
-// process ends. Their headers alone are compiled in.
+// Loads system libraries that only some runs need. They stay loaded until the process ends. The build needs
+// only their headers.
 #pragma once
 
 #include "base/result.hpp"
@@ -11,7 +11,7 @@ namespace tidemark {
 
 class SharedLibrary {
 public:
-    /// `file` as the loader knows it: `libasound.so.2`.
+    /// `file` is the loader's name for it: `libasound.so.2`.
     explicit SharedLibrary(const char* file);
 
     template <class Function>
@@ -20,15 +20,15 @@ public:
         return *this;
     }
 
-    /// Whether it is there and every function was found; ErrorCode::load says what to install else. `what` is
-    /// the library for people: `libsndfile, which reads sound`.
+    /// Checks that the library and all functions were found; otherwise ErrorCode::load says what to install.
+    /// `what` describes the library: `libsndfile, which reads sound`.
     Result<void> complete(std::string_view what, std::string_view package) const;
 
 private:
     void* address_of(const char* name);
 
     void* handle_;
-    std::string missing_{}; ///< the loader's words for the first thing that is
+    std::string missing_{}; ///< the loader's message about the first missing thing
 };
 
 } // namespace tidemark

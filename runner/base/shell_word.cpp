@@ -9,8 +9,8 @@
 namespace tidemark {
 namespace {
 
-/// `$'…'` of bash, zsh and POSIX.1-2024: what a terminal would obey is spelled out. In octal, of which a
-/// shell takes three digits and no more.
+/// Quotes as `$'…'` (bash, zsh, POSIX.1-2024), with control characters as escapes: octal, of which a shell
+/// reads at most three digits.
 std::string spelled_out(std::string_view word) {
     std::string quoted = "$'";
     while (!word.empty()) {

@@ -1,4 +1,4 @@
-// Words of a command line: one that is printed for a person to run again, one that a person named.
+// Quotes and splits the arguments of a command line.
 #pragma once
 
 #include <span>
@@ -8,14 +8,14 @@
 
 namespace tidemark {
 
-/// The word as a POSIX shell takes it for one: as it stands where that is safe, else between apostrophes,
-/// what steers a terminal spelled out.
+/// Quotes an argument for a POSIX shell: unchanged if that is safe, else between apostrophes, with escapes
+/// for characters that control a terminal.
 std::string shell_word(std::string_view word);
 
-/// Several, with blanks between them.
+/// Quotes several arguments, with blanks between them.
 std::string shell_words(std::span<const std::string> words);
 
-/// What stands between blanks, as in `EDITOR="code --wait"`: nothing is quoted, and no shell looks at it.
+/// Splits at blanks, as in `EDITOR="code --wait"`; quotes have no meaning, and no shell is used.
 std::vector<std::string> split_words(std::string_view words);
 
 } // namespace tidemark

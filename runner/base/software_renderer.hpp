@@ -1,4 +1,4 @@
-// Whether a driver draws on the processor, by the name that it gives itself.
+// Recognises drivers that draw on the processor by their name.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace tidemark {
 
-/// `renderer`: what GL_RENDERER says.
+/// `renderer` is the value of GL_RENDERER.
 inline bool is_software_renderer(std::string_view renderer) {
     constexpr std::array<std::string_view, 4> k_software{"llvmpipe", "softpipe", "SwiftShader", "Software"};
     return std::ranges::any_of(

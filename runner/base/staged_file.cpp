@@ -30,7 +30,7 @@ namespace {
 
 constexpr std::string_view k_part = ".part-";
 constexpr size_t k_longest_name = 255;
-constexpr size_t k_longest_extension = 16; ///< of a format that somebody knows by it
+constexpr size_t k_longest_extension = 16; ///< a longer ending is not a known format's
 constexpr size_t k_machine_digits = 8;
 constexpr size_t k_number_room = 33; ///< the machine, the process and the count, dashes between
 constexpr int k_pipe_patience_ms = 10000;
@@ -44,7 +44,7 @@ tl::unexpected<Error> cannot_write(const OutputPath& output, int error_number) {
     return cannot_write(output, system_reason(error_number));
 }
 
-/// -1 with errno. A pipe that nobody reads yet is waited for.
+/// Returns -1 with errno on failure. Waits up to 10 s for a reader of a pipe.
 int open_stream(const OutputPath::Place& place) {
     if (place.descriptor)
         return ::fcntl(*place.descriptor, F_DUPFD_CLOEXEC, 0);
@@ -58,7 +58,7 @@ int open_stream(const OutputPath::Place& place) {
     }
 }
 
-/// `give` is called for each block to write, until it gives none or fails.
+/// Calls `give` for each block to write, until it returns an empty one or an error.
 template <typename Give>
 Result<void> write_stream(const OutputPath& output, const OutputPath::Place& place, Give give) {
     Descriptor stream(open_stream(place));
@@ -80,7 +80,8 @@ Result<void> write_stream(const OutputPath& output, const OutputPath::Place& pla
     return error ? cannot_write(output, error) : Result<void>();
 }
 
-/// Eight digits that stand for this machine: on a disk that several share a process is known by its own only.
+/// Returns eight digits that identify this machine: on a shared disk, a process number means something only
+/// with its machine.
 const std::string& machine() {
     static const std::string digits = [] {
         std::array<char, HOST_NAME_MAX + 1> name{};
@@ -90,13 +91,14 @@ const std::string& machine() {
     return digits;
 }
 
-/// `.NAME.part-MACHINE-PID-COUNT.EXTENSION`; several processes and threads may write to one path.
+/// Returns `.NAME.part-MACHINE-PID-COUNT.EXTENSION`; several processes and threads may write to one path.
 std::string temporary_name(const std::string& stem, const std::string& extension) {
     static std::atomic<unsigned> count = 0;
     return fmt::format(".{}{}{}-{}-{}{}", stem, k_part, machine(), ::getpid(), ++count, extension);
 }
 
-/// The process whose file under construction this is, its machine, and of which output; 0: it is none.
+/// The process that makes a temporary file, its machine and the stem of its output; process 0: not such a
+/// file.
 struct PartOf {
     pid_t process = 0;
     std::string machine{};
@@ -123,13 +125,13 @@ PartOf part_of(const std::string& name) {
     return found;
 }
 
-/// The frames of a sequence are one output.
+/// Returns the stem without digits, since the frames of a sequence are one output.
 std::string without_digits(std::string stem) {
     std::erase_if(stem, [](char c) { return c >= '0' && c <= '9'; });
     return stem;
 }
 
-/// Dead, whether or not somebody has asked how it died.
+/// Returns whether the process is dead, even if its parent has not waited for it yet.
 bool has_ended(pid_t process) {
     if (::kill(process, 0) != 0 && errno == ESRCH)
         return true;
@@ -139,7 +141,8 @@ bool has_ended(pid_t process) {
     return name_end != text.npos && (text[name_end + 2] == 'Z' || text[name_end + 2] == 'X');
 }
 
-/// Neither does its process live, nor does one that this machine does not know hold the file.
+/// Returns whether no process can still be writing the file: on this machine its process is dead, and the
+/// file's lock is free.
 bool is_abandoned(const fs::path& path, const PartOf& part) {
     if (part.machine == machine() && !has_ended(part.process))
         return false;
@@ -161,7 +164,7 @@ void remove_abandoned_in(const fs::path& folder, const std::string& output, Stag
     }
 }
 
-/// Once for each output of a process: a sequence writes to its folder a thousand times.
+/// Looks once for each output of a process, since a sequence writes to its folder a thousand times.
 void remove_abandoned_once(const fs::path& folder, const std::string& stem) {
     static std::mutex mutex;
     static std::set<std::pair<fs::path, std::string>> seen;
@@ -178,7 +181,7 @@ fs::path folder_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// A file with several names stays one file: its bytes are written over, not replaced.
+/// Overwrites the file in place, so that one with several names (hard links) stays one file.
 Result<void> write_over(const OutputPath& output, const fs::path& path, std::span<const std::byte> bytes) {
     Descriptor file(::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC));
     if (file.get() < 0)
@@ -223,7 +226,7 @@ Result<StagedFile> StagedFile::create(const OutputPath& output, std::string_view
     std::error_code ignored;
     if (fs::is_directory(place.path, ignored))
         return cannot_write(output, EISDIR);
-    const fs::path name = output.path().filename(); // a link may lead to a name of another kind
+    const fs::path name = output.path().filename(); // a link's target may have another extension
     std::string ending(extension.empty() ? name.extension().string() : extension);
     if (ending.size() > k_longest_extension)
         ending.clear();
@@ -236,7 +239,7 @@ Result<StagedFile> StagedFile::create(const OutputPath& output, std::string_view
     return staged;
 }
 
-/// Somebody may have put something under any name: it is another one then.
+/// Tries another name if a file of that name exists: another user may have made it.
 Result<void> StagedFile::open(const fs::path& folder, const std::string& stem, const std::string& extension) {
     constexpr int k_attempts = 1000;
     for (int i = 0; i < k_attempts; ++i) {
@@ -299,7 +302,7 @@ Result<void> StagedFile::commit() {
 Result<void> write_file(const OutputPath& output, std::span<const std::byte> bytes) {
     auto place = TRY(output.place());
     if (place.stream)
-        return write_stream(output, place, [&] { // all at once, then nothing
+        return write_stream(output, place, [&] { // everything at once, then an empty block
             return Result<std::span<const std::byte>>(std::exchange(bytes, {}));
         });
     auto staged = TRY(StagedFile::create(output));
@@ -316,11 +319,12 @@ Result<void> replace_text(const OutputPath& output, std::string_view before, std
     if (::stat(place.path.c_str(), &facts) != 0)
         return cannot_write(output, errno);
     constexpr mode_t k_anybody_writes = 0222;
-    if ((facts.st_mode & k_anybody_writes) == 0) // also for root, who may write everything
+    if ((facts.st_mode & k_anybody_writes) == 0) // applies to root too, who may write everything
         return cannot_write(output, "it is read-only");
     if (::access(place.path.c_str(), W_OK) != 0)
         return cannot_write(output, errno);
-    auto staged = TRY(StagedFile::create(output)); // written first: a disk that is full is known before
+    // written before any change, so that a full disk does no harm
+    auto staged = TRY(StagedFile::create(output));
     TRY(staged.write(std::as_bytes(std::span(after))));
     const bool same_owner = ::fchown(staged.descriptor(), facts.st_uid, facts.st_gid) == 0;
     const bool same_mode = ::fchmod(staged.descriptor(), facts.st_mode & ~mode_t(S_IFMT)) == 0;

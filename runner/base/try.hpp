@@ -1,4 +1,4 @@
-// Handing an error on, in one word: `const auto scene = TRY(load_scene(path));`.
+// Returns an error to the caller in one macro: `const auto scene = TRY(load_scene(path));`.
 #pragma once
 
 #include "base/result.hpp"
@@ -16,9 +16,9 @@ T value_of(Result<T>&& result) {
 
 } // namespace tidemark
 
-/// The value of a Result; where it is an error, the function around returns that. A statement expression,
-/// which GCC and clang have. clang 14 does not destroy what the same expression has made by then: it stands
-/// first in its statement, `T{TRY(a), b}`, and not behind anything that owns memory.
+/// The value of a Result; an error is returned from the enclosing function. It is a statement expression,
+/// which GCC and clang have. On the error path, clang 14 does not destroy what the same expression has made
+/// before it: put it first in its statement, `T{TRY(a), b}`, and not after anything that owns memory.
 #define TRY(...)                                                                                             \
     __extension__({                                                                                          \
         auto tidemark_result = (__VA_ARGS__);                                                                \

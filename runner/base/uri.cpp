@@ -7,7 +7,7 @@
 namespace tidemark {
 namespace {
 
-/// RFC 3986's unreserved characters, and what separates folders.
+/// Returns whether a character needs no escape: RFC 3986's unreserved characters and the slash.
 bool stands_for_itself(unsigned char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
            c == '.' || c == '_' || c == '~' || c == '/';

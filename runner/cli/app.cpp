@@ -47,7 +47,8 @@ std::vector<std::string> command_names(const CLI::App& app) {
     return names;
 }
 
-/// `tidemark SCENE …` means `tidemark view SCENE …`.
+/// Inserts `view` before a first argument that is a scene, so that `tidemark SCENE …` means `tidemark view
+/// SCENE …`. Fails (ErrorCode::usage) if it is neither a command nor a scene.
 Result<void> supply_view(const CLI::App& app, std::vector<std::string>& arguments) {
     if (arguments.empty() || arguments[0].starts_with('-'))
         return {};
@@ -70,13 +71,13 @@ Result<void> supply_view(const CLI::App& app, std::vector<std::string>& argument
     return {};
 }
 
-/// The sub-command that the line calls, innermost.
+/// Returns the innermost sub-command on the command line.
 const CLI::App& called(const CLI::App& app) {
     const auto inner = app.get_subcommands();
     return inner.empty() ? app : called(*inner.front());
 }
 
-/// `tidemark bake noise`: what a person types to call it.
+/// Returns the full command name as typed, for example `tidemark bake noise`.
 std::string words_to(const CLI::App& command) {
     const CLI::App* parent = command.get_parent();
     return parent ? words_to(*parent) + " " + command.get_name() : command.get_name();
@@ -97,7 +98,8 @@ Error unexpected(const CLI::App& app, const std::string& argument) {
     return {ErrorCode::usage, fmt::format("unknown option {}: {}", bare, hint), {}};
 }
 
-/// Something that must be there is not: CLI11 has words for an option, we for a sub-command.
+/// Returns the error for a required argument that is missing. CLI11's message covers options; a missing
+/// sub-command gets one of ours.
 Error missing(const CLI::App& app, const CLI::RequiredError& error) {
     const CLI::App& command = called(app);
     const auto say_what = [&](std::string_view what) {
@@ -115,7 +117,8 @@ Error missing(const CLI::App& app, const CLI::RequiredError& error) {
     return say_what(fmt::format("unknown '{}': {}", extra.front(), choice));
 }
 
-/// An option without the value that it wants: CLI11 names the option, and no more of use.
+/// Returns the error for an option without its value: CLI11's message gives the option's name and nothing
+/// else of use.
 Error without_value(const CLI::App& app, const CLI::ArgumentMismatch& error) {
     const std::string words = error.what();
     const std::string name = words.substr(0, words.find(':'));
@@ -130,9 +133,10 @@ int report(const Error& error) {
     return exit_code(error.code);
 }
 
-/// CLI11 speaks by exceptions; they end here. Empty: parsed, go on.
+/// Parses the arguments and converts CLI11's exceptions to messages. Returns the exit code when the program
+/// is to end, or nothing when it is to go on.
 std::optional<int> parse(CLI::App& app, std::vector<std::string> arguments) {
-    std::reverse(arguments.begin(), arguments.end()); // CLI11 takes them from the back
+    std::reverse(arguments.begin(), arguments.end()); // CLI11 takes arguments from the back
     try {
         app.parse(std::move(arguments));
     } catch (const CLI::Success& asked) { // --help, --version
@@ -160,8 +164,8 @@ std::optional<int> parse(CLI::App& app, std::vector<std::string> arguments) {
 }
 
 int run_or_throw(int argc, const char* const* argv) {
-    std::signal(SIGPIPE, SIG_IGN); // a reader that went away is a write error like any other
-    std::signal(SIGXFSZ, SIG_IGN); // as is a file-size limit
+    std::signal(SIGPIPE, SIG_IGN); // a reader that closed the pipe is a write error like any other
+    std::signal(SIGXFSZ, SIG_IGN); // so is a file-size limit
     clear_leftovers_on_signals();
 
     CLI::App app(
@@ -171,7 +175,7 @@ int run_or_throw(int argc, const char* const* argv) {
     app.formatter(std::make_shared<HelpFormatter>());
     app.footer(k_footer);
     app.require_subcommand(1);
-    // An alias may bring an option along that the line gives again.
+    // An alias may add an option that the command line gives again.
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     Action chosen;
     for (const AddCommand add : k_commands)
@@ -196,11 +200,10 @@ int run_or_throw(int argc, const char* const* argv) {
     const auto bounds = resolve(limits);
     if (!bounds)
         return report(bounds.error());
-    // A window's own process stays with it, as an editor's does: what they do not know yet is tried in
-    // another.
+    // `view`, `serve` and `lsp` keep their own process: they test an unknown scene in a child of their own.
     if (const std::string name = called(app).get_name(); name != "view" && name != "serve" && name != "lsp")
         if (const auto ended = supervise(*bounds)) {
-            finish_diagnostics(false); // of how it ended: the child wrote its own
+            finish_diagnostics(false); // errors about how the child ended; the child wrote its own
             return *ended;
         }
     platform::do_without_full_driver_cache();
@@ -210,8 +213,8 @@ int run_or_throw(int argc, const char* const* argv) {
     return code;
 }
 
-/// The stack grows as far as the limit says in the moment when it does. False where it may not grow far
-/// enough for a driver's compiler, nor for libraries.
+/// Raises the stack limit to 8 MiB if it is lower; the kernel reads the limit each time the stack grows.
+/// Returns false if less than 1 MiB is allowed, which is too little for a driver's compiler or for libraries.
 bool make_room_on_the_stack() {
     constexpr rlim_t k_usual = rlim_t{8} << 20, k_least = rlim_t{1} << 20;
     rlimit limit{};
@@ -224,12 +227,13 @@ bool make_room_on_the_stack() {
     return limit.rlim_cur >= k_least;
 }
 
-/// Keeps the number of a standard descriptor that the caller has closed: the next file that a library opens
-/// (Mesa's cache, say) would get it, and would be written to as standard output. Writing to this one fails.
+/// Opens /dev/null for each standard descriptor that the caller has closed: otherwise the next file that a
+/// library opens (for example Mesa's cache) would get that number and be written to as standard output.
+/// Writing to this one fails.
 void occupy_standard_descriptors() {
     for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor)
         if (::fcntl(descriptor, F_GETFD) < 0)
-            (void)::open("/dev/null", O_RDONLY); // the lowest number that is free
+            (void)::open("/dev/null", O_RDONLY); // takes the lowest free number
 }
 
 } // namespace

@@ -20,11 +20,11 @@
 namespace tidemark::cli {
 namespace {
 
-/// What one file would get.
+/// The changes for one file.
 struct Changes {
     std::vector<scene::Knob> knobs;
     std::vector<scene::Setting> definitions;
-    std::vector<glsl::Cure> numbers; ///< without a name
+    std::vector<glsl::Cure> numbers; ///< constants without a name
 };
 
 Result<std::map<std::string, Changes>> changes_by_file(scene::Scene scene,
@@ -47,7 +47,7 @@ Result<std::map<std::string, Changes>> changes_by_file(scene::Scene scene,
     return files;
 }
 
-/// Those of the cures that stand in a file.
+/// Returns the fixes reduced to the replacements in `file`; fixes without any are kept, empty.
 std::vector<glsl::Cure> in_file(std::span<const glsl::Cure> cures, const std::string& file) {
     std::vector<glsl::Cure> those(cures.begin(), cures.end());
     for (glsl::Cure& cure : those)
@@ -119,7 +119,8 @@ std::string difference(const ChangedFile& file) {
 
 namespace {
 
-/// The error, and where the change is that was not made: in a new file beside the first one that lacks it.
+/// Saves the changes that were not made as a .diff file next to the first of `files`. Returns the error, with
+/// the name of that file added.
 tl::unexpected<Error> with_difference(Error error, std::span<const ChangedFile> files) {
     std::string text;
     for (const ChangedFile& file : files)
@@ -130,7 +131,7 @@ tl::unexpected<Error> with_difference(Error error, std::span<const ChangedFile> 
             fmt::format("{}{}.diff", files.front().file, i == 1 ? "" : fmt::format(".{}", i));
         std::error_code ignored;
         if (std::filesystem::exists(std::filesystem::symlink_status(name, ignored)))
-            continue; // somebody's
+            continue; // belongs to the user
         if (write_file(OutputPath(name), std::as_bytes(std::span(text))))
             error.message += fmt::format("; what it would have been is in '{}'", name);
         break;

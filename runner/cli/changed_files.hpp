@@ -1,5 +1,5 @@
-// Settings and cures written into the files that a scene was read from: as a difference for people, then for
-// good.
+// Writes settings and fixes into the files that a scene was read from: returns the new texts, prints them as
+// a difference, and writes the files.
 #pragma once
 
 #include "base/result.hpp"
@@ -25,16 +25,16 @@ struct ChangedFile {
 /// other files, or files that were edited since an import.
 Result<scene::Scene> load_editable(SceneRequest& request);
 
-/// Every file in which a knob or a definition would get another value.
+/// Returns every file in which a knob or a definition gets another value.
 Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
                                                const std::vector<scene::Setting>& settings);
 
-/// The files of a scene with one cure after the other. Each file is read once: what is written meanwhile does
-/// not move the words that cures stand around.
+/// The files of a scene to which fixes are applied one after another. Each file is read once, so that later
+/// writes do not move the tokens at which fixes are placed.
 class CuredFiles {
 public:
-    /// Every file that the last of the cures changes; `before` is the file with those before it. Fails
-    /// (ErrorCode::write) where its words are not there.
+    /// Returns every file that the last fix changes; `before` is the file with the earlier fixes. Fails
+    /// (ErrorCode::write) if the file does not have the tokens that the fix replaces.
     Result<std::vector<ChangedFile>> with_last(std::span<const glsl::Cure> cures);
 
 private:
@@ -43,11 +43,11 @@ private:
     std::map<std::string, std::string> texts_{};
 };
 
-/// In the unified form. No line may have come or gone.
+/// Returns the difference in unified format. Both texts must have the same number of lines.
 std::string difference(const ChangedFile& file);
 
-/// Each of them whole or not at all; fails (ErrorCode::write) where one is not as it was read any more. The
-/// difference is kept in a file beside it then.
+/// Writes each file whole or not at all. Fails (ErrorCode::write) if one changed since it was read; the
+/// difference is then kept in a new file next to it.
 Result<void> write_files(const std::vector<ChangedFile>& files);
 
 } // namespace tidemark::cli

@@ -12,7 +12,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// A CLI11 validator without a name: the help prints names of validators.
+/// Wraps a CLI11 validator without its name, which the help would print.
 ValueCheck check_of(const CLI::Validator& validator) {
     return [validator](const std::string& text) { return validator(text); };
 }
@@ -108,7 +108,7 @@ Option Option::one_word() const {
     return Option(option_->allow_extra_args(false));
 }
 Option Option::repeatable() const {
-    // `allow_extra_args` comes last: the others set it again.
+    // `allow_extra_args` must come last: the calls before it set it again.
     return Option(option_->type_size(1)
                       ->expected(1)
                       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
@@ -201,10 +201,10 @@ std::vector<std::string> Command::typed_words(std::span<const std::string_view> 
 Result<void> parse_words(const std::function<void(Command)>& declare, std::vector<std::string> words) {
     CLI::App app;
     declare(Command(app));
-    std::ranges::reverse(words); // CLI11 takes them from the back
+    std::ranges::reverse(words); // CLI11 takes arguments from the back
     try {
         app.parse(std::move(words));
-    } catch (const CLI::Success&) { // what --help and --version throw
+    } catch (const CLI::Success&) { // thrown by --help and --version
         return fail(ErrorCode::usage, "it asks for help, and a file cannot");
     } catch (const CLI::Error& error) {
         return fail(ErrorCode::usage, error.what());

@@ -23,7 +23,7 @@ class Option;
 
 namespace tidemark::cli {
 
-/// Checks the text of a value: returns what to give instead, or an empty string where the value is good.
+/// Checks the text of a value: returns what to give instead, or an empty string if the value is valid.
 using ValueCheck = std::function<std::string(const std::string&)>;
 
 /// Accepts a number from `low` to `high`; `what` completes "give …".
@@ -41,10 +41,10 @@ ValueCheck number(std::string what, T low = std::numeric_limits<T>::lowest(),
 
 /// Accepts one of `words`.
 ValueCheck one_of(std::vector<std::string> words);
-/// Accepts the path of a folder, or of a file, that exists.
+/// Accept the path of an existing folder or an existing file.
 ValueCheck existing_folder();
 ValueCheck existing_file();
-/// Accept a number above 0, or from 0 on.
+/// Accept a number above 0, or of at least 0.
 ValueCheck positive_number();
 ValueCheck non_negative_number();
 
@@ -65,17 +65,18 @@ public:
     Option needs(const std::string& other) const;
     Option excludes(Option other) const;
     Option excludes(const std::string& other) const;
-    /// Sets the heading under which the help lists it.
+    /// Sets the heading under which the help lists the option.
     Option group(const std::string& heading) const;
     /// Splits a value into several at `separator`.
     Option delimiter(char separator) const;
-    /// Keeps all values where it is given several times; without this the last one counts.
+    /// Keeps all values of an option that is given several times; without this the last one counts.
     Option take_all() const;
-    /// Leaves the words after its value to others: CLI11 gives all of them to an option of a vector.
+    /// Takes one argument per occurrence and leaves the next ones to others: by default CLI11 gives all of
+    /// them to a vector option.
     Option one_word() const;
-    /// Both of these.
+    /// Combines take_all() and one_word().
     Option repeatable() const;
-    /// Calls `function` with each value, when the line is parsed.
+    /// Calls `function` with each value while the command line is parsed.
     Option each(std::function<void(std::string)> function) const;
 
     bool operator==(const Option&) const = default;
@@ -91,7 +92,7 @@ public:
 
     std::string name() const;
     Command add_subcommand(const std::string& name, const std::string& description) const;
-    /// The commands below this one.
+    /// Returns the direct sub-commands.
     std::vector<Command> subcommands() const;
 
     /// `names` as in `-o,--output`; a name without dashes is a positional argument. T is a type that
@@ -106,16 +107,16 @@ public:
                     const std::string& description) const;
 
     bool has_option(const std::string& name) const;
-    /// Asserts that there is one.
+    /// Returns the option `name`, which must exist (asserted).
     Option option(const std::string& name) const;
     std::vector<Option> options() const;
 
-    /// Calls `function` once the line is parsed, where this command is the one that was called.
+    /// Calls `function` after parsing if this command was called.
     void on_call(std::function<void()> function) const;
-    /// Asks for exactly one of the subcommands.
+    /// Requires exactly one of the sub-commands.
     void require_subcommand() const;
 
-    /// The words that were typed for this command, less the options named in `except`.
+    /// Returns the arguments that were given to this command, without the options named in `except`.
     std::vector<std::string> typed_words(std::span<const std::string_view> except) const;
 
     CLI::App& app() const { return *app_; }
@@ -124,10 +125,12 @@ private:
     CLI::App* app_;
 };
 
-/// Parses `words` by the options that `declare` adds. The error is CLI11's.
+/// Parses `words` with the options that `declare` adds. The error message is CLI11's, except for --help and
+/// --version.
 Result<void> parse_words(const std::function<void(Command)>& declare, std::vector<std::string> words);
 
-/// Ends the parsing, from a function of `on_call`: the argument `name` is required and was not given.
+/// Ends the parsing with the error that the required argument `name` is missing. Call it from a function of
+/// `on_call`.
 [[noreturn]] void fail_for_missing(const std::string& name);
 
 } // namespace tidemark::cli

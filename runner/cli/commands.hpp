@@ -1,5 +1,4 @@
-// The sub-commands. Each registers itself on the application and, when it was the one called, puts its
-// outcome into the exit code.
+// The sub-commands. Each registers itself on the application; the one that is called sets the exit code.
 #pragma once
 
 #include "base/result.hpp"
@@ -11,10 +10,11 @@
 
 namespace tidemark::cli {
 
-/// What a command that was called does once the whole line is known to be good; the value is the exit code.
+/// The work of the chosen command, run after the whole command line has been checked; the value is the exit
+/// code.
 using Action = std::function<Result<int>()>;
 
-/// Adds a sub-command to `app`. `chosen` is set when the line calls it.
+/// Adds a sub-command to `app`. `chosen` is set when the command line calls it.
 using AddCommand = void (*)(Command app, Action& chosen);
 
 void add_capture(Command app, Action& chosen);
@@ -30,7 +30,7 @@ void add_compare(Command app, Action& chosen);
 void add_study(Command app, Action& chosen);
 void add_completion(Command app, Action& chosen);
 void add_help(Command app, Action& chosen);
-/// What it takes, each once.
+/// Returns the topics that `tidemark help` accepts, each once.
 std::vector<std::string> help_topics();
 void add_tune(Command app, Action& chosen);
 void add_simplify(Command app, Action& chosen);
@@ -38,7 +38,7 @@ void add_trace(Command app, Action& chosen);
 void add_view(Command app, Action& chosen);
 void add_serve(Command app, Action& chosen);
 
-/// The whole program.
+/// Runs the whole program; returns the exit code.
 int run(int argc, const char* const* argv);
 
 } // namespace tidemark::cli

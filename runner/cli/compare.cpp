@@ -24,10 +24,10 @@ namespace {
 
 using image::PictureMetrics;
 
-/// One number of a comparison: how it is called, and the option that limits it.
+/// One metric of a comparison: its names and the option that limits it.
 struct Metric {
     const char* key;   ///< in JSON
-    const char* label; ///< for people
+    const char* label; ///< in text output
     const char* unit;
     const char* option;
     bool more_is_better;
@@ -59,7 +59,7 @@ struct CompareOptions {
     bool json = false;
 };
 
-/// A pair of pictures of the same frame.
+/// Two pictures of the same frame.
 struct Pair {
     std::optional<int> frame;
     std::filesystem::path reference;
@@ -68,7 +68,8 @@ struct Pair {
     std::string label() const { return frame ? fmt::format("frame {}: ", *frame) : ""; }
 };
 
-/// Every frame of either sequence must be in the other. Two single files are a pair whatever their names.
+/// Pairs the pictures by frame. Every frame of either sequence must be in the other; two single files are a
+/// pair whatever their names.
 Result<std::vector<Pair>> pairs_of(const CompareOptions& options) {
     const auto reference = find_sequence(options.reference), test = find_sequence(options.test);
     for (const auto* side : {&reference, &test})
@@ -112,8 +113,8 @@ Result<void> check(const CompareOptions& options) {
     return {};
 }
 
-/// The limits that a comparison is beyond, in words. A NaN is beyond every limit, and so is a pair of
-/// pictures of which one has a NaN or an infinity where the other has not the same.
+/// Returns a message for each limit that a comparison exceeds. A NaN exceeds every limit, and so does a pair
+/// in which one picture has a NaN or an infinity and the other has a different value there.
 std::vector<std::string> failures(const CompareOptions& options, const Pair& pair,
                                   const PictureMetrics& metrics) {
     const bool no_number = std::isnan(metrics.samples.rmse);
@@ -152,7 +153,7 @@ std::string text_of(const Pair& pair, const PictureMetrics& metrics, const std::
     return line + '\n';
 }
 
-/// JSON has no infinity and no NaN: null, and `equal` and `non_finite` say which.
+/// JSON has no infinity and no NaN: they become null, and `equal` and `non_finite` distinguish the cases.
 Json json_of(const Pair& pair, const PictureMetrics& metrics, const std::string& note) {
     Json json;
     if (pair.frame)
@@ -170,7 +171,7 @@ Json json_of(const Pair& pair, const PictureMetrics& metrics, const std::string&
     return json;
 }
 
-/// The picture of the difference, in the depth of its format.
+/// Writes the difference picture at the natural sample depth of its file format.
 Result<void> write_map(const CompareOptions& options, const OutputPath& output, const image::Image& reference,
                        const image::Image& test) {
     const image::SampleDepth depth = image::natural_depth(output.path());

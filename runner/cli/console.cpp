@@ -24,7 +24,7 @@ void say(std::string_view line) {
 }
 
 void say_to_programs(std::string_view line) {
-    const std::string text = printable(line) + '\n'; // one write: lines of threads do not mix
+    const std::string text = printable(line) + '\n'; // one write, so that lines of several threads do not mix
     (void)std::fwrite(text.data(), 1, text.size(), stderr);
 }
 

@@ -1,4 +1,4 @@
-// What people and scripts read: words for people on standard error, results on standard output.
+// Messages for users on standard error, results on standard output.
 #pragma once
 
 #include "base/result.hpp"
@@ -9,19 +9,20 @@
 
 namespace tidemark::cli {
 
-/// A line for people, with nothing in it that would steer their terminal (base/printable.hpp). A closed
-/// standard error is not an error.
+/// Writes a line to standard error, without characters that would control the terminal (base/printable.hpp).
+/// A closed standard error is not an error.
 void say(std::string_view line);
-/// The same, also behind `keep_words_back`.
+/// Writes like `say`, also after `keep_words_back`.
 void say_to_programs(std::string_view line);
-/// From here on standard error is for programs, and `say` is silent.
+/// Reserves standard error for output that programs read: `say` prints nothing from now on.
 void keep_words_back();
 
-/// Results, flushed. Fails (ErrorCode::write) when nobody can receive them. Text is made printable as in
-/// `say`: people read it, too, and in JSON the escape of a character is the character.
+/// Writes results to standard output and flushes them. Fails (ErrorCode::write) if they cannot be written.
+/// Text is made printable as in `say`, since it may go to a terminal; in JSON an escaped character is the
+/// same character.
 Result<void> put(std::string_view text);
 Result<void> put(std::span<const std::byte> bytes);
-/// Text that is to go through a pipe as it is; to a terminal it goes like all others.
+/// Writes text unchanged to a pipe or a file, and printable to a terminal.
 Result<void> put_exact(std::string_view text);
 
 } // namespace tidemark::cli

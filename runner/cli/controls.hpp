@@ -1,5 +1,5 @@
-// What people do to a scene, as its uniforms show it: mouse, keyboard, orbit camera and knobs, whether the
-// events come from a window or from a recording.
+// User input to a scene, converted to its uniforms: mouse, keyboard, orbit camera and knobs, from a window or
+// from a recording.
 #pragma once
 
 #include "platform/input.hpp"
@@ -11,18 +11,18 @@
 
 namespace tidemark::cli {
 
-/// The orbit camera goes back to where it stood at first.
+/// Resets the orbit camera to its initial position.
 struct CameraReset {
     bool operator==(const CameraReset&) const = default;
 };
 
-/// A knob is set to a value, as `--set` has it.
+/// Sets a knob to a value, as `--set` does.
 struct KnobTurned {
     scene::Setting setting;
     bool operator==(const KnobTurned&) const = default;
 };
 
-/// What a scene may learn of.
+/// Every event that a scene can react to.
 using ControlEvent =
     std::variant<platform::PointerMoved, platform::ButtonPressed, platform::ButtonReleased,
                  platform::WheelTurned, platform::KeyPressed, platform::KeyReleased, CameraReset, KnobTurned>;
@@ -31,18 +31,21 @@ class Controls {
 public:
     explicit Controls(const render::OrbitCamera& camera) : initial_camera_(camera), camera_(camera) {}
 
-    /// `height` in pixels of what is drawn. True when a uniform may have changed.
+    /// Applies an event; `height` is that of the drawn picture in pixels. Returns true if a uniform may have
+    /// changed.
     bool handle(const ControlEvent& event, double height);
 
-    /// Sets the mouse, the keys, the camera, and the knobs that were turned.
+    /// Sets the mouse, the keys, the camera, and the knobs that were changed.
     void fill(render::FrameState& state) const;
-    /// Mouse, camera and knobs are that state's from now on; no button is down.
+    /// Takes mouse, camera and knobs from `state`, with all buttons released.
     void adopt(const render::FrameState& state);
-    /// The picture has another size from now on: the mouse stays at its place of it.
+    /// Scales the mouse position to a new picture size, so that it stays at the same relative place.
     void stretch(Extent from, Extent to);
-    /// Knobs that stand where the scene has them are not held there: they follow its defaults.
+    /// Drops held values that equal the scene's defaults, so that those knobs follow later changes of the
+    /// defaults.
     void release(const std::vector<scene::Knob>& knobs);
-    /// To be called when a frame has been drawn: what was new in it is then no longer new.
+    /// Call it after each drawn frame: clears what is set for one frame only, for example a new click or key
+    /// press.
     void frame_drawn();
 
 private:
@@ -59,7 +62,7 @@ private:
     render::OrbitCamera camera_;
     render::Mouse mouse_;
     render::Keyboard keyboard_;
-    std::vector<scene::Setting> knobs_; ///< each once
+    std::vector<scene::Setting> knobs_; ///< held values, one per knob
     platform::PointerPosition pointer_{};
     double height_ = 1;
     bool turning_ = false;

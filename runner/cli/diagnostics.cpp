@@ -18,19 +18,20 @@ namespace {
 
 enum class Form { people, gcc, json, sarif };
 
-/// Standard error is one for the whole process, and so is the form of what goes there.
+/// The state of `say`: standard error and its form exist once per process.
 struct Sink {
-    std::mutex mutex; ///< a watchdog speaks from a thread of its own
+    std::mutex mutex; ///< the watchdog reports from its own thread
     Form form = Form::people;
-    std::string scene{};          ///< what the command line names
-    std::vector<Finding> waiting; ///< for the end of the run
+    std::string scene{};          ///< as on the command line
+    std::vector<Finding> waiting; ///< SARIF findings, until the end of the run
 };
 Sink& sink() {
     static Sink the_one;
     return the_one;
 }
 
-/// GNU's form with all of its parts, so that one pattern reads every line: of a whole file, line 1.
+/// Formats a diagnostic in GNU's format with all parts, so that one pattern matches every line; a diagnostic
+/// about a whole file gets line 1, column 1.
 std::string to_gcc(const Diagnostic& diagnostic) {
     Diagnostic whole = diagnostic;
     SourceLocation& where = whole.where;

@@ -1,5 +1,5 @@
-// --diagnostics: in which form what is wrong with a scene goes to standard error. One choice for the whole
-// run, made when the command line is read; every command reports through `say` and need not know it.
+// --diagnostics: the form in which problems of a scene go to standard error. The form is chosen once per run,
+// when the command line is read; commands report through `say` and do not depend on it.
 #pragma once
 
 #include "cli/command_line.hpp"
@@ -12,17 +12,19 @@ namespace tidemark::cli {
 /// Adds --diagnostics to every sub-command that compiles a scene.
 void add_diagnostics_option(Command app);
 
-/// What is wrong with the scene and has no place of its own, as a file that cannot be read, is said of that.
+/// Sets the file to which findings about the scene without a place of their own are assigned, for example
+/// that it cannot be read.
 void place_diagnostics(std::string scene);
 
-/// Whether findings are asked for in a form that programs read: then they are not in the results, too.
+/// Returns true if findings go to standard error in a form for programs; they are then left out of the
+/// results.
 bool findings_are_diagnostics();
 
 void say(const Error& error);
 void say(const Finding& finding);
 
-/// Writes what waits for the end of the run: the SARIF log. `even_empty`: one that says that nothing was
-/// found, too. To be called once in a process, before it ends.
+/// Writes the SARIF log, which waits for the end of the run. `even_empty`: write it even if nothing was
+/// found. Call it once per process, before it ends.
 void finish_diagnostics(bool even_empty);
 
 } // namespace tidemark::cli

@@ -1,4 +1,5 @@
-// Errors as JSON: a process of run_forked sends its parent one JSON object a line, and an error is one, too.
+// Errors as JSON: a process started with run_forked sends its parent one JSON object a line, and an error is
+// one of them.
 #pragma once
 
 #include "base/error.hpp"
@@ -10,7 +11,7 @@
 namespace tidemark::cli {
 
 Json to_json(const Error& error);
-/// Nothing when `line` is no error.
+/// Returns nothing if `line` is not an error.
 std::optional<Error> error_of(const Json& line);
 
 } // namespace tidemark::cli

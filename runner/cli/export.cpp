@@ -23,14 +23,14 @@ namespace {
 struct ExportOptions {
     SceneRequest scene;
     std::string output = "-";
-    std::string html{}; ///< where a page goes; empty: ShaderToy's JSON is asked for
+    std::string html{}; ///< output file of a page; empty: write ShaderToy's JSON
     bool embed = false;
     bool json = false;
 
     const std::string& target() const { return html.empty() ? output : html; }
 };
 
-/// The folder whose scene.json is meant; empty when the scene has none.
+/// Returns the folder that holds the scene's scene.json; empty if the scene has none.
 fs::path project_folder(const fs::path& scene) {
     std::error_code ignored;
     if (fs::exists(scene / scene::k_project_file, ignored))
@@ -39,14 +39,14 @@ fs::path project_folder(const fs::path& scene) {
     return scene.filename() == scene::k_project_file ? folder : fs::path();
 }
 
-/// A page, or the part of one. `read`: becomes the files it is made of.
+/// Returns a page, or a page's fragment. Sets `read` to the files it is made of.
 Result<std::string> page_of(const ExportOptions& options, std::vector<fs::path>& read) {
     const auto scene = TRY(load(options.scene));
     read = files_read(scene);
     return web::make_page(scene, options.embed ? web::PageForm::fragment : web::PageForm::whole);
 }
 
-/// ShaderToy's JSON; `read` likewise.
+/// Returns ShaderToy's JSON. Sets `read` to the files it is made of.
 Result<std::string> project_of(const ExportOptions& options, std::vector<fs::path>& read) {
     const SceneRequest& request = options.scene;
     if (const fs::path folder = project_folder(request.path); !folder.empty()) {

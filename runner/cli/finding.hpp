@@ -1,4 +1,4 @@
-// One diagnostic as other programs take it: with what found it, and with the end of the word it is about.
+// A diagnostic for other programs, with the rule that found it and the end of the token that it is about.
 #pragma once
 
 #include "base/error.hpp"
@@ -8,10 +8,10 @@
 
 namespace tidemark::cli {
 
-/// What finds things: loading a scene, a probe.
+/// The check that finds a diagnostic: loading a scene, or a probe.
 struct Rule {
     std::string id;
-    std::string about{}; ///< a sentence
+    std::string about{}; ///< one sentence
 
     bool operator==(const Rule&) const = default;
 };
@@ -19,17 +19,18 @@ struct Rule {
 struct Finding {
     Diagnostic diagnostic;
     Rule rule;
-    int end_column = 0; ///< one past the last, in bytes; 0: not known
-    std::string line{}; ///< as its author has it; empty where that is not known
+    int end_column = 0; ///< one past the last column, in bytes; 0: unknown
+    std::string line{}; ///< the source line; empty if unknown
 };
 
-/// Of a scene that is read and compiled.
+/// Returns the rule for reading and compiling a scene.
 Rule scene_rule();
 
-/// Reads the file that it is about for the end.
+/// Adds the rule, and reads the diagnostic's file to find the line and the end of the token.
 Finding finding_of(Diagnostic diagnostic, Rule rule = scene_rule());
 
-/// The diagnostics of an error, in its order; of one that has none its message, which has no place.
+/// Returns the diagnostics of an error in its order; if it has none, one finding with its message and no
+/// place.
 std::vector<Finding> findings_of(const Error& error);
 
 } // namespace tidemark::cli

@@ -18,7 +18,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// 64 bits: among 1e8 frames that differ, two are alike with a probability of 3e-4.
+/// 64 bits: the probability that two of 1e8 different frames get the same hash is 3e-4.
 constexpr size_t k_digits = 16;
 
 constexpr std::string_view k_device = "device";
@@ -31,12 +31,12 @@ std::string hash_of(const Json& json) {
     return hash_of(dump(json));
 }
 
-/// Of a larger file, a film, the beginning is hashed, with its size and when it changed: a capture does not
-/// wait for all of it.
+/// For a larger file, for example a film, only the beginning is hashed, with the size and the modification
+/// time: a capture does not wait for all of it.
 constexpr uintmax_t k_hashed_whole = uintmax_t{64} << 20;
 constexpr size_t k_beginning = size_t{1} << 20;
 
-/// Null where nothing can be read, as there is none of a silent signal.
+/// Returns null if the file cannot be read; a silent signal has none.
 Json facts_of_file(const std::filesystem::path& path) {
     std::error_code error;
     if (!why_unreadable(path).empty())
@@ -51,8 +51,8 @@ Json facts_of_file(const std::filesystem::path& path) {
     return Json::array({hash_of(bytes), size, whole ? Json() : Json(changed)});
 }
 
-/// What an input says of itself, but for its files, which count by their bytes. A new member does not compile
-/// here.
+/// Returns the settings of an input without its files, which count by their bytes. The structured bindings
+/// fail to compile if a type gets a new member.
 Json facts_of(const scene::ChannelInput& input) {
     using namespace scene;
     const Json facts =
@@ -71,7 +71,7 @@ Json facts_of(const scene::ChannelInput& input) {
                                   else if constexpr (std::is_integral_v<std::remove_cvref_t<decltype(only)>>)
                                       return Json(only);
                                   else
-                                      return Json(); // a file, or several
+                                      return Json(); // one or more files
                               }},
                    input);
     return Json::array({std::string(traits_of(input).name), facts});
@@ -90,7 +90,8 @@ Json text_facts(const scene::Scene& scene, const std::vector<std::string>& defin
     return facts;
 }
 
-/// What buffers hold is of all the frames before, and those see what was recorded for them.
+/// True if frames depend on recorded input through feedback: a buffer's content depends on all frames before,
+/// and those on their recorded input.
 bool has_history(const scene::Scene& scene, const FrameSequence& frames) {
     return frames.input && may_feed_back(scene);
 }
@@ -109,7 +110,7 @@ Json input_facts(const scene::Scene& scene, const FrameSequence& frames) {
     return facts;
 }
 
-/// How a person calls what is another.
+/// Returns the text that describes a difference in this part.
 std::string_view words_of(std::string_view part) {
     constexpr std::pair<std::string_view, std::string_view> k_words[] = {
         {"version", "another version of Tidemark"},

@@ -1,6 +1,6 @@
-// How a frame was drawn, in a few short hashes: the texts of the scene, the bytes of its inputs, its knobs,
-// the state of the frame, how it is drawn and by what. Two frames with one fingerprint are the same picture;
-// where two differ, the parts say in what.
+// How a frame was drawn, as a few short hashes: the texts of the scene, the bytes of its inputs, its knobs,
+// the frame's state, the drawing options and the driver. Two frames with the same fingerprint are the same
+// picture; where two differ, the parts say in which respect.
 #pragma once
 
 #include "cli/json_dump.hpp"
@@ -17,30 +17,31 @@ namespace tidemark::cli {
 
 class Fingerprint {
 public:
-    /// Of a scene's texts and inputs, and of what draws them. Reads the files that the scene reads.
+    /// Hashes a scene's texts and inputs and the driver. Reads the files that the scene reads.
     static Fingerprint of_scene(const scene::Scene& scene, const std::vector<std::string>& defines,
                                 const FrameSequence& frames, const gl::Capabilities& driver);
-    /// And of something else that pictures depend on.
+    /// Adds a hash of other facts that pictures depend on.
     void add(std::string part, const Json& facts);
-    /// That of a frame of the run.
+    /// Returns the fingerprint of one frame of the run.
     Fingerprint of_frame(const render::FrameState& state) const;
-    /// That of several, which are one file.
+    /// Returns the fingerprint of several frames that are one file.
     Fingerprint of_frames(std::span<const render::FrameState> states) const;
 
-    /// The parts of `of_scene` alone.
+    /// Returns only the parts that the static `of_scene` sets.
     Fingerprint of_scene() const;
 
-    /// As in a picture's metadata: `text=0123456789abcdef inputs=…`.
+    /// Returns the text used in a picture's metadata: `text=0123456789abcdef inputs=…`.
     std::string text() const;
     static Fingerprint parse(std::string_view text);
 
-    /// The names of the parts that are others, for people: "another text, other knobs"; empty: none is.
+    /// Returns a description of the parts that differ, for example "another text of the scene, other knobs";
+    /// empty if none does.
     std::string differences(const Fingerprint& other) const;
 
-    /// The same, with the device of that one.
+    /// Returns a copy with the device hash of `other`.
     Fingerprint on_device_of(const Fingerprint& other) const;
 
-    /// The hash of the device alone; empty where there is none.
+    /// Returns the hash of the device; empty if there is none.
     std::string device() const;
 
     bool operator==(const Fingerprint&) const = default;

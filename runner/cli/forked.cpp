@@ -31,12 +31,12 @@ void write_line(int fd, std::string_view line) {
     for (size_t written = 0; written < text.size();) {
         const ssize_t count = ::write(fd, text.data() + written, text.size() - written);
         if (count < 0 && errno != EINTR)
-            return; // the parent is gone
+            return; // the parent has ended
         written += count > 0 ? size_t(count) : 0;
     }
 }
 
-/// One line, without its end; nothing where the parent went without asking.
+/// Returns one line without its end; nothing if the parent ended without a question.
 std::optional<std::string> read_line(int fd) {
     std::string line;
     for (char c = 0;;) {
@@ -51,21 +51,22 @@ std::optional<std::string> read_line(int fd) {
     }
 }
 
-/// Nothing that is thrown leaves it: behind it lie the parent's stack and the parent's files.
+/// Runs in the child. `noexcept`, because an exception would unwind into the parent's stack and its open
+/// files.
 [[noreturn]] void be_child(pid_t parent, int questions, int answers,
                            const ForkedHelper::Work& work) noexcept {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL); // Ctrl-C at the parent ends us too
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL); // Ctrl-C in the parent ends the child too
     if (::getppid() != parent)
         ::_exit(128 + SIGKILL);
     if (const auto question = read_line(questions))
         work(*question, [answers](std::string_view line) { write_line(answers, line); });
-    ::_exit(0); // no destructors of a driver that may hang in them
+    ::_exit(0); // skips destructors of a driver, which may hang
 }
 
-/// Between two looks at what a child takes.
+/// The interval between two checks of a child's limits.
 constexpr long k_look_ms = 50;
 
-/// Why a child that still runs is to be ended, noted in `result`.
+/// Returns true if a running child exceeds a limit; sets the reason in `result`.
 bool has_to_end(pid_t child, const ForkedLimits& limits, Clock::time_point deadline, ForkedResult& result) {
     result.timed_out = Clock::now() >= deadline;
     result.over_memory = limits.memory > 0 && memory_of(child) > limits.memory;
@@ -85,7 +86,8 @@ int status_of(pid_t child) {
     return status;
 }
 
-/// Drivers also call exit, when they have no other way to say that something is wrong.
+/// Describes how the child crashed; empty if it succeeded. Drivers also call exit() for errors that they
+/// cannot report otherwise.
 std::string crash_of(int status, const std::string& doing) {
     if (WIFSIGNALED(status))
         return crash_text(WTERMSIG(status), doing);
@@ -146,7 +148,7 @@ void ForkedHelper::begin(std::string_view question, const ForkedLimits& limits) 
     ::close(std::exchange(question_, -1));
 }
 
-/// The child waits meanwhile.
+/// Stops the child while `hear` runs.
 void ForkedHelper::hear_lines(const Tell& hear) {
     const std::string& output = asked_->result.output;
     size_t& heard = asked_->heard;
@@ -158,7 +160,7 @@ void ForkedHelper::hear_lines(const Tell& hear) {
     }
 }
 
-/// `ended`: of itself.
+/// `ended`: the child ended on its own.
 ForkedResult ForkedHelper::finish(bool ended) {
     ForkedResult result = std::move(asked_->result);
     ::close(std::exchange(answer_, -1));

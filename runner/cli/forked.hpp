@@ -1,5 +1,6 @@
-// Work in a process of its own, for what may crash or never end: a driver that compiles a hostile shader. To
-// be called before the program has an OpenGL context or threads, but that of an Interrupt.
+// Runs work in a child process, for work that may crash or never end, such as a driver that compiles a
+// hostile shader. Call it before the program has an OpenGL context or threads, apart from an Interrupt's
+// thread.
 #pragma once
 
 #include "base/result.hpp"
@@ -14,26 +15,26 @@
 namespace tidemark::cli {
 
 struct ForkedResult {
-    std::string output;       ///< all that the work told, whole lines only
-    bool timed_out = false;   ///< it was ended after `seconds`
-    bool over_memory = false; ///< or when it had taken more memory than it may
-    bool unwanted = false;    ///< or because nobody wanted it any more
-    std::string crash{};      ///< or how something in it, a driver, ended it; empty: it came to its end
-    std::string doing{};      ///< where it did not come to its end: what a driver was at, if one was
+    std::string output;       ///< all that the work sent, whole lines only
+    bool timed_out = false;   ///< ended after `seconds`
+    bool over_memory = false; ///< ended because it exceeded the memory limit
+    bool unwanted = false;    ///< ended because `unwanted` returned true
+    std::string crash{};      ///< how the process crashed, for example in a driver; empty: it ended normally
+    std::string doing{};  ///< the driver call in progress, if the process did not end normally; may be empty
 };
 
-/// Tells one line to the parent; what was told survives the end of the work.
+/// Sends one line to the parent; sent lines survive the end of the work.
 using Tell = std::function<void(std::string_view line)>;
 
-/// What ends the work before its own end. `unwanted` is asked some twenty times a second, where there is one.
+/// Limits that end the work early. `unwanted`, if set, is called about twenty times a second.
 struct ForkedLimits {
     double seconds = 0;
-    uint64_t memory = 0; ///< bytes; 0: none
+    uint64_t memory = 0; ///< bytes; 0: no limit
     std::function<bool()> unwanted{};
 };
 
-/// Runs `work` in a child and waits for it; `hear` is called with each line as it comes, and the work waits
-/// meanwhile.
+/// Runs `work` in a child process and waits for it. `hear` is called with each line as it arrives; the child
+/// is stopped during that call.
 Result<ForkedResult> run_forked(
     const std::function<void(const Tell&)>& work, const ForkedLimits& limits,
     const Tell& hear = [](std::string_view) {});
@@ -43,17 +44,17 @@ inline Result<ForkedResult> run_forked(
     return run_forked(work, ForkedLimits{.seconds = seconds}, hear);
 }
 
-/// A child made early, while it may be, that sleeps until its work is asked for.
+/// A child process that is forked early, while that is safe, and sleeps until `ask`.
 class ForkedHelper {
 public:
     using Work = std::function<void(const std::string& question, const Tell&)>;
     static Result<ForkedHelper> start(const Work& work);
     ForkedHelper(ForkedHelper&& other) noexcept;
     ForkedHelper& operator=(ForkedHelper&&) = delete;
-    /// Ends a child that was not asked.
+    /// Kills the child if it still runs, and waits for its end.
     ~ForkedHelper();
 
-    /// Once, with one line: gives the child its question and waits for it; `hear` as in run_forked.
+    /// Sends the child its one-line question and waits for the result; call it once. `hear` as in run_forked.
     Result<ForkedResult> ask(
         std::string_view question, const ForkedLimits& limits, const Tell& hear = [](std::string_view) {});
     Result<ForkedResult> ask(
@@ -61,9 +62,9 @@ public:
         return ask(question, ForkedLimits{.seconds = seconds}, hear);
     }
 
-    /// `ask` in steps, for who has other things to wait for: `begin` once, then `look` whenever there is
-    /// something to read from `descriptor`, or time has passed. It hears what was told, waits for it at most
-    /// so long, and gives the result once the work has ended.
+    /// `ask` in steps, for callers that wait for other things too: call `begin` once, then `look` whenever
+    /// `descriptor` is readable or time has passed. `look` waits at most `wait` for output, passes complete
+    /// lines to `hear`, and returns the result after the work has ended.
     void begin(std::string_view question, const ForkedLimits& limits);
     int descriptor() const { return answer_; }
     std::optional<ForkedResult> look(const Tell& hear, std::chrono::milliseconds wait);
@@ -73,7 +74,7 @@ private:
         ForkedLimits limits;
         std::chrono::steady_clock::time_point deadline;
         ForkedResult result{};
-        size_t heard = 0; ///< of its output
+        size_t heard = 0; ///< bytes of its output passed to `hear`
     };
 
     ForkedHelper() = default;
@@ -81,9 +82,9 @@ private:
     ForkedResult finish(bool ended);
 
     std::optional<Asked> asked_{};
-    int child_ = -1;    ///< -1: no more to be waited for
-    int question_ = -1; ///< to the child
-    int answer_ = -1;   ///< from it
+    int child_ = -1;    ///< -1: already reaped
+    int question_ = -1; ///< writes to the child
+    int answer_ = -1;   ///< reads from the child
 };
 
 } // namespace tidemark::cli

@@ -10,7 +10,8 @@ FrameWriter::FrameWriter(unsigned workers, unsigned waiting) : capacity_(waiting
     try {
         for (unsigned i = 0; i < workers; ++i)
             workers_.emplace_back([this] { work(); });
-    } catch (const std::system_error&) { // the system's limit: those that there are do it, or `push` itself
+    } catch (const std::system_error&) {
+        // At the system's thread limit, the threads started so far do the work, or else `push` itself.
     }
 }
 

@@ -1,5 +1,5 @@
-// Encodes frames on worker threads while the next ones are drawn. Frames wait in a queue of bounded length,
-// so that memory stays bounded too.
+// Encodes frames on worker threads while the next ones are drawn. The queue of waiting frames is bounded, and
+// so is the memory for it.
 #pragma once
 
 #include "base/result.hpp"
@@ -20,34 +20,34 @@ struct FrameFile {
     OutputPath output;
     image::Image image;
     image::PictureFormat format;
-    std::vector<image::PictureLayer> layers{}; ///< instead of the picture, where the file has several
+    std::vector<image::PictureLayer> layers{}; ///< written instead of `image`, for a file with several layers
 };
 
 class FrameWriter {
 public:
-    /// `waiting`: frames at most that no worker has in hand yet.
+    /// `waiting`: the largest number of frames that no worker has taken yet.
     FrameWriter(unsigned workers, unsigned waiting);
     explicit FrameWriter(unsigned workers) : FrameWriter(workers, workers + 1) {}
     ~FrameWriter();
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;
 
-    /// Hands a frame over; waits while the queue is full. False once a frame could not be written: the rest
-    /// need not be drawn.
+    /// Queues a frame; waits while the queue is full. Returns false once a frame could not be written: the
+    /// remaining ones need not be drawn.
     bool push(FrameFile frame);
 
-    /// Waits until all that was handed over is written; false once a frame could not be.
+    /// Waits until all queued frames are written; returns false once one could not be.
     bool drain();
 
-    /// Pictures that are on disk by now.
+    /// Returns the number of pictures written so far.
     size_t written();
 
-    /// Waits for all frames; the error of the earliest one that failed.
+    /// Waits for all frames; returns the error of the earliest frame that failed.
     Result<void> finish();
 
 private:
     void work();
-    /// Without the lock meanwhile.
+    /// Writes a frame with the lock released.
     void write(const FrameFile& frame, std::unique_lock<std::mutex>& lock);
 
     std::mutex mutex_;
@@ -55,7 +55,7 @@ private:
     std::deque<FrameFile> queue_;
     size_t capacity_;
     size_t written_ = 0;
-    size_t writing_ = 0; ///< frames that workers have in hand
+    size_t writing_ = 0; ///< frames that workers are writing
     bool closed_ = false;
     std::vector<std::pair<int, Error>> errors_;
     std::vector<std::thread> workers_;

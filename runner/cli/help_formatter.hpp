@@ -1,5 +1,5 @@
-// How the help and the manual pages spell an option's value, its default and what it goes with: the same by
-// every version of CLI11 (2.1 writes `NAME=DEFAULT`, 2.4 `NAME [DEFAULT]`).
+// Formats an option's value, its default and the options it needs or excludes for the help and the manual
+// pages, the same with every version of CLI11 (2.1 writes `NAME=DEFAULT`, 2.4 `NAME [DEFAULT]`).
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -23,7 +23,8 @@ namespace tidemark::cli {
 namespace fs = std::filesystem;
 namespace {
 
-/// What import wrote, as `sha256sum -c` takes it: whatever else lies in the folder is somebody's work.
+/// The list of files that import wrote, in the format of `sha256sum -c`: every other file in the folder
+/// belongs to the user.
 constexpr const char* k_receipt = ".tidemark-import";
 
 using Receipt = std::map<std::string, std::string>; ///< SHA-256 by file
@@ -49,7 +50,7 @@ Receipt read_receipt(const fs::path& folder) {
     while (!rest.empty()) {
         const std::string_view line = rest.substr(0, rest.find('\n'));
         rest.remove_prefix(std::min(rest.size(), line.size() + 1));
-        // A name, for what it tells of is removed when it is no more: never a path that leads elsewhere.
+        // Only plain names: listed files may be deleted later, so a path must not lead out of the folder.
         if (line.size() > k_hash_digits + 2 && line.find('/') == line.npos)
             receipt[std::string(line.substr(k_hash_digits + 2))] = std::string(line.substr(0, k_hash_digits));
     }
@@ -64,7 +65,8 @@ bool is_as_written(const fs::path& file, const Receipt& receipt) {
     return bytes && content_hash(*bytes) == written->second;
 }
 
-/// The folder may be written into.
+/// Checks that the folder may be written into: with `force`, or if import wrote all of its files and none has
+/// changed.
 Result<void> prepare_folder(const fs::path& folder, const Receipt& receipt, bool force) {
     std::error_code error;
     for (fs::directory_iterator entry(folder, error), end; !error && !force && entry != end;
@@ -100,7 +102,7 @@ Result<std::vector<std::string>> write_project(const FoundProject& project, cons
         names.push_back(file.name);
     }
     std::error_code ignored;
-    for (const auto& [name, hash] : old) // a pass that the project no longer has
+    for (const auto& [name, hash] : old) // a file of a pass that was removed from the project
         if (std::find(names.begin(), names.end(), name) == names.end() && is_as_written(folder / name, old))
             fs::remove(folder / name, ignored);
     TRY(write_file(output / k_receipt, receipt));

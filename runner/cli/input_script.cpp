@@ -23,7 +23,7 @@ constexpr std::pair<std::string_view, Button> k_buttons[] = {
 
 constexpr std::string_view k_blanks = " \t\r";
 
-/// Cuts the first word off.
+/// Removes the first token from `line` and returns it.
 std::string_view take_word(std::string_view& line) {
     line.remove_prefix(std::min(line.find_first_not_of(k_blanks), line.size()));
     const std::string_view word = line.substr(0, line.find_first_of(k_blanks));
@@ -61,7 +61,7 @@ bool take_key(std::string_view& line, platform::Key& key) {
     return true;
 }
 
-/// The rest of the line.
+/// Parses the rest of the line as NAME=VALUE.
 bool take_setting(std::string_view& line, scene::Setting& setting) {
     line.remove_prefix(std::min(line.find_first_not_of(k_blanks), line.size()));
     line = line.substr(0, line.find_last_not_of(k_blanks) + 1);
@@ -73,7 +73,7 @@ bool take_setting(std::string_view& line, scene::Setting& setting) {
     return true;
 }
 
-/// The kinds of events: how a line says one, and what to give when it does so wrongly.
+/// A kind of event: its name, its syntax for error messages, and its parser.
 struct Kind {
     std::string_view name;
     std::string_view form;
@@ -132,7 +132,7 @@ constexpr Kind k_kinds[] = {
 };
 
 tl::unexpected<Error> refuse(std::string message) {
-    return fail(ErrorCode::load, std::move(message)); // the place is the caller's to say
+    return fail(ErrorCode::load, std::move(message)); // the caller adds the place
 }
 
 Result<TimedEvent> parse_line(std::string_view line) {
@@ -159,7 +159,7 @@ std::string_view name_of(Button button) {
         ->first;
 }
 
-/// Writes an event as its line has it.
+/// Formats an event as in its line.
 struct Wording {
     std::string operator()(const platform::ButtonPressed& event) const {
         return fmt::format("press {} {} {}", name_of(event.button), event.at.x, event.at.y);

@@ -1,4 +1,4 @@
-// Mouse, keyboard and knob events by frame: read from a text, replayed frame by frame, recorded into a text.
+// Mouse, keyboard and knob events by frame: parsed from text, replayed frame by frame, and recorded to text.
 #pragma once
 
 #include "base/result.hpp"
@@ -13,7 +13,7 @@
 
 namespace tidemark::cli {
 
-/// Happens before `frame` is drawn.
+/// An event that happens before `frame` is drawn.
 struct TimedEvent {
     int frame = 0;
     ControlEvent event;
@@ -21,10 +21,11 @@ struct TimedEvent {
     bool operator==(const TimedEvent&) const = default;
 };
 
-/// In the order of their frames.
+/// Events in ascending order of frames.
 using InputScript = std::vector<TimedEvent>;
 
-/// One event a line; pixels from the bottom left, JavaScript's key codes; `#` begins a comment:
+/// Parses one event a line; positions in pixels from the bottom left, JavaScript's key codes; `#` begins a
+/// comment:
 ///
 ///     FRAME press left|middle|right X Y       FRAME move X Y       FRAME keydown CODE
 ///     FRAME release left|middle|right         FRAME wheel UP       FRAME keyup CODE
@@ -34,30 +35,31 @@ using InputScript = std::vector<TimedEvent>;
 Result<InputScript> parse_input_script(std::string_view text, const std::string& file);
 Result<InputScript> load_input_script(const std::filesystem::path& file);
 
-/// Whether a knob is turned in it.
+/// Returns true if the script sets a knob.
 bool turns_knobs(const InputScript& script);
 
-/// Fails (ErrorCode::usage) where the scene has no such knob, or one that does not take the value.
+/// Fails (ErrorCode::usage) if the scene lacks a knob of the script, or the knob does not accept the value.
 Result<void> check_knobs(const InputScript& script, std::vector<scene::Knob> knobs);
 
-/// The text that parses to that script.
+/// Returns the text that parses to this script.
 std::string to_string(const InputScript& script);
 
-/// The state as it was before a recording's events came to it.
+/// Returns the state with recorded input removed: mouse, keys and knobs are reset and the camera is the
+/// initial one.
 render::FrameState without_recorded(render::FrameState state);
 
-/// A script under way, which may still be written. The frames that are asked for may be any, in any order.
+/// Plays a script, which may still be recorded. Frames may be requested in any order.
 class Replay {
 public:
     Replay(InputScript script, const render::OrbitCamera& camera)
         : script_(std::move(script)), camera_(camera), controls_(camera) {}
 
-    /// Sets what the events up to the state's frame make of mouse, keyboard, camera and knobs.
+    /// Sets mouse, keyboard, camera and knobs as they are after all events up to the state's frame.
     void fill(render::FrameState& state);
 
-    /// Adds what happens before `frame`, after `go_back` to it.
+    /// Adds an event before `frame`, after `go_back(frame)`.
     void note(int frame, const ControlEvent& event);
-    /// Forgets what comes after `frame`, which is the next to be filled.
+    /// Removes the events after `frame`, which is the next one to be filled.
     void go_back(int frame);
     const InputScript& script() const { return script_; }
 
@@ -65,8 +67,8 @@ private:
     InputScript script_;
     render::OrbitCamera camera_;
     Controls controls_;
-    size_t next_ = 0; ///< event
-    int frame_ = 0;   ///< that the controls are ready for
+    size_t next_ = 0; ///< index of the next event
+    int frame_ = 0;   ///< the frame that the controls are ready for
 };
 
 } // namespace tidemark::cli

@@ -6,22 +6,22 @@ namespace tidemark::cli {
 
 Interrupt::Interrupt() {
     sigemptyset(&signals_);
-    for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) // SIGUSR1 wakes the listener for its end
+    for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) // SIGUSR1 wakes the listener so that it can end
         sigaddset(&signals_, signal);
     struct sigaction hang_up {};
     sigaction(SIGHUP, nullptr, &hang_up);
-    if (hang_up.sa_handler != SIG_IGN) // as under nohup
+    if (hang_up.sa_handler != SIG_IGN) // ignored for example under nohup
         sigaddset(&signals_, SIGHUP);
     pthread_sigmask(SIG_BLOCK, &signals_, &previous_mask_);
-    // Whoever forks after this finds no thread half started, which may hold a lock that the child then waits
-    // for.
+    // Wait until the listener runs: a fork while a thread is starting could copy a lock that is never
+    // released, and the child would wait for it.
     listener_ = std::thread([this] {
         started_.count_down();
         int signal = 0;
         while (sigwait(&signals_, &signal) == 0) {
             if (ending_)
                 return;
-            // A terminal that goes is told of by the kernel and by its shell: that is one request.
+            // When a terminal closes, the kernel and the shell both send SIGHUP: count that as one request.
             if (signal != SIGUSR1 && ((requested_.exchange(true) && signal != SIGHUP) || immediate_))
                 exit_at_once(k_exit_code);
             const std::lock_guard lock(mutex_);

@@ -1,5 +1,4 @@
-// Ctrl-C as a question one can ask: the first one asks to stop after the work in hand, the second one ends
-// the process.
+// Ctrl-C as a flag: the first request asks to stop after the current work, the second one ends the process.
 #pragma once
 
 #include <atomic>
@@ -11,8 +10,8 @@
 
 namespace tidemark::cli {
 
-/// Takes SIGINT, SIGTERM and SIGHUP over while it lives. Make it before any other thread, which inherit its
-/// mask.
+/// Handles SIGINT, SIGTERM and SIGHUP while it lives. Construct it before any other thread, so that the
+/// threads inherit its signal mask.
 class Interrupt {
 public:
     Interrupt();
@@ -22,8 +21,8 @@ public:
 
     bool requested() const { return requested_; }
 
-    /// While it lives the first request ends the process too: the driver is at work, and nothing that could
-    /// be finished is in hand.
+    /// While it lives, the first request ends the process too: the driver is busy, and nothing needs to be
+    /// finished.
     class Immediate {
     public:
         explicit Immediate(Interrupt& interrupt) : interrupt_(interrupt) { interrupt_.immediate_ = true; }
@@ -35,7 +34,7 @@ public:
         Interrupt& interrupt_;
     };
 
-    /// While it lives a request calls `wake`, on a thread of its own: for whoever waits for something else.
+    /// While it lives, a request calls `wake` on the listener thread, to end a wait for something else.
     class Waking {
     public:
         Waking(Interrupt& interrupt, std::function<void()> wake) : interrupt_(interrupt) {
@@ -49,7 +48,7 @@ public:
         Interrupt& interrupt_;
     };
 
-    static constexpr int k_exit_code = 130; ///< as shells report SIGINT
+    static constexpr int k_exit_code = 130; ///< the exit code that shells report for SIGINT
 
 private:
     void wake_by(std::function<void()> wake);
@@ -60,7 +59,7 @@ private:
     std::atomic<bool> immediate_ = false;
     std::atomic<bool> ending_ = false;
     std::mutex mutex_;
-    std::function<void()> wake_; ///< under the mutex
+    std::function<void()> wake_; ///< guarded by mutex_
     std::latch started_{1};
     std::thread listener_;
 };

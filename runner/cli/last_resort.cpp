@@ -16,7 +16,7 @@ namespace {
 
 constexpr int k_no_resources = 4;
 
-/// Without memory of its own: there may be none.
+/// Writes without allocating, as memory may have run out.
 void say_at_once(std::string_view line) {
     (void)!::write(STDERR_FILENO, line.data(), line.size());
 }

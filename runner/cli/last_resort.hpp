@@ -1,16 +1,18 @@
-// The end of a process that nobody foresaw: memory or threads that ran out, a library's exception that was
-// not caught where the library was called. One line on standard error and an exit code; no core.
+// Handles unexpected ends of the process: memory or threads that ran out, or a library's exception that was
+// not caught where the library was called. Prints one line on standard error and ends with an exit code,
+// without a core dump.
 #pragma once
 
 namespace tidemark::cli {
 
-/// The exit code of a defect of ours: EX_SOFTWARE of sysexits.h.
+/// The exit code of an internal error: EX_SOFTWARE of sysexits.h.
 inline constexpr int k_internal_error = 70;
 
-/// For what escapes on any thread.
+/// Installs the handler for exceptions that escape on any thread.
 void end_by_last_resort();
 
-/// In a handler of the main thread's exceptions: the line is said, the exit code returned.
+/// Prints the message for the current exception and returns the exit code. Call it in a catch block of the
+/// main thread.
 int last_resort();
 
 } // namespace tidemark::cli

@@ -16,7 +16,7 @@ void add_memory_option(Command command, LimitOptions& options) {
 
 void add_limit_options(Command app, LimitOptions& options) {
     for (Command command : app.subcommands()) {
-        if (!compiles_scenes(command) || command.has_option("--memory")) // view's
+        if (!compiles_scenes(command) || command.has_option("--memory")) // `view` adds its own
             continue;
         add_memory_option(command, options);
         if (!command.has_option("--timeout"))

@@ -1,4 +1,4 @@
-// The options that bound what a command may take, and what they come to.
+// The options that limit memory and time of a command, and the limits that result.
 #pragma once
 
 #include "base/result.hpp"
@@ -15,15 +15,15 @@ struct LimitOptions {
     std::optional<double> timeout;
 };
 
-/// Whether a sub-command has a driver compile or draw a scene.
+/// Returns true if a sub-command compiles or draws a scene.
 bool compiles_scenes(Command command);
 
 void add_memory_option(Command command, LimitOptions& options);
 
-/// --memory for every sub-command that has a driver draw and has none of its own; --timeout likewise.
+/// Adds --memory and --timeout to every sub-command that compiles scenes and does not have its own.
 void add_limit_options(Command app, LimitOptions& options);
 
-/// Without --memory: half of the machine's.
+/// Returns the limits; without --memory, half of the machine's memory.
 Result<Limits> resolve(const LimitOptions& options);
 
 } // namespace tidemark::cli

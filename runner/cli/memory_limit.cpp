@@ -17,7 +17,7 @@ namespace {
 
 constexpr uint64_t k_kibi = 1024;
 
-/// A file of the system's, which has no size before it is read; as much as is wanted of them.
+/// Reads up to 4096 bytes of a system file, whose size is not known before it is read.
 std::string system_file(const std::string& path) {
     std::array<char, 4096> text{};
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -28,7 +28,7 @@ std::string system_file(const std::string& path) {
     return {text.data(), size_t(std::max<ssize_t>(count, 0))};
 }
 
-/// A container's own limit, where it has one.
+/// Returns the container's memory limit in bytes; the largest value if there is none.
 uint64_t limit_of_container() {
     for (const char* file : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
         const std::string text = system_file(file);
@@ -110,7 +110,7 @@ std::vector<pid_t> descendants_of(pid_t process) {
 }
 
 uint64_t memory_of(pid_t process) {
-    // In pages: of the address space, in memory, of that shared with files.
+    // Pages: whole address space, resident, and resident pages shared with files.
     const std::string statm = system_file(fmt::format("/proc/{}/statm", process));
     unsigned long long all = 0, resident = 0, shared = 0;
     if (std::sscanf(statm.c_str(), "%llu %llu %llu", &all, &resident, &shared) != 3)

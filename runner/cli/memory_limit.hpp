@@ -1,5 +1,5 @@
-// How much memory a process may take: as it is typed, by default, and as much as a process and those that it
-// started have taken.
+// Memory of processes: parses and formats sizes, and measures the machine's memory and that of a process and
+// its descendants.
 #pragma once
 
 #include "base/result.hpp"
@@ -13,20 +13,20 @@
 
 namespace tidemark::cli {
 
-/// What this machine, or the container that it is, has for all its processes; 0: unknown.
+/// Returns the memory of the machine, or the container's limit if that is lower, in bytes; 0: unknown.
 uint64_t machine_memory();
 
-/// `512M`, `2G`, `1.5G`, `50%` of `machine`, or bytes; powers of 1024.
+/// Parses `512M`, `2G`, `1.5G`, `50%` (of `machine`), or bytes; units are powers of 1024.
 Result<uint64_t> parse_memory(std::string_view text, uint64_t machine);
 
-/// `512 MiB`, `11.7 GiB`.
+/// Formats a size, for example `512 MiB` or `11.7 GiB`.
 std::string memory_text(uint64_t bytes);
 
-/// The processes that `process` has started and that run, and those that they have started. Takes some tenths
-/// of a millisecond.
+/// Returns the running descendants of `process`. Takes some tenths of a millisecond.
 std::vector<pid_t> descendants_of(pid_t process);
 
-/// What a process has in memory and does not share with a file; takes some microseconds. 0: it is no more.
+/// Returns the resident memory of a process that is not shared with files, in bytes; 0 if it has ended. Takes
+/// some microseconds.
 uint64_t memory_of(pid_t process);
 
 } // namespace tidemark::cli

@@ -11,7 +11,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// No picture is larger.
+/// The largest width or height of a picture, in pixels.
 constexpr int k_largest_side = 1 << 20;
 
 template <class T>
@@ -36,7 +36,7 @@ bool is_date(const render::Date& date) {
            date.day <= 31 && date.seconds >= 0 && date.seconds <= k_day;
 }
 
-/// What options may say is checked where they are read: this is for what a stranger's file says.
+/// Checks values from a file of unknown origin; values from options are checked where they are parsed.
 bool is_sound(const render::FrameState& state) {
     const auto is_camera = [](const render::OrbitCamera& camera) {
         return render::parse_camera(to_string(camera)) == camera;
@@ -53,7 +53,7 @@ bool is_sound(const render::FrameState& state) {
 Moment moment_of(SceneRequest scene, const FrameSequence& sequence, render::FrameState state) {
     Moment moment{std::move(scene), sequence};
     moment.sequence.frames = {state.frame};
-    moment.sequence.input.reset(); // by its name
+    moment.sequence.input.reset(); // only its file name is kept
     moment.sequence.state = std::move(state);
     return moment;
 }
@@ -94,7 +94,7 @@ std::optional<Moment> moment_of(const Json& json) {
         moment.sequence.frames = {moment.frame()};
         const bool sound = is_sound(moment.sequence.state) && moment.sequence.lead_in_fps.value_or(1) > 0;
         return sound ? std::optional(std::move(moment)) : std::nullopt;
-    } catch (const Json::exception&) { // a stranger's
+    } catch (const Json::exception&) { // JSON of another form
         return std::nullopt;
     }
 }

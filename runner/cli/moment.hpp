@@ -1,5 +1,5 @@
-// A moment of a scene: all that a picture of it was drawn from, but for the files. In a picture's metadata,
-// in a list of kept views or on the command line, it is drawn again.
+// A moment of a scene: everything that a picture of it was drawn from, except the files. It is stored in a
+// picture's metadata or in a list of saved views, or given on the command line, and can be drawn again.
 #pragma once
 
 #include "cli/json_dump.hpp"
@@ -11,26 +11,27 @@ namespace tidemark::cli {
 
 struct Moment {
     SceneRequest scene;
-    FrameSequence sequence; ///< one frame, which is `sequence.state`; the recording by its name alone
+    FrameSequence sequence; ///< one frame, `sequence.state`; the recording only as its file name
 
     int frame() const { return sequence.state.frame; }
 };
 
-/// That of a frame of a sequence. `state` is all that the frame sees.
+/// Returns the moment of one frame of a sequence. `state` is all that the frame depends on.
 Moment moment_of(SceneRequest scene, const FrameSequence& sequence, render::FrameState state);
 
-/// --allow-outside is left out: it is not for a file to allow anything.
+/// Leaves --allow-outside out: a file must not grant permissions.
 Json to_json(const Moment& moment);
-/// Of what to_json made. Nothing where it is another's, or holds what no option could say.
+/// Reads what to_json wrote. Returns nothing if the JSON has another form, or holds values that no option
+/// accepts.
 std::optional<Moment> moment_of(const Json& json);
 
-/// `tidemark capture …`, as far as options can say what people did.
+/// Returns `tidemark capture …` with all state that options can express.
 std::string capture_command(const Moment& moment);
 
-/// Settings `NAME=VALUE`: those of `older` that `newer` does not name, then `newer`.
+/// Returns the settings `NAME=VALUE` of `older` that `newer` does not name, followed by `newer`.
 std::vector<std::string> merged(std::vector<std::string> older, const std::vector<std::string>& newer);
 
-/// Knobs that stand over what the scene has go where `sets` name them.
+/// Removes the knob values that `sets` names.
 void erase_named(const std::vector<std::string>& sets, std::vector<scene::Setting>& knobs);
 
 } // namespace tidemark::cli

@@ -1,4 +1,4 @@
-// What is said of a picture whose pixels are not all numbers, which neither a file nor a window shows.
+// Reports pixels that are NaN or infinite, which neither a picture file nor a window shows.
 #pragma once
 
 #include "cli/options.hpp"
@@ -9,15 +9,15 @@
 
 namespace tidemark::cli {
 
-/// How many pixels of the pass on show are not finite. `picture` is what was read back of it: Image's bytes
-/// are marked (RenderOptions::marks_non_finite), and its marks are taken away; another pass has an alpha of
-/// its own, so its floats are looked at.
+/// Counts the pixels of the shown pass that are not finite. `picture` is its read-back: for Image the bytes
+/// are marked (RenderOptions::marks_non_finite), and the marks are removed. Other passes use their alpha
+/// themselves, so their floats are read instead.
 size_t count_not_finite(const render::Renderer& renderer, image::Image& picture);
 
-/// `3 pixels of frame 7 are`, `1 pixel at 2.5 s is`: before ` not finite`.
+/// Returns `3 pixels of frame 7 are` or `1 pixel at 2.5 s is`, to be followed by ` not finite`.
 std::string pixels_are(size_t count, const std::string& when);
 
-/// The command that finds the line, in words; and as it is typed.
+/// Return the command that finds the line, as arguments and as shell text.
 std::vector<std::string> trace_words(const SceneRequest& scene, const FrameSequence& sequence,
                                      const render::FrameState& state);
 std::string trace_command(const SceneRequest& scene, const FrameSequence& sequence,

@@ -12,7 +12,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// Those of a pass that makes a picture.
+/// Returns the host uniforms of a pass that makes a picture.
 std::vector<std::string_view> host_uniforms() {
     std::vector<std::string_view> names;
     for (const scene::SiteUniform& uniform : scene::k_site_uniforms)
@@ -29,7 +29,7 @@ void add_list(std::vector<std::string>& left_out, std::string_view what,
         left_out.push_back(fmt::format("{}: {}", what, fmt::join(names, ", ")));
 }
 
-/// Collects over the passes that are drawn.
+/// Collects the facts of all drawn passes.
 class Collector {
 public:
     explicit Collector(const render::Renderer& renderer) : renderer_(renderer), scene_(renderer.scene()) {}
@@ -76,7 +76,7 @@ private:
         return names;
     }
 
-    /// Where there are several passes, only what the scene put there counts as left out.
+    /// With several passes, only channels that the scene assigned count as left out.
     std::vector<std::string> channels_not_read() const {
         std::vector<std::string> names;
         const bool several = scene_.passes.size() > 1;
@@ -104,7 +104,7 @@ private:
         return names;
     }
 
-    /// What stands where nobody named an input.
+    /// True if a drawn pass reads the noise texture, the input of channels that were not assigned.
     bool reads_noise() const {
         for (const PassFacts& pass : facts_.passes)
             for (const int i : pass.channels)

@@ -123,7 +123,8 @@ Result<void> keep(Result<T> parsed, auto& place) {
     return {};
 }
 
-/// A number of a frame, or a time, is of a run at the same pace from its start on: not of that of a window.
+/// Drops the window's clock: --frame, --frames and --time refer to a run with a constant time step from its
+/// start.
 void leave_window_time(FrameSequence& sequence) {
     render::FrameState& state = sequence.state;
     state.time.reset();

@@ -1,4 +1,4 @@
-// The options that mean the same wherever they stand: registered on a command, then turned into requests.
+// The options shared by several commands: adds them to a command and converts them to requests.
 #pragma once
 
 #include "cli/command_line.hpp"
@@ -12,15 +12,15 @@
 
 namespace tidemark::cli {
 
-/// SCENE, --set, --define, --channel, --media, --allow-outside.
+/// Adds SCENE, --set, --define, --channel, --media and --allow-outside.
 void add_scene_options(Command command, SceneRequest& request);
-/// The last two of these.
+/// Adds --media and --allow-outside.
 void add_file_options(Command command, SceneRequest& request);
 
-/// --precision, --double-hashes: of every command that draws.
+/// Adds --precision and --double-hashes, for every command that draws.
 void add_precision_options(Command command, SceneRequest& request);
 
-/// --device, --require-gpu: of every command that draws without a window.
+/// Adds --device and --require-gpu, for every command that draws without a window.
 void add_device_options(Command command, platform::DeviceChoice& device);
 
 /// The frame options as they were typed.
@@ -37,20 +37,21 @@ struct FrameOptions {
     std::string pass; ///< empty: Image
 };
 
-/// --size, --fps, --date, --camera, --pass, --input: what a window knows too.
+/// Adds --size, --fps, --date, --camera, --pass and --input, which a window has too.
 void add_picture_options(Command command, FrameOptions& options);
-/// --frame, --frames, --time, --mouse: what a window gets from the person in front of it.
+/// Adds --frame, --frames, --time and --mouse; in a window the user controls these directly.
 void add_time_options(Command command, FrameOptions& options);
 
-/// All files that a scene is drawn from: what an output must not replace.
+/// Returns all files that a scene is drawn from, which an output must not replace.
 std::vector<std::filesystem::path> files_read(const scene::Scene& scene, const FrameOptions& options = {});
 
-/// Where no --size is typed, that which the scene states.
+/// Sets the size that the scene states, if --size is not given.
 FrameOptions sized(FrameOptions options, const scene::Scene& scene);
-/// The same before the scene is loaded to be drawn. What is wrong with its files is for that load to say.
+/// The same, from the scene's files. Errors in them are ignored here; loading the scene reports them.
 FrameOptions sized(FrameOptions options, const SceneRequest& request);
 
-/// Checks them all. An error names the option and what to give. `base`: what they leave open.
+/// Checks all options and converts them; `base` supplies what they leave open. An error names the option and
+/// what to give.
 Result<FrameSequence> resolve(const FrameOptions& options, FrameSequence base = {});
 
 } // namespace tidemark::cli

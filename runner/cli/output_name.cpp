@@ -95,7 +95,8 @@ void OutputName::came_from_a_file() {
     chosen_from_ = std::min(chosen_from_, slash == std::string::npos ? 0 : slash + 1);
 }
 
-/// A link may stand where a person typed a name, in folders in front of it too, but not where we chose one.
+/// Follows a symbolic link in a name, or in its parent folders, that the user typed, but not in a part that
+/// the program chose.
 OutputPath OutputName::output_of(const std::string& name) const {
     if (chosen_from_ == std::string::npos)
         return OutputPath::typed(name).sparing(spared_);
@@ -124,7 +125,8 @@ std::string name_after_scene(const fs::path& scene, std::string_view ending) {
     std::string stem = named.stem().string();
     if (stem.size() + ending.size() > k_longest) {
         size_t length = k_longest - ending.size();
-        while (length > 0 && (static_cast<unsigned char>(stem[length]) & 0xc0u) == 0x80) // within a character
+        // Inside a UTF-8 character.
+        while (length > 0 && (static_cast<unsigned char>(stem[length]) & 0xc0u) == 0x80)
             --length;
         stem.resize(length);
     }

@@ -1,4 +1,4 @@
-// What a picture shows, for its file: the facts that make it again.
+// The metadata of a picture's file: the facts from which it can be drawn again.
 #pragma once
 
 #include "cli/moment.hpp"
@@ -10,13 +10,13 @@
 
 namespace tidemark::cli {
 
-/// Of how the picture was drawn (Fingerprint).
+/// Metadata key of the Fingerprint.
 inline constexpr const char* k_fingerprint = "Fingerprint";
-/// Of the moment that it shows (Moment), as JSON.
+/// Metadata key of the Moment, as JSON.
 inline constexpr const char* k_moment = "Moment";
 
-/// Names and values of a picture's metadata (image::PictureFormat): the scene with its knobs, the frame with
-/// its mouse and camera as the options have them, the program, and all that `--like` needs.
+/// Returns the names and values of a picture's metadata (image::PictureFormat): the scene with its knobs, the
+/// frame with its mouse and camera in the options' format, the program, and the moment that `--like` reads.
 std::vector<std::pair<std::string, std::string>> metadata_of(const scene::Scene& scene, const Moment& moment);
 
 } // namespace tidemark::cli

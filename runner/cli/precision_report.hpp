@@ -1,4 +1,4 @@
-// What a report says of the precision that a scene was drawn in.
+// The part of a report about the precision in which a scene was drawn.
 #pragma once
 
 #include "render/renderer.hpp"
@@ -9,13 +9,14 @@
 
 namespace tidemark::cli {
 
-/// "single" or "double", as --precision has it.
+/// Returns "single" or "double", the values of --precision.
 std::string name_of(glsl::Precision precision);
 
-/// `precision`, and of a promoted scene `float_hashes`: pass, function, file, line and kind of each.
+/// Adds `precision`, and for double precision `float_hashes`: pass, function, file, line and kind of each
+/// hash that stays in floats.
 void add_precision(nlohmann::ordered_json& report, const render::Renderer& renderer);
 
-/// The same for people; nothing in single precision.
+/// Returns the same as text; empty in single precision.
 std::string precision_lines(const render::Renderer& renderer);
 
 } // namespace tidemark::cli

@@ -20,12 +20,12 @@ double seconds_between(Clock::time_point from, Clock::time_point to) {
 
 const std::string k_clear_line = "\r\x1b[K";
 
-/// Without a line end, so that the next one takes its place.
+/// Prints without a line end, so that the next line can overwrite it.
 void show(const std::string& text) {
     (void)std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-/// A person reads about ten lines a second at most.
+/// Redrawing more often than about ten times a second is not readable.
 constexpr double k_redraw_seconds = 0.1;
 
 } // namespace
@@ -62,8 +62,8 @@ void Progress::advance() {
     }
 }
 
-/// The first one pays for what happens once (the driver compiles at the first draw): it is left out of the
-/// rate as soon as there is a second.
+/// The first piece includes one-time work (the driver compiles at the first draw), so the rate excludes it as
+/// soon as there is a second.
 std::string Progress::line() const {
     const Clock::time_point now = Clock::now();
     if (manner_.limit)

@@ -1,5 +1,5 @@
-// How far a long command is, for a person watching: one line that rewrites itself on a terminal, a line for
-// each tenth otherwise, once it has taken as long as people notice. Writes to standard error.
+// Progress of a long command on standard error: one line that is overwritten on a terminal, otherwise a line
+// for each tenth. Nothing is shown in the first seconds.
 #pragma once
 
 #include <chrono>
@@ -11,13 +11,13 @@ namespace tidemark::cli {
 class Progress {
 public:
     struct Manner {
-        double silent = 2;   ///< seconds at first
-        double between = 10; ///< seconds between two lines at most, where tenths take longer
-        /// Of pieces that take as long as they take no rate is made: all that is known is when it ends at the
-        /// latest, in seconds from its start.
+        double silent = 2;   ///< seconds before the first line
+        double between = 10; ///< seconds after which a line is due even within a tenth
+        /// Set where pieces take unpredictable time: no rate is computed, only the time left until the latest
+        /// end is shown. Seconds from the start.
         std::optional<double> limit{};
     };
-    /// `what` is counted, as in "frames".
+    /// `what` is the unit that is counted, for example "frames".
     Progress(std::string what, size_t total, Manner manner);
     Progress(std::string what, size_t total) : Progress(std::move(what), total, Manner()) {}
     ~Progress();
@@ -25,7 +25,7 @@ public:
     Progress& operator=(const Progress&) = delete;
 
     void advance();
-    /// Makes room on a terminal for a line of somebody else.
+    /// Clears the line on a terminal, so that other output can be printed.
     void step_aside();
 
 private:
@@ -35,7 +35,7 @@ private:
     size_t total_;
     Manner manner_;
     size_t done_ = 0;
-    bool on_terminal_ = false; ///< a line stands there
+    bool on_terminal_ = false; ///< a line is shown
     bool terminal_;
     std::chrono::steady_clock::time_point start_;
     std::chrono::steady_clock::time_point shown_;

@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view k_advice =
     ": give --via a file that holds the project, or a program that prints the one of the ID behind its words";
 
-/// Something to read: no directory, and no program.
+/// Returns true for a file to read, not a folder or a program.
 bool is_document(const fs::path& path) {
     std::error_code ignored;
     if (!fs::exists(path, ignored) || fs::is_directory(path, ignored))
@@ -28,15 +28,16 @@ bool is_document(const fs::path& path) {
     return ending == ".json" || ending == ".html" || ending == ".htm" || ::access(path.c_str(), X_OK) != 0;
 }
 
-/// One word where that is the path of a file, however many blanks it has. A name without a folder is looked
-/// for in PATH alone, as shells do: what lies in the current folder may be a stranger's.
+/// Splits a command into arguments; the path of an existing file is one argument even if it contains spaces.
+/// A name without a folder is searched in PATH only, as shells do: a file in the current folder may be
+/// untrusted.
 std::vector<std::string> words_of(const std::string& command) {
     std::error_code ignored;
     const bool is_path = command.find('/') != command.npos && fs::is_regular_file(command, ignored);
     return is_path ? std::vector{command} : split_words(command);
 }
 
-/// What the command prints for that ID.
+/// Runs the command with the ID and returns its output.
 Result<std::string> printed_by(const ProjectSource& source, const std::string& id) {
     std::vector<std::string> words = words_of(source.via);
     if (words.empty())

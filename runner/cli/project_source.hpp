@@ -1,5 +1,5 @@
-// Where `import` has a ShaderToy project from: a file, or what a person's own program fetches. Nothing here
-// asks a network.
+// The source of a ShaderToy project for `import`: a file, or the output of the user's own program. Makes no
+// network requests.
 #pragma once
 
 #include "base/result.hpp"
@@ -11,16 +11,16 @@
 namespace tidemark::cli {
 
 struct ProjectSource {
-    std::string project;   ///< a file; with `via` a project's ID or address
-    std::string via;       ///< a file that holds it, or the words of a command that prints it
-    double timeout = 60.0; ///< seconds that the command may take
+    std::string project;   ///< a file; with `via` a project's ID or URL
+    std::string via;       ///< a file that holds it, or a command line that prints it
+    double timeout = 60.0; ///< timeout of the command in seconds
 };
 
 struct FoundProject {
     std::string json;
     std::string from;                        ///< for messages
-    std::filesystem::path name;              ///< what a folder of it is called
-    std::vector<std::filesystem::path> read; ///< not to be written over
+    std::filesystem::path name;              ///< default name of the output folder
+    std::vector<std::filesystem::path> read; ///< files that must not be overwritten
 };
 
 Result<FoundProject> find_project(const ProjectSource& source);

@@ -18,10 +18,10 @@
 namespace tidemark::cli {
 namespace {
 
-/// All ranges together.
+/// The limit for all ranges together.
 constexpr size_t k_most_frames = 10'000'000;
 
-/// Consumes a number from the front of `text`.
+/// Parses a number at the start of `text` and removes it.
 template <class T>
 bool take(std::string_view& text, T& number) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -40,13 +40,13 @@ bool take(std::string_view& text, char wanted) {
 
 constexpr std::string_view k_down = ",down";
 
-/// `x,y`.
+/// Parses `x,y`.
 bool take(std::string_view& text, glm::dvec2& place) {
     return take(text, place.x) && take(text, ',') && take(text, place.y) &&
            std::abs(place.x) <= k_farthest_pixel && std::abs(place.y) <= k_farthest_pixel;
 }
 
-/// One of the ranges between commas: `7`, `1-10`, `1-10x3`.
+/// Parses one range: `7`, `1-10`, `1-10x3`.
 bool take_range(std::string_view& text, std::vector<int>& frames) {
     int first = 0;
     if (!take(text, first) || first < 0 || first > render::k_last_frame)
@@ -66,7 +66,7 @@ bool take_range(std::string_view& text, std::vector<int>& frames) {
     return true;
 }
 
-/// A value as its option takes it.
+/// Formats a value as its option accepts it.
 struct Typed {
     std::string operator()(double number) const { return fmt::format("{}", number); }
     std::string operator()(const std::optional<double>& number) const { return fmt::format("{}", *number); }
@@ -87,7 +87,7 @@ struct Typed {
     std::string operator()(const std::string& text) const { return text; }
 };
 
-/// Whether a state's words are wrong, or another state's, without the field.
+/// Returns true if the options would describe another state without this field.
 template <class T>
 bool must_be_said(const render::FrameState& state, const render::FrameField<T>& field) {
     if (field.option == "--frame")
@@ -139,7 +139,7 @@ std::vector<std::string> option_words(const render::FrameState& state) {
 
 std::vector<std::string> option_words(const SceneRequest& scene, const std::string& recording,
                                       render::FrameState state) {
-    std::vector<std::string> words = option_words(scene); // first: what was turned since counts
+    std::vector<std::string> words = option_words(scene); // first, so that later values override these
     if (!recording.empty()) {
         state = without_recorded(std::move(state));
         words.insert(words.end(), {"--input", recording});

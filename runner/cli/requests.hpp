@@ -1,5 +1,4 @@
-// What the command line asks for, as values that every command shares: a scene with its overrides, and the
-// frames to make of it.
+// Requests from the command line, shared by all commands: a scene with its overrides, and the frames to draw.
 #pragma once
 
 #include "base/extent.hpp"
@@ -18,7 +17,7 @@
 
 namespace tidemark::cli {
 
-/// A scene and what the options change in it. The texts are checked when the scene is loaded.
+/// A scene and the changes that options make to it. The texts are checked when the scene is loaded.
 struct SceneRequest {
     std::filesystem::path path{};
     std::vector<std::string> sets{};     ///< --set NAME=VALUE
@@ -27,72 +26,72 @@ struct SceneRequest {
     scene::LoadOptions files{};          ///< --media, --allow-outside
     std::optional<bool> doubles{};       ///< --precision double, or single; none: single
     bool double_hashes = false;          ///< --double-hashes
-    bool knobs_may_go = false;           ///< --set and --define of what is not there: a warning, no error
-    std::vector<Diagnostic> said{};      ///< warnings that were printed before, by a load of the same scene
+    bool knobs_may_go = false;  ///< a --set or --define of an unknown name is a warning, not an error
+    std::vector<Diagnostic> said{};      ///< warnings already printed by an earlier load of the same scene
 };
 
 glsl::Precision precision_of(const SceneRequest& request);
 
-/// The words that ask for what the options change in the scene, as they are typed.
+/// Returns the options that change the scene, as command-line arguments.
 std::vector<std::string> option_words(const SceneRequest& request);
 
-/// The file's name as the word of a command: one that begins with a dash is no option.
+/// Returns the file's name as a command-line argument; a leading dash is escaped with "./".
 std::string file_word(const std::filesystem::path& file);
 
-/// What is said of a scene in a file of its own: `waves.check.json` beside `waves.glsl`, `check.json` in a
-/// folder. It need not exist.
+/// Returns the path of a file that belongs to a scene: `waves.check.json` next to `waves.glsl`, or
+/// `check.json` in a scene folder. It need not exist.
 std::filesystem::path file_beside(const std::filesystem::path& scene, const std::string& name);
 
-/// The scene with its overrides. Prints its warnings.
+/// Loads the scene with its overrides. Prints its warnings.
 Result<scene::Scene> load(const SceneRequest& request);
 
-/// The two halves of `load`: the scene as its files have it, and what the options change in it.
+/// The two steps of `load`: the scene as its files define it, and the changes made by options.
 Result<scene::Scene> load_as_written(const SceneRequest& request);
 Result<void> apply_options(const SceneRequest& request, scene::Scene& scene);
 
-/// Which frames, and what they see.
+/// The frames to draw and their state.
 struct FrameSequence {
-    render::FrameState state{}; ///< of all of them, but for their number and time
+    render::FrameState state{}; ///< the state of every frame, except its number and time
     std::vector<int> frames{0};
-    std::optional<InputScript> input{}; ///< instead of a person, or of a mouse and a camera that stand still
-    std::string input_file{};           ///< that it was read from
-    /// Of a moment in a window, whose clock no other frame follows: the frames that lead to `state.frame` are
-    /// so many a second. None: they are as far from it in time as in number.
+    std::optional<InputScript> input{}; ///< recorded input, instead of a fixed mouse and camera
+    std::string input_file{};           ///< the file that `input` was read from
+    /// For a moment saved in a window, whose clock was irregular: the frame rate of the frames that lead to
+    /// `state.frame`. Nothing: the sequence has a constant time step.
     std::optional<double> lead_in_fps{};
 };
 
-/// The scene, which must have the knobs that the sequence's recording turns (ErrorCode::usage).
+/// Loads the scene. Fails (ErrorCode::usage) if it lacks a knob that the sequence's recording sets.
 Result<scene::Scene> load(const SceneRequest& request, const FrameSequence& sequence);
 
-/// What each frame of the sequence's run sees. Depends on nothing but its number, so that a frame asked for
+/// Returns the state of each frame of the sequence. It depends only on the frame's number, so a frame drawn
 /// alone equals the same frame of a sequence.
 render::FrameStates states_of(const FrameSequence& sequence);
 
-/// The words that bring a state back, as they are typed behind the scene.
+/// Returns the options that recreate a state, as command-line arguments after the scene.
 std::vector<std::string> option_words(const render::FrameState& state);
 
-/// Those that bring back a frame of a scene, as far as options can say what people did. Where a recording
-/// (empty: none) moves the mouse, it does so there, too.
+/// Returns the options that recreate a frame of a scene, as far as options can express its state. With a
+/// `recording` (empty: none), input comes from that file.
 std::vector<std::string> option_words(const SceneRequest& scene, const std::string& recording,
                                       render::FrameState state);
 
-/// Every whole number up to here is a float.
+/// Every integer up to this limit is exact in a float.
 inline constexpr double k_farthest_pixel = 1 << 24;
 
-/// `640x360`.
+/// Parses a size, for example `640x360`.
 Result<Extent> parse_size(std::string_view text);
 
-/// OpenImageIO's frame ranges: `7`, `1-10`, `1-10x3`, `10-1`, several with commas; inclusive; from 0.
+/// Parses OpenImageIO's frame ranges: `7`, `1-10`, `1-10x3`, `10-1`, several with commas; inclusive; from 0.
 Result<std::vector<int>> parse_frames(std::string_view text);
 
-/// `x,y` or `x,y,down`: after a click at that pixel, or in the very frame of the press;
-/// `x,y,from_x,from_y` or `x,y,from_x,from_y,down`: after a drag to that pixel, or before its end.
+/// Parses `x,y` (after a click at that pixel) or `x,y,down` (in the frame of the press); `x,y,from_x,from_y`
+/// (after a drag to that pixel) or `x,y,from_x,from_y,down` (before the drag's end).
 Result<render::Mouse> parse_mouse(std::string_view text);
 
-/// --pixel: `x,y` from the bottom left, within a picture of that size.
+/// Parses --pixel: `x,y` from the bottom left, inside a picture of size `extent`.
 Result<glm::ivec2> parse_pixel(std::string_view text, Extent extent);
 
-/// As --camera takes it.
+/// Formats a camera as --camera accepts it.
 std::string to_string(const render::OrbitCamera& camera);
 
 } // namespace tidemark::cli

@@ -13,10 +13,10 @@
 namespace tidemark::cli {
 namespace {
 
-/// A pass within a JSON project is called `waves.json:Image`.
+/// The name of a pass in a JSON project is `waves.json:Image`.
 constexpr std::string_view k_project = ".json:";
 
-/// The text of a pass within a project has lines of its own, none of the file's: there is no region.
+/// Lines of a pass's text in a project are not lines of the file, so the region is omitted.
 Json location_in_project(const SourceLocation& where, size_t project_end) {
     return {{"physicalLocation",
              {{"artifactLocation", {{"uri", uri_reference(where.file.substr(0, project_end))}}}}},
@@ -25,7 +25,7 @@ Json location_in_project(const SourceLocation& where, size_t project_end) {
                            {"fullyQualifiedName", fmt::format("{}:{}", where.file, where.line)}}})}};
 }
 
-/// In UTF-16 units, of a column in bytes.
+/// Converts a column from bytes to UTF-16 units.
 size_t column_of(const Finding& finding, int column) {
     return finding.line.empty() ? size_t(column)
                                 : 1 + text::utf16_length(finding.line.substr(0, size_t(column) - 1));

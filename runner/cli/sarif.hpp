@@ -1,4 +1,4 @@
-// Findings as a SARIF 2.1.0 log, which code scanning and editors read.
+// Formats findings as a SARIF 2.1.0 log, which code scanning and editors read.
 #pragma once
 
 #include "cli/finding.hpp"
@@ -8,7 +8,7 @@
 
 namespace tidemark::cli {
 
-/// One run of this program. Names of files become URIs, relative where the file's name is.
+/// Returns a log with one run of this program. File names become URIs, relative if the name is.
 Json sarif_log(std::span<const Finding> findings);
 
 } // namespace tidemark::cli

@@ -16,12 +16,13 @@ std::vector<double> components_of(const scene::Knob& knob, const scene::KnobValu
     return {value.begin(), value.begin() + scene::info(knob.type).components};
 }
 
-/// Somebody chose what it reads. Noise that nobody asked for is only there in case a program reads it.
+/// Returns true if the input was assigned. Otherwise it is the default noise, which is present in case a
+/// program reads it.
 bool is_chosen(const scene::Channel& channel) {
     return !channel.where.file.empty() || !traits_of(channel.input).default_input;
 }
 
-/// Blanks and breaks come down to one; what is long is cut.
+/// Replaces each run of white space by one space, and truncates after 60 bytes.
 std::string in_short(std::string_view text) {
     constexpr size_t k_longest = 60;
     std::string line;

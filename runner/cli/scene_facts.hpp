@@ -1,5 +1,5 @@
-// What the files of a scene say, for people and for programs. No driver is asked: whether a program reads a
-// channel, and whether a pass is drawn, is its business.
+// Describes a scene from its files alone, as text and as JSON. No driver is used, so it does not say which
+// channels a program reads or which passes are drawn.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -10,22 +10,23 @@
 
 namespace tidemark::cli {
 
-/// What a channel reads, in a word or by its file.
+/// Returns the name of a channel's input: a pass, a file, or the input's type.
 std::string describe(const scene::Scene& scene, const scene::Channel& channel);
 
-/// Whether a frame may depend on the one before it: the driver, which knows, is not asked.
+/// Returns true if a frame may depend on the one before, judged by the files alone: the scene has a buffer or
+/// a cubemap pass.
 bool may_feed_back(const scene::Scene& scene);
 
 nlohmann::ordered_json files_of(const scene::Scene& scene);
 nlohmann::ordered_json knobs_of(const scene::Scene& scene);
-/// Each with its type, value and range.
+/// Lists each knob with its type, value and range.
 std::string knob_lines(const scene::Scene& scene);
 
-/// What --define and --vary can take.
+/// Return the names that --define and --vary accept, with their values.
 nlohmann::ordered_json definitions_of(const scene::Scene& scene);
 std::string definition_lines(const scene::Scene& scene);
 
-/// Files, passes with the channels that somebody chose an input for, knobs, definitions.
+/// Return files, passes with the channels that have an assigned input, knobs and definitions.
 nlohmann::ordered_json what_files_say(const scene::Scene& scene);
 std::string lines_of_files(const scene::Scene& scene);
 

@@ -1,4 +1,4 @@
-// What every search for a better scene (`tune`, `simplify`) is asked on the command line.
+// The command-line options that `tune` and `simplify` share.
 #pragma once
 
 #include "base/result.hpp"
@@ -13,10 +13,11 @@ namespace tidemark::cli {
 
 struct SearchOptions {
     SceneRequest scene;
-    std::string most_error;  ///< each search reads it in its own way
-    std::string usual_views; ///< of each search its own
-    std::string early_views; ///< where each frame leads to the next, so that all before one are drawn for it
-    std::string views;       ///< empty: those
+    std::string most_error;  ///< parsed by each command in its own way
+    std::string usual_views; ///< default views of the command
+    /// Default views for a scene with feedback, which needs all earlier frames to be drawn.
+    std::string early_views;
+    std::string views;       ///< empty: the defaults above
     std::string size;
     double seconds = 60;
     std::string output; ///< folder of the report
@@ -25,10 +26,10 @@ struct SearchOptions {
     platform::DeviceChoice device{};
 };
 
-/// All but the scene and the goal, as the last options of a command.
+/// Adds all options except the scene and the goal, as the last options of a command.
 void add_search_options(Command command, SearchOptions& options);
 
-/// Views, size and seconds; the goal is left to the caller.
+/// Returns the request with views, size and seconds; the caller adds the goal.
 Result<lab::SearchRequest> search_request(const SearchOptions& options, const scene::Scene& scene);
 
 } // namespace tidemark::cli

@@ -1,4 +1,4 @@
-// Pictures that were made before: one file, or all files of a numbered sequence.
+// Finds existing pictures: one file, or all files of a numbered sequence.
 #pragma once
 
 #include "base/result.hpp"
@@ -12,14 +12,14 @@ namespace tidemark::cli {
 
 class OutputName;
 
-/// The number of the frame that has this file's name by `pattern`: one of the runs of digits in it.
+/// Returns the frame number in a file's name, if the name fits the pattern: one of its runs of digits.
 std::optional<int> frame_of(const std::filesystem::path& file, const OutputName& pattern);
 
 /// By frame number, ascending; a single file has the key nullopt.
 using Sequence = std::map<std::optional<int>, std::filesystem::path>;
 
-/// What `name` stands for: a file, or the files that are there of `wave.%04d.png` or `wave.####.png`. Fails
-/// (ErrorCode::load) when there is none, and (ErrorCode::usage) on a form we do not write.
+/// Finds the files of `name`: one file, or all existing files of `wave.%04d.png` or `wave.####.png`. Fails
+/// (ErrorCode::load) if there is none, and (ErrorCode::usage) on an unknown pattern.
 Result<Sequence> find_sequence(std::string_view name);
 
 } // namespace tidemark::cli

@@ -46,7 +46,7 @@ Result<lab::SimplifyRequest> request_of(const SimplifyOptions& options, const sc
     return request;
 }
 
-/// A chosen cut and what the files would get by it.
+/// A chosen cut and the change of the files that it makes.
 struct OfferedCut {
     lab::ChosenCut cut;
     std::string difference;
@@ -54,10 +54,10 @@ struct OfferedCut {
 
 struct Offer {
     std::vector<OfferedCut> cuts{};
-    std::vector<ChangedFile> files{}; ///< with all of them
+    std::vector<ChangedFile> files{}; ///< changed by all cuts together
 };
 
-/// `before` of the first and `after` of the last change of each file.
+/// Merges changes of one file: `before` of the first and `after` of the last.
 void add(std::vector<ChangedFile>& files, const ChangedFile& change) {
     const auto known = std::ranges::find(files, change.file, &ChangedFile::file);
     if (known == files.end())

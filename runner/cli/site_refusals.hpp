@@ -1,4 +1,4 @@
-// What a compiler for GLSL ES 3.00 says of a scene's texts as ShaderToy's site would compile them.
+// Errors of a GLSL ES 3.00 compiler in a scene's texts as ShaderToy's site would compile them.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -7,8 +7,9 @@
 
 namespace tidemark::cli {
 
-/// Adds to what was `found` by reading (glsl/portability.hpp). One place is reported once: of Common, that
-/// stands in front of every pass, and of what was found before. A context must be current.
+/// Adds compile errors to those `found` by reading (glsl/portability.hpp). Each place is reported once,
+/// including places of Common, which precedes every pass, and places in `found` before. A context must be
+/// current.
 void add_site_refusals(const scene::Scene& scene, std::vector<Diagnostic>& found);
 
 } // namespace tidemark::cli

@@ -14,7 +14,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// The members of the fields' own types.
+/// Returns the members of the fields' own types.
 struct Parts {
     auto operator()(Extent& e) const { return std::tie(e.width, e.height); }
     auto operator()(glm::vec2& v) const { return std::tie(v.x, v.y); }
@@ -55,7 +55,8 @@ void decode(const Json& json, T& value) {
     if constexpr (HasParts<T>)
         std::apply([&, i = size_t(0)](auto&... part) mutable { (decode(json.at(i++), part), ...); },
                    Parts{}(value));
-    else if constexpr (std::is_arithmetic_v<T> && !std::same_as<T, bool>) // a stranger's may be any number
+    // An untrusted file may hold any number.
+    else if constexpr (std::is_arithmetic_v<T> && !std::same_as<T, bool>)
         value = T(std::clamp(json.get<double>(), double(Limits::lowest()), double(Limits::max())));
     else
         json.get_to(value);

@@ -1,4 +1,4 @@
-// A FrameState's way from one process to another, and into a file.
+// Converts a FrameState to JSON and back, for other processes and for files.
 #pragma once
 
 #include "cli/json_dump.hpp"
@@ -7,10 +7,10 @@
 namespace tidemark::cli {
 
 Json to_json(const render::FrameState& state);
-/// The same of what differs from `FrameState{}`.
+/// Returns only the fields that differ from `FrameState{}`.
 Json changes_of(const render::FrameState& state);
-/// Of what either made; what is not there is as in `FrameState{}`. Throws Json::exception where it is
-/// another's.
+/// Reads the output of `to_json` or `changes_of`; missing fields are as in `FrameState{}`. Throws
+/// Json::exception for JSON of another form.
 render::FrameState frame_state_of(const Json& json);
 
 } // namespace tidemark::cli

@@ -43,7 +43,7 @@ Result<lab::Study> parse(const fs::path& path, const Result<std::string>& text) 
     return lab::parse_study(*text, path.string());
 }
 
-/// The scene's own study, unless the command line says what to turn.
+/// Returns the scene's own study, without its series if the command line gives --vary.
 Result<lab::Study> base_study(const StudyOptions& options) {
     std::error_code ignored;
     if (!options.file.empty())
@@ -75,7 +75,7 @@ Result<std::vector<lab::View>> views_of(const std::string& text) {
     return std::move(study->views);
 }
 
-/// The study file with what the command line says put over it.
+/// Returns the study file with the command line's overrides.
 Result<lab::Study> plan_study(const StudyOptions& options) {
     auto study = base_study(options);
     if (!study)
@@ -111,7 +111,7 @@ Result<lab::Study> plan_study(const StudyOptions& options) {
     return study;
 }
 
-/// What the report must not replace. It may take its baseline's place.
+/// Returns the files that the report must not replace. It may replace its baseline.
 std::vector<fs::path> files_of_study(const StudyOptions& options, const scene::Scene& scene) {
     std::vector<fs::path> files = files_read(scene);
     files.push_back(options.file.empty() ? file_beside(options.scene.path, "study.json")
@@ -121,7 +121,7 @@ std::vector<fs::path> files_of_study(const StudyOptions& options, const scene::S
     return files;
 }
 
-/// Prints what became worse; the number of such findings.
+/// Prints what became worse; returns the number of such settings.
 Result<size_t> hold_against_baseline(const std::string& file, const std::string& text,
                                      const lab::WorkPrecisionSet& set) {
     const auto found = TRY(lab::compare_with(text, file, set));
@@ -138,7 +138,7 @@ Result<int> study(const StudyOptions& options) {
         return fail(ErrorCode::usage, "--budget: give a number of seconds above 0");
     Interrupt interrupt;
     const auto scene = TRY(load(options.scene));
-    // Read now: the report may take its place.
+    // Read before the report, which may replace it.
     const auto baseline =
         TRY(options.baseline.empty() ? Result<std::string>() : read_text_file(options.baseline));
     const OutputPath folder =

@@ -1,4 +1,5 @@
-// What every study on the command line needs: who watches it, and what is noted of the day.
+// Shared parts of every study on the command line: progress and cancellation, metadata, and the report
+// folder.
 #pragma once
 
 #include "base/output_path.hpp"
@@ -14,14 +15,14 @@
 
 namespace tidemark::cli {
 
-/// A line of progress for each part of the study, and an end to it where nobody wants it or the driver
-/// cannot. A context must be current.
+/// Prints progress for each part of the study, and cancels it on Ctrl-C or after a driver error. A context
+/// must be current.
 class StudyWatcher {
 public:
     explicit StudyWatcher(Interrupt& interrupt) : interrupt_(interrupt) {}
 
     lab::Watch watch();
-    /// Fails where the graphics driver was reset, or had no memory: nothing of what was measured counts then.
+    /// Fails if the graphics driver was reset or ran out of memory: the measurements are then invalid.
     Result<void> finish();
 
 private:
@@ -29,28 +30,27 @@ private:
 
     Interrupt& interrupt_;
     std::unique_ptr<Progress> progress_;
-    Result<void> driver_; ///< as it was when last asked: it tells of a reset once
+    Result<void> driver_; ///< first error of the driver, kept because the driver reports a reset only once
 };
 
-/// The program, the moment and the machine's cores.
+/// Returns the program's version, the time and the number of cores.
 lab::Circumstances circumstances_now();
 
-/// These, the scene and the driver; a context must be current.
+/// Returns these with the scene and the driver; a context must be current.
 lab::Circumstances circumstances_of(const scene::Scene& scene);
 
-/// The folder is made before anything is measured, so that an hour's work has a place to go. What is in it
-/// stays until the new report is whole.
+/// Makes the folder and checks that it is writable, before hours of measuring. Its content stays until the
+/// new report is complete.
 Result<void> prepare_report(const OutputPath& folder);
 
-/// The report goes into `folder`, but that an interrupted study does not take the place of a finished one and
-/// goes beside it, into FOLDER-interrupted. The folder that it went to; what could not be made (no gnuplot)
-/// is added to the remarks.
+/// Writes the report into `folder`, or into FOLDER-interrupted if an interrupted study would replace a
+/// complete one. Returns the folder used; parts that could not be made (no gnuplot) are added to the remarks.
 Result<std::filesystem::path> write_findings(const OutputPath& folder, lab::Findings& findings);
 
-/// Where its page is.
+/// Prints the path of the report's page.
 void say_report(const std::filesystem::path& folder);
 
-/// Sentences and remarks for people, and where the report is.
+/// Prints sentences, remarks, and the path of the report.
 void say_findings(const lab::WorkPrecisionSet& set, const std::filesystem::path& folder);
 
 } // namespace tidemark::cli

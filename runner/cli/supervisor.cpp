@@ -26,15 +26,16 @@
 namespace tidemark::cli {
 namespace {
 
-/// Of files that appear whole or not at all, however their process ends.
+/// For outputs whose files appear whole or not at all, however the process ends.
 constexpr const char* k_words_on_resuming =
     "; what is on disk is whole, and the same command with --resume goes on";
 
-/// So often memory is looked at: a process grows by some hundred MiB meanwhile at most.
+/// Seconds between two checks of memory: a process grows by some hundred MiB at most meanwhile.
 constexpr double k_look_seconds = 0.05;
-/// Which processes there are takes a hundred times as long to ask as what they take.
+/// Checks per refresh of the process list: listing processes takes a hundred times as long as reading their
+/// memory.
 constexpr unsigned k_looks_at_one_family = 20;
-/// A driver that has not started until now never does.
+/// A driver that needs longer to start hangs. In seconds.
 constexpr double k_longest_start = 60;
 
 constexpr int k_handed_on[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGCONT};
@@ -49,7 +50,7 @@ sigset_t signals_of_interest() {
     return set;
 }
 
-/// What somebody else started in its name: a program that encodes a video.
+/// Kills descendants whose parent has ended, for example a video encoder.
 void end_orphans() {
     for (const pid_t process : descendants_of(::getpid()))
         ::kill(process, SIGKILL);
@@ -57,7 +58,7 @@ void end_orphans() {
     }
 }
 
-/// Ends as the child did, so that whoever started us sees the same.
+/// Ends with the child's signal, so that our parent process sees the same status.
 [[noreturn]] void end_by(int signal) {
     std::signal(signal, SIG_DFL);
     sigset_t only;
@@ -112,18 +113,18 @@ public:
     }
 
 private:
-    /// The first request is the child's to follow, even where somebody has stopped it; the second one is not
-    /// left to it alone.
+    /// The first request is left to the child, which is continued if it was stopped; after a second one the
+    /// child is killed unless it ends within a second.
     void note_request(int signal) {
         constexpr std::chrono::seconds k_last_moment(1);
         if (signal != SIGINT && signal != SIGTERM && signal != SIGHUP && signal != SIGQUIT)
             return;
         ::kill(-child_, SIGCONT);
-        if (std::exchange(requested_, true) && signal != SIGHUP) // of a terminal that goes several tell
+        if (std::exchange(requested_, true) && signal != SIGHUP) // a closing terminal sends several SIGHUP
             give_up_at_ = give_up_at_.value_or(Clock::now() + k_last_moment);
     }
 
-    /// Also reaps what was started in the child's name and lost its parent.
+    /// Also reaps descendants that lost their parent.
     bool has_ended(int& status) const {
         for (int of_one = 0;;) {
             const pid_t process = ::waitpid(-1, &of_one, WNOHANG);
@@ -174,7 +175,8 @@ private:
                                                         limit, cut_short(what)));
     }
 
-    /// Where a capture was, unless `what` says it, and how it goes on.
+    /// Returns the frame that a capture was in or before, unless `what` already names the work before the
+    /// first frame, and how to resume.
     std::string cut_short(const std::string& what) const {
         const auto frame = page_ ? page_->frame() : std::nullopt;
         const bool named = frame && (frame->begun || what.empty());
@@ -200,7 +202,7 @@ private:
             return refuse(seen.starting ? ErrorCode::no_context : ErrorCode::load,
                           crash_text(signal, seen.what) +
                               (seen.starting ? "; --device names another" : cut_short(seen.what)));
-        if (page_ && page_->has_driver()) // whose threads work on when nothing is asked of it
+        if (page_ && page_->has_driver()) // its threads may crash between calls, too
             return refuse(ErrorCode::load, crash_text(signal, "") + ", or tidemark itself" + cut_short(""));
         say(fmt::format("tidemark: error: tidemark itself crashed ({}), which is a defect of its own",
                         name_of(signal)));
@@ -210,10 +212,10 @@ private:
     pid_t child_;
     Limits limits_;
     const DoingPage* page_;
-    bool requested_ = false; ///< to end
+    bool requested_ = false; ///< the child was asked to end
     std::optional<Clock::time_point> give_up_at_{};
     unsigned looks_ = 0;
-    std::vector<pid_t> family_; ///< what the child has started, as it was a while ago
+    std::vector<pid_t> family_; ///< descendants of the child at the last refresh
 };
 
 } // namespace
@@ -236,11 +238,11 @@ std::optional<int> supervise(const Limits& limits) {
     sigset_t before;
     const sigset_t signals = signals_of_interest();
     ::sigprocmask(SIG_BLOCK, &signals, &before);
-    std::signal(SIGCHLD, SIG_DFL); // where it is ignored nobody can wait for a child
+    std::signal(SIGCHLD, SIG_DFL); // if it is ignored, the parent cannot wait for its child
     const pid_t parent = ::getpid();
     const pid_t child = ::fork();
     if (child > 0) {
-        ::setpgid(child, child); // whoever of the two comes first
+        ::setpgid(child, child); // both set it, since either may run first
         ::prctl(PR_SET_CHILD_SUBREAPER, 1);
         return Supervisor(child, limits, page).run();
     }
@@ -249,7 +251,7 @@ std::optional<int> supervise(const Limits& limits) {
         if (::getppid() != parent)
             ::_exit(128 + SIGKILL);
         ::setpgid(0, 0);
-        std::signal(SIGTTOU, SIG_IGN); // it writes to the terminal as before
+        std::signal(SIGTTOU, SIG_IGN); // lets a background process group write to the terminal
         Doing::note_on(page);
     }
     ::sigprocmask(SIG_SETMASK, &before, nullptr);

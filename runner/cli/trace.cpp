@@ -33,7 +33,7 @@ bool read(std::string_view text, auto& number) {
     return end.ec == std::errc{} && end.ptr == text.data() + text.size();
 }
 
-/// `N` or `FILE:N`.
+/// Parses `N` or `FILE:N`.
 Result<std::optional<SourceLocation>> parse_line(const std::string& text) {
     if (text.empty())
         return std::nullopt;
@@ -47,7 +47,7 @@ Result<std::optional<SourceLocation>> parse_line(const std::string& text) {
     return where;
 }
 
-/// `N` or `A-B`.
+/// Parses `N` or `A-B`.
 Result<std::optional<lab::TurnRange>> parse_turns(const std::string& text) {
     if (text.empty())
         return std::nullopt;
@@ -70,7 +70,7 @@ Result<TraceReport> trace(const TraceCommand& command, const FrameSequence& fram
     drawing.extent = frames.state.extent;
     drawing.samples = image::SampleType::f32;
     drawing.pass = frames.state.pass;
-    drawing.specialise = glsl::Specialise::unreachable; // the same picture, as in capture
+    drawing.specialise = glsl::Specialise::unreachable; // does not change the picture; capture uses it too
     auto renderer = TRY(render::Renderer::create(scene, drawing));
     const render::FrameStates states = states_of(frames);
     const int frame = frames.frames.front();

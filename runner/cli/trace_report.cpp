@@ -18,14 +18,14 @@ using lab::TracedLine;
 using lab::TracedValue;
 
 constexpr const char* k_components = "xyzw";
-/// Of a summary.
+/// The most lines per section of a summary.
 constexpr size_t k_most_lines = 5;
-/// Of a line in functions that are called from many places; --json has all.
+/// The most calls shown for a line in a function that is called from many places; --json has all.
 constexpr size_t k_most_calls = 8;
-/// What is not worth a line.
+/// The least number of lost digits that is reported.
 constexpr double k_least_loss = 1;
 
-// -- Words
+// -- Values as text
 
 std::string place(const SourceLocation& where) {
     return fmt::format("{}:{}", where.file, where.line);
@@ -38,7 +38,7 @@ std::string turn_words(const lab::Turns& turns) {
     return turns.empty() ? "" : " in turn " + turn_number(turns);
 }
 
-/// Empty for a number.
+/// Returns NaN, +Inf or -Inf; empty for a finite number.
 std::string special_text(double number) {
     if (std::isnan(number))
         return "NaN";
@@ -96,7 +96,7 @@ std::string colour(const PixelTrace& trace) {
     return text;
 }
 
-// -- A line
+// -- Report of one line
 
 std::string mark(const TracedValue& value, double fewest) {
     if (!value.finite())
@@ -130,7 +130,7 @@ std::string callers(const LineInCall& call) {
     return text.empty() ? "" : text + "\n";
 }
 
-/// The fewest digits of a value, where that is worth saying.
+/// Returns the fewest digits of any real value, at most a threshold above which values are not marked.
 double fewest_of(const std::vector<LineInCall>& calls) {
     double fewest = ir::k_most_digits - k_least_loss;
     for (const LineInCall& call : calls)
@@ -142,7 +142,7 @@ double fewest_of(const std::vector<LineInCall>& calls) {
 
 std::string rows_of(const LineInCall& call, double fewest) {
     std::string text = callers(call);
-    std::map<std::string, uint64_t> numbers; // of the value before, by name
+    std::map<std::string, uint64_t> numbers; // number of the previous value, by name
     bool gap_said = false;
     for (const TracedValue& value : call.values) {
         uint64_t& before = numbers[value.name];
@@ -172,12 +172,12 @@ std::string line_text(const TraceReport& report) {
     return text;
 }
 
-// -- A summary
+// -- Summary
 
 using Weight = double (*)(const TracedLine&);
 using Sentence = std::string (*)(const TracedLine&);
 
-/// The lines that have a weight, the largest first.
+/// Lists lines with a positive weight, the largest first.
 std::string section(const std::string& title, const std::vector<TracedLine>& lines, Weight weight,
                     Sentence sentence) {
     std::vector<const TracedLine*> chosen;
@@ -201,7 +201,7 @@ std::string lost_words(const TracedLine& line) {
     return text;
 }
 
-/// " in turn 7, 3 times in all".
+/// Returns for example " in turn 7, 3 times in all".
 std::string occurrence_words(const lab::Occurrence& what) {
     return turn_words(what.first) + (what.times > 1 ? fmt::format(", {} times in all", what.times) : "");
 }
@@ -228,7 +228,7 @@ double mismatches_of(const TracedLine& line) {
 double instabilities_of(const TracedLine& line) {
     return double(line.unstable.times);
 }
-/// The first is the origin.
+/// Gives the earliest line the largest weight, since the NaN or infinity originates there.
 double earliness_of(const TracedLine& line) {
     return line.not_finite ? 1 / double(line.not_finite->order) : 0;
 }

@@ -1,4 +1,4 @@
-// What `tidemark trace` found, as people and as scripts read it.
+// Formats the result of `tidemark trace` as text and as JSON.
 #pragma once
 
 #include "base/extent.hpp"

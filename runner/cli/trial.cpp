@@ -24,30 +24,30 @@ namespace {
 
 using render::Renderer;
 
-/// A trial of a sequence may cost this part of what the sequence costs.
+/// The cost of a trial relative to the cost of the sequence, at most.
 constexpr double k_share_of_sequence = 1.0 / 20;
-/// Frames that such a trial draws, about, starting up aside.
+/// Approximate number of frames that such a trial draws, not counting the start.
 constexpr double k_frames_of_trial = 3;
-/// In a window, what gains less than the clock can tell is not worth a change.
+/// In a window, a gain of less than 3 % is within the clock's accuracy and not worth a change.
 constexpr double k_largest_share = 0.97;
-/// So long the window draws beside the two programs and is in the way of both.
+/// The longest timing in a window, whose own drawing slows both programs down meanwhile.
 constexpr double k_longest_timing_ms = 10'000;
 
-/// Where threads of this process draw, and it does nothing else, their CPU time is the measure: other
-/// processes do not stretch it.
+/// With a software renderer, outside a window, the process's CPU time is the measure: other processes do not
+/// affect it.
 using ElapsedClock = double lab::Elapsed::*;
 ElapsedClock clock_of(const TrialPlan& plan) {
     const bool in_software = is_software_renderer(gl::query_capabilities().renderer);
     return in_software && !plan.in_window ? &lab::Elapsed::cpu : &lab::Elapsed::wall;
 }
 
-/// Of all that was drawn.
+/// Waits for all drawing; returns the elapsed milliseconds.
 double milliseconds_on(const lab::Stopwatch& watch, ElapsedClock clock) {
     glFinish();
     return watch.elapsed().*clock;
 }
 
-/// From nothing drawn, or a frame that it has just drawn would be free.
+/// Times one frame from a reset state: a frame drawn just before would cost nothing to draw again.
 double milliseconds_of(Renderer& renderer, const render::FrameInputs& inputs, ElapsedClock clock) {
     renderer.reset();
     glFinish();
@@ -56,15 +56,16 @@ double milliseconds_of(Renderer& renderer, const render::FrameInputs& inputs, El
     return milliseconds_on(watch, clock);
 }
 
-/// Then leaves the device to others for as long: a software driver draws for one context at a time, and
-/// whoever comes back at once is served first.
+/// Times a frame, then leaves the device idle for as long: a software driver draws for one context at a time,
+/// and a context that returns at once is served first.
 double politely_timed(Renderer& renderer, const render::FrameInputs& inputs) {
     const double milliseconds = milliseconds_of(renderer, inputs, &lab::Elapsed::wall);
     std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(milliseconds));
     return milliseconds;
 }
 
-/// Of the two programs drawing in turns: what else keeps the machine busy does so for both of a pair.
+/// Returns the time of `renderer` relative to `other`, drawing alternately, so that other load affects both
+/// of a pair.
 std::optional<double> share_of(Renderer& renderer, Renderer& other, const TrialPlan& plan) {
     const lab::Stopwatch watch;
     const auto next_pair = [&]() -> std::optional<double> {
@@ -76,7 +77,8 @@ std::optional<double> share_of(Renderer& renderer, Renderer& other, const TrialP
     return clear_share(next_pair, k_largest_share);
 }
 
-/// 0: the same bytes; infinite where one is a number and the other is none.
+/// Returns the largest difference of a sample: 0 if all bytes are equal, infinity if only one of two is NaN
+/// or infinite.
 double difference_of(const image::Image& a, const image::Image& b) {
     if (a.bytes == b.bytes)
         return 0;
@@ -98,7 +100,7 @@ double difference_of(const image::Image& a, const image::Image& b) {
 
 using Pictures = std::vector<image::Image>;
 
-/// What all passes hold after a frame.
+/// Reads back all passes after a frame.
 Pictures pictures_of(const Renderer& renderer) {
     Pictures pictures;
     for (const render::PlannedPass& planned : renderer.plan().passes) {
@@ -118,7 +120,7 @@ double difference_of(const Pictures& a, const Pictures& b) {
     return largest;
 }
 
-/// Buffers at zero.
+/// Returns a trial in doubt, with zeroed buffers.
 Trial blank(Renderer renderer) {
     renderer.reset();
     return {.renderer = std::move(renderer), .in_doubt = true};

@@ -1,6 +1,6 @@
-// Which program draws a sequence: the one that was specialised in ways that a driver may round differently,
-// or the one that the driver surely rounds alike. Both are tried on frames of the sequence, and the bytes
-// decide. A window that moves is a sequence without an end.
+// Chooses the program that draws a sequence: one with optimisations that a driver may round differently, or
+// the plain one. Both draw frames of the sequence; the bytes and the time decide. A moving picture in a
+// window is a sequence without an end.
 #pragma once
 
 #include "base/result.hpp"
@@ -12,34 +12,36 @@
 
 namespace tidemark::cli {
 
-/// What is tried.
+/// The frames and limits of a trial.
 struct TrialPlan {
-    render::FrameInputs first{}; ///< of the frames that are looked at, drawn one after the other from zero
+    render::FrameInputs first{}; ///< first and last compared frame, each drawn with zeroed buffers
     render::FrameInputs last{};
-    size_t frames = 1; ///< of the sequence: a trial may cost a twentieth of it
-    /// The largest difference of a sample (0..1 in a picture) that is consented to, whatever the trial costs.
+    size_t frames = 1; ///< length of the sequence: a trial may cost a twentieth of it
+    /// The largest allowed difference of a sample (0..1 in a picture). If set, the trial may take any time.
     std::optional<double> allowed{};
-    /// Something else draws meanwhile: the last frame is timed until the gain is clear, else once.
+    /// Other work draws meanwhile: the last frame is timed until the gain is clear, instead of once.
     bool in_window = false;
 };
 
 struct Trial {
-    render::Renderer renderer; ///< its buffers are zero
-    std::string said{}; ///< for people: a difference that was allowed or that decided against it; else empty
-    /// What a frame takes of the plain program's time, where the other one was taken.
+    render::Renderer renderer; ///< buffers zeroed
+    /// Message about a difference that was allowed or that decided against it; may be empty.
+    std::string said{};
+    /// Time of a frame relative to the plain program, if the specialised program was chosen.
     std::optional<double> share{};
     bool in_doubt = false; ///< there were two programs, and another trial may decide otherwise
 };
 
-/// What a frame takes of another program's time: the median of pairs, as soon as all of its 95 % interval
-/// lies below `largest`. None where it lies above, or `next_pair` has no more before that is clear.
+/// Returns the time of a frame relative to another program: the median of pairs, as soon as its whole 95 %
+/// interval lies below `largest`. Returns nothing once the interval lies above it, or if `next_pair` ends
+/// before the result is clear.
 std::optional<double> clear_share(const std::function<std::optional<double>()>& next_pair, double largest);
 
-/// Whether specialising as far as `how` does anything to the scene that is not surely drawn alike: else there
-/// is no other program to try.
+/// Returns true if specialising with `how` changes the scene in a way that a driver may round differently;
+/// otherwise a trial is pointless.
 bool worth_trying(const render::Renderer& renderer, glsl::Specialise how);
 
-/// `options.specialise` says how far it may go.
+/// Chooses the program; `options.specialise` is the strongest optimisation allowed.
 Result<Trial> choose_program(const scene::Scene& scene, const render::RenderOptions& options,
                              const TrialPlan& plan);
 

@@ -33,7 +33,7 @@ struct TuneOptions : SearchOptions {
     bool as_it_is = false;
 };
 
-/// Of the scene as it is, where nothing is said: nobody sees it.
+/// The default error limit of --as-it-is, an invisible difference from the scene's current picture.
 constexpr const char* k_usual_likeness = "flip=0.01";
 
 Result<lab::Goal> goal_of(const TuneOptions& options) {
@@ -54,7 +54,8 @@ Result<lab::Goal> goal_of(const TuneOptions& options) {
     return goal;
 }
 
-/// Found in the text, but for those that are to be kept; a person's own values instead of ours.
+/// Returns the quality settings found in the scene's text, without those of --keep, with the values of --vary
+/// instead of ours.
 Result<std::vector<lab::QualitySetting>> settings_of(const TuneOptions& options, const scene::Scene& scene) {
     lab::QualitySettings settings = lab::quality_settings(scene, lab::march_places(scene));
     for (const std::string& text : options.vary) {
@@ -87,7 +88,7 @@ Result<lab::TuneRequest> request_of(const TuneOptions& options, const scene::Sce
     return request;
 }
 
-/// What would change in the files, and that it did with --write.
+/// Prints the change of the files, and writes it with --write. Returns the changed files.
 Result<std::vector<ChangedFile>> offer(const TuneOptions& options, const scene::Scene& scene,
                                        const lab::Tuned& tuned) {
     if (tuned.chosen.empty())

@@ -1,4 +1,4 @@
-// Pictures copied and shown as a whole, by the driver's own blit.
+// Copies of whole pictures by the driver's blit: into the window or into another target.
 #pragma once
 
 #include "gl/render_target.hpp"
@@ -7,15 +7,15 @@
 
 namespace tidemark::gl {
 
-/// Shows the target in the window's own framebuffer as large as its proportions allow, in its middle; black
-/// beside it.
+/// Draws the target into the default framebuffer, centred and as large as its proportions allow; the rest is
+/// black.
 void blit_fitted(const RenderTarget& target, Extent window);
 
-/// The target as a window shows it: in bytes. Nothing when there is no memory for it.
+/// Returns a copy of the target as RGBA8, which is what a window shows; nothing when there is no memory for
+/// it.
 std::optional<RenderTarget> copy_in_bytes(const RenderTarget& target);
 
-/// A target of a texture that another context has drawn, as it is: contexts share textures, and nothing that
-/// they are drawn by.
+/// Wraps a texture that was drawn in another context. Contexts share textures but not framebuffers.
 RenderTarget attach(Texture texture);
 
 } // namespace tidemark::gl

@@ -1,4 +1,4 @@
-// What the current context is and how much it can do.
+// Reads the names and limits of the current context.
 #pragma once
 
 #include <string>
@@ -11,15 +11,15 @@ struct Capabilities {
     std::string renderer;
     std::string version;
     int largest_target = 0;  ///< pixels on a side
-    std::string processor{}; ///< its maker, where it draws
+    std::string processor{}; ///< CPU vendor, for a software renderer; else empty
 
-    /// What rounds a picture: the renderer, and the processor behind one that is software.
+    /// Returns what determines rounding: the renderer and, for a software renderer, the CPU vendor.
     std::string device() const { return processor.empty() ? renderer : renderer + " on " + processor; }
 };
 
 Capabilities query_capabilities();
 
-/// The names of its extensions, which a shader finds defined as macros.
+/// Returns the names of the extensions, each of which a shader sees as a macro.
 std::vector<std::string> query_extensions();
 
 } // namespace tidemark::gl

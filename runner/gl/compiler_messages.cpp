@@ -19,7 +19,7 @@ void APIENTRY keep(GLenum source, GLenum, GLuint, GLenum, GLsizei length, const 
 
 CompilerMessages::CompilerMessages() {
     glEnable(GL_DEBUG_OUTPUT);
-    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS); // on this thread, and before the call that compiles returns
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS); // on this thread, before the compiling call returns
     glDebugMessageControl(GL_DEBUG_SOURCE_SHADER_COMPILER, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
     glDebugMessageCallback(keep, &messages_);
 }

@@ -1,6 +1,5 @@
-// What the driver's compiler says of its own accord, while this lives (GL_KHR_debug). Some drivers tell how
-// large a shader became; others say nothing, and a context that was not made for debugging may be silent,
-// too.
+// Collects the messages that the driver's compiler sends through GL_KHR_debug. Some drivers report the size
+// of a shader; others send nothing, and a context without the debug flag may send nothing either.
 #pragma once
 
 #include <string>
@@ -8,7 +7,8 @@
 
 namespace tidemark::gl {
 
-/// Of the context that is current when it is made, whose debug output it takes over; it stays where it is.
+/// Receives messages of the context that is current at construction, whose debug callback it replaces. Not
+/// movable.
 class CompilerMessages {
 public:
     CompilerMessages();
@@ -16,7 +16,7 @@ public:
     CompilerMessages(const CompilerMessages&) = delete;
     CompilerMessages& operator=(const CompilerMessages&) = delete;
 
-    /// Those since the last call.
+    /// Returns the messages since the last call.
     std::vector<std::string> take();
 
 private:

@@ -1,5 +1,5 @@
-// What the driver's own timer says of commands (GL_TIME_ELAPSED). It need not be true: who uses it holds it
-// against a clock that is (lab/study/timing.hpp).
+// Measures GPU time with the driver's timer (GL_TIME_ELAPSED). The timer may be wrong: users compare it with
+// a wall clock, as a study of the lab does.
 #pragma once
 
 #include "gl/handle.hpp"
@@ -8,13 +8,13 @@
 
 namespace tidemark::gl {
 
-/// Runs from its making to `stop`; one at a time in a context.
+/// Runs from construction to `stop`; a context can run one at a time.
 class ElapsedTime {
 public:
     ElapsedTime();
 
     void stop();
-    /// Waits for the commands between. Nothing: the driver has no such timer.
+    /// Waits for the measured commands. Returns nothing when the driver has no such timer.
     std::optional<double> milliseconds() const;
 
 private:

@@ -1,4 +1,4 @@
-// Whether the driver has done all that it was told up to a moment.
+// Tests whether the driver has finished all commands up to a point.
 #pragma once
 
 #include <GL/glcorearb.h>
@@ -9,10 +9,10 @@ namespace tidemark::gl {
 
 class Fence {
 public:
-    /// Behind the commands given so far, which the driver begins with at once.
+    /// Inserts a fence after the commands issued so far and flushes them.
     Fence();
 
-    /// For so long at most; whether they are done. With 0 it only looks.
+    /// Waits up to that many seconds; returns whether the commands are finished. 0 only tests.
     bool wait(double seconds) const;
 
 private:

@@ -1,5 +1,5 @@
-// Owners of OpenGL objects: move-only, 0 is empty, deleted with the last owner. A context must be current
-// wherever one is made or dropped.
+// Move-only owners of OpenGL objects; 0 is empty. The context must be current when an object is created or
+// destroyed.
 #pragma once
 
 #include <GL/glcorearb.h>
@@ -8,7 +8,7 @@
 
 namespace tidemark::gl {
 
-/// `Delete(id)` gives the object back to GL.
+/// `Delete(id)` deletes the GL object.
 template <void (*Delete)(GLuint)>
 class Handle {
 public:

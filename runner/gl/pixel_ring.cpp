@@ -12,7 +12,7 @@ size_t PixelRing::bytes() const {
     return sum;
 }
 
-/// Mapped for good: nothing is asked of the driver then but whether the copy is done.
+/// Maps the buffer persistently, so that taking a picture calls the driver for the fence only.
 bool PixelRing::make_room(Buffer& buffer, size_t bytes) const {
     if (buffer.mapped.size() == bytes)
         return true;

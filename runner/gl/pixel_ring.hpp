@@ -1,5 +1,5 @@
-// Pixels on their way back: the device copies each picture into a buffer of its own behind the drawing, and
-// goes on with the next one until it is taken. The oldest is taken first.
+// Asynchronous read-back: the GPU copies each picture into its own buffer and goes on with the next frame.
+// Pictures are taken in the order of the reads.
 #pragma once
 
 #include "gl/fence.hpp"
@@ -14,32 +14,33 @@ namespace tidemark::gl {
 
 class PixelRing {
 public:
-    /// How many pictures may be on their way; their memory is taken when they are first read.
+    /// `depth`: the largest number of pictures in flight. Each buffer is allocated at its first read.
     explicit PixelRing(size_t depth) : buffers_(depth) {}
 
     bool empty() const { return waiting_.empty(); }
     bool full() const { return waiting_.size() == buffers_.size(); }
-    /// Of all buffers so far.
+    /// Returns the bytes of all buffers allocated so far.
     size_t bytes() const;
 
-    /// Begins to copy the rectangle of that size in the target's bottom left corner: rows from the bottom,
-    /// tightly packed, `bytes` in all. The ring is not full. False where the driver has no memory for it.
+    /// Starts to copy the rectangle of that size in the target's bottom left corner: rows from the bottom,
+    /// tightly packed, `bytes` in all. The ring must not be full. Returns false when the driver has no memory
+    /// for it.
     bool read(const RenderTarget& target, Extent size, GLenum format, GLenum type, size_t bytes);
 
-    /// Whether the oldest is there already.
+    /// Returns whether the oldest picture has arrived.
     bool ready() const { return waiting_.front().wait(0); }
-    /// The oldest, once it is there: until the next `read`. The ring is not empty.
+    /// Waits for the oldest picture and returns it; valid until the next `read`. The ring must not be empty.
     std::span<const std::byte> take();
 
 private:
     struct Buffer {
         BufferHandle handle;
-        std::span<const std::byte> mapped{}; ///< as long as the buffer lives
+        std::span<const std::byte> mapped{}; ///< valid as long as the buffer exists
     };
     bool make_room(Buffer& buffer, size_t bytes) const;
 
     std::vector<Buffer> buffers_;
-    std::deque<Fence> waiting_; ///< of the buffers before `next_`
+    std::deque<Fence> waiting_; ///< one per buffer before `next_`, oldest first
     size_t next_ = 0;
 };
 

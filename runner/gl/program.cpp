@@ -47,7 +47,7 @@ Reflection reflect(GLuint program) {
         constexpr GLenum k_wanted[] = {GL_TYPE, GL_ARRAY_SIZE, GL_LOCATION};
         GLint values[3] = {};
         glGetProgramResourceiv(program, GL_UNIFORM, GLuint(i), 3, k_wanted, 3, nullptr, values);
-        if (values[2] < 0) // a member of a block
+        if (values[2] < 0) // a member of a uniform block
             continue;
         GLsizei length = 0;
         glGetProgramResourceName(program, GL_UNIFORM, GLuint(i), GLsizei(name.size()), &length, name.data());
@@ -95,7 +95,7 @@ std::optional<Program> Program::load(const ProgramBinary& binary) {
     Program program;
     program.handle_ = ProgramHandle(glCreateProgram());
     glProgramBinary(program.id(), binary.format, binary.bytes.data(), GLsizei(binary.bytes.size()));
-    while (glGetError() != GL_NO_ERROR) { // a form that the driver does not know
+    while (glGetError() != GL_NO_ERROR) { // an unknown format sets an error
     }
     GLint linked = GL_FALSE;
     glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);

@@ -1,5 +1,5 @@
-// A linked program and the uniforms the driver kept. Takes complete GLSL texts; reports the driver's log as
-// it is.
+// Links programs from complete GLSL texts and lists their active uniforms. Errors are the driver's log,
+// unchanged.
 #pragma once
 
 #include "gl/handle.hpp"
@@ -14,7 +14,7 @@
 
 namespace tidemark::gl {
 
-/// An active uniform of the default block. Arrays carry their bare name and their length.
+/// An active uniform of the default block. An array has its name without `[0]`, and its length.
 struct Uniform {
     std::string name;
     GLenum type = 0;
@@ -29,7 +29,7 @@ struct Reflection {
     bool has(std::string_view name) const { return find(name) != nullptr; }
 };
 
-/// A linked program as the driver writes it down for itself.
+/// A linked program in the driver's binary form.
 struct ProgramBinary {
     GLenum format = 0;
     std::string bytes;
@@ -40,9 +40,9 @@ public:
     /// Compiles and links; the error is the driver's log.
     static tl::expected<Program, std::string> link(std::string_view vertex, std::string_view fragment);
 
-    /// From the driver's own form; nothing when it is not the driver's, or not any more.
+    /// Loads a program binary; returns nothing when the driver rejects it.
     static std::optional<Program> load(const ProgramBinary& binary);
-    /// No bytes where the driver has no such form.
+    /// Returns the program binary; empty when the driver supports none.
     ProgramBinary binary() const;
 
     GLuint id() const { return handle_.id(); }
@@ -53,12 +53,12 @@ private:
     Reflection reflection_;
 };
 
-/// A scalar or a vector; no matrix, no sampler.
+/// Returns whether the type is a scalar or a vector: neither a matrix nor a sampler.
 bool is_number(GLenum type);
 
-/// Gives `uniform` its value whatever its numeric type is. `values` hold `width` numbers for each element (0:
-/// as many as its type has components; columns first); they are converted, surplus ones dropped, missing ones
-/// 0. Elements that `values` do not reach keep what they have. Samplers take their unit.
+/// Sets `uniform`, whatever its numeric type. `values` hold `width` numbers per element (0: as many as the
+/// type has components, column by column). They are converted; surplus numbers are dropped and missing ones
+/// are 0. Elements beyond `values` keep their value. A sampler takes its unit.
 void set_uniform(const Program& program, const Uniform& uniform, std::span<const double> values,
                  size_t width = 0);
 

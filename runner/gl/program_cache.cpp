@@ -10,7 +10,7 @@
 namespace tidemark::gl {
 namespace {
 
-/// Some thousand programs.
+/// Room for some thousand programs.
 constexpr uint64_t k_most_bytes = uint64_t{64} << 20;
 
 bool has_binaries() {
@@ -19,7 +19,7 @@ bool has_binaries() {
     return formats > 0;
 }
 
-/// All that decides what a driver makes of the texts.
+/// Hashes all that determines the binary: our version, the driver and the two texts.
 std::string key_of(std::string_view vertex, std::string_view fragment) {
     const Capabilities driver = query_capabilities();
     std::string all;
@@ -27,7 +27,7 @@ std::string key_of(std::string_view vertex, std::string_view fragment) {
          {std::string_view(TIDEMARK_VERSION), std::string_view(driver.vendor),
           std::string_view(driver.renderer), std::string_view(driver.version), vertex, fragment}) {
         all += part;
-        all += '\0'; // no part holds one
+        all += '\0'; // does not occur in a part
     }
     return sha256(std::as_bytes(std::span(all)));
 }

@@ -6,7 +6,7 @@
 namespace tidemark::gl {
 namespace {
 
-/// A context that is lost may say so without an end.
+/// A limit, because a lost context may report errors without end.
 constexpr int k_most_errors = 100;
 
 bool ran_out_of_memory() {

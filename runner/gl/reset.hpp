@@ -1,4 +1,4 @@
-// What the driver says of the work that it was given: whether it still has the context, and had the memory.
+// Detects context resets and exhausted memory after work was given to the driver.
 #pragma once
 
 #include "base/result.hpp"
@@ -9,15 +9,16 @@
 
 namespace tidemark::gl {
 
-/// Why the driver has reset the current context, as words; nothing while it lives. All that was in it is gone
-/// then, and what is read of it is no picture. A context that was not made to tell never does.
+/// Returns why the driver reset the current context, as text; nothing while the context works. After a reset
+/// all its objects are lost and read-back pixels are meaningless. A context without reset notification never
+/// reports one.
 std::optional<std::string_view> reset_reason();
 
-/// Whether the current context was made so that it tells.
+/// Returns whether the current context has reset notification.
 bool tells_resets();
 
-/// Fails with ErrorCode::timed_out where the context was reset, and with ErrorCode::no_memory where memory
-/// ran out since this was last asked. `what` completes "while …".
+/// Fails with ErrorCode::timed_out when the context was reset, and with ErrorCode::no_memory when memory ran
+/// out since the last call. `what` completes the phrase "while …".
 Result<void> check_work(std::string_view what);
 
 } // namespace tidemark::gl

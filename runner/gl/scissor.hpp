@@ -1,4 +1,4 @@
-// Nothing is drawn outside of a rectangle while this lives. One at a time in a context.
+// Restricts drawing to a rectangle while the object lives; one at a time per context.
 #pragma once
 
 #include "base/rectangle.hpp"

@@ -49,7 +49,7 @@ std::vector<float> read_level(const Texture& texture, int level) {
 }
 
 bool has_storage(const Texture& texture) {
-    GLint immutable = 0; // becomes so by glTextureStorage, when that succeeds
+    GLint immutable = 0; // set by a successful glTextureStorage
     glGetTextureParameteriv(texture.id(), GL_TEXTURE_IMMUTABLE_FORMAT, &immutable);
     return immutable != 0;
 }

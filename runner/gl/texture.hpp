@@ -1,4 +1,4 @@
-// Textures of two and three dimensions, cubes, and samplers.
+// Creates, fills and reads 2-D, 3-D and cube textures, and creates samplers.
 #pragma once
 
 #include "base/rectangle.hpp"
@@ -22,32 +22,32 @@ struct Texture {
     GLuint id() const { return handle.id(); }
 };
 
-/// Storage without content. `levels` 0 stands for a full chain of mipmaps.
+/// Allocates storage without content. `levels` 0 stands for a full mipmap chain.
 Texture make_texture(Extent extent, GLenum internal_format, int levels);
 Texture make_cube_texture(int side, GLenum internal_format, int levels);
 Texture make_volume_texture(Extent extent, int depth, GLenum internal_format, int levels);
 
-/// Width, height and layers of a level; a cube has six at each.
+/// Returns width, height and layers of a level; a cube has six layers at each.
 std::array<int, 3> level_size(const Texture& texture, int level);
 
-/// A level in floats, RGBA: row by row, one face or slice after the other.
+/// Reads a level as RGBA floats, row by row, one face or slice after the other.
 std::vector<float> read_level(const Texture& texture, int level);
 
-/// A part of level 0 in floats, RGBA: its bottom row first (`layer`: a cube's face, a volume's slice). Waits
-/// for what draws into it; the part lies within the texture.
+/// Reads a part of level 0 as RGBA floats, bottom row first (`layer`: a cube's face, a volume's slice). Waits
+/// for drawing into the texture. The part must lie within the texture.
 std::vector<float> read_part(const Texture& texture, int layer, const Rectangle& part);
 
-/// Whether the driver had room for it. One without reads as black.
+/// Returns whether the driver had memory for the texture. A texture without storage reads as black.
 bool has_storage(const Texture& texture);
 
-/// Fills level 0 from tightly packed rows, row 0 first (`layer`: a cube's face, a volume's slice). Other
-/// levels are left to `make_mipmaps`.
+/// Fills level 0 from tightly packed rows, row 0 first (`layer`: a cube's face, a volume's slice). Does not
+/// change other levels: see `make_mipmaps`.
 void upload(const Texture& texture, int layer, GLenum format, GLenum type, std::span<const std::byte> pixels);
 
-/// What the driver keeps of it, levels included.
+/// Returns the texture's size in the driver's memory, all levels included.
 size_t bytes_of(const Texture& texture);
 
-/// Makes all levels from level 0, where there are any.
+/// Computes the other levels, if any, from level 0.
 void make_mipmaps(const Texture& texture);
 
 SamplerHandle make_sampler(GLenum minify, GLenum magnify, GLenum wrap);

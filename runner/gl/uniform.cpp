@@ -11,7 +11,7 @@ namespace {
 
 enum class Scalar { float32, int32, uint32, float64 };
 
-/// Which numbers a uniform of this type is made of; `columns` > 1 is a square matrix.
+/// The component type and count of a uniform type; `columns` > 1 is a square matrix.
 struct Shape {
     Scalar scalar;
     int components;
@@ -49,7 +49,7 @@ constexpr size_t k_most_numbers = 30;
 
 using Numbers = std::array<double, k_most_numbers>;
 
-/// `values` come `width` to an element, the uniform takes `per_element`: what is missing is 0.
+/// Copies elements of `width` numbers to elements of `per_element` numbers; missing ones are 0.
 Numbers repacked(std::span<const double> values, size_t width, size_t per_element, size_t count) {
     Numbers numbers{};
     for (size_t element = 0; element < count; ++element)
@@ -58,7 +58,8 @@ Numbers repacked(std::span<const double> values, size_t width, size_t per_elemen
     return numbers;
 }
 
-/// Whole numbers wrap as GLSL's own do; what is none, or beyond 64 bits, is 0.
+/// Converts a number. Integer types wrap as in GLSL; for them NaN, infinities and values beyond 64 bits
+/// become 0.
 template <class T>
 T number_of(double value) {
     if constexpr (std::is_floating_point_v<T>)

@@ -15,7 +15,7 @@ using scene::TextureKind;
 constexpr size_t k_channels = scene::k_channel_count;
 using Chosen = std::array<bool, k_channels>;
 
-/// Nobody said what the channel reads: no directive, no JSON; or JSON that has lost it.
+/// Returns the channels whose input is unknown: no directive and no JSON, or JSON that has lost it.
 Chosen unspecified(const scene::Pass& pass) {
     Chosen chosen{};
     for (size_t i = 0; i < k_channels; ++i)
@@ -25,8 +25,8 @@ Chosen unspecified(const scene::Pass& pass) {
     return chosen;
 }
 
-/// `no matching function for call to `texture(sampler2D, vec3)'` and the like: a call with a sampler of the
-/// wrong kind.
+/// Recognises errors such as `no matching function for call to `texture(sampler2D, vec3)'`: a call with a
+/// sampler of the wrong kind.
 bool complains_of_sampler(std::string_view message) {
     const bool refused = message.find("no matching") != std::string_view::npos ||
                          message.find("No matching") != std::string_view::npos ||
@@ -37,9 +37,9 @@ bool complains_of_sampler(std::string_view message) {
                        message.find("texelFetch") != std::string_view::npos);
 }
 
-/// The lines of such complaints, in the text that the driver was given.
+/// Returns the lines of such errors, in the text that was passed to the driver.
 std::set<int> lines_of_complaints(std::string_view log, const text::MappedText& source) {
-    text::MappedText same; // its places are its own
+    text::MappedText same; // maps each line to itself
     same.append(source.text(), "driver", 1);
     std::set<int> lines;
     for (const DriverMessage& message : parse_driver_log(log, same))
@@ -56,8 +56,8 @@ int channel_of(std::string_view word) {
 }
 
 struct Mentions {
-    Chosen complained_of{}; ///< named in a line that the driver complains about
-    Chosen used{};          ///< named anywhere but in our own declarations
+    Chosen complained_of{}; ///< named in a line with such an error
+    Chosen used{};          ///< named anywhere except in generated lines
 };
 
 Mentions mentions(const text::MappedText& source, const std::set<int>& lines) {
@@ -73,16 +73,17 @@ Mentions mentions(const text::MappedText& source, const std::set<int>& lines) {
     return found;
 }
 
-/// Every way to give the first suspects other kinds; those that change most come first, cubes before volumes.
+/// Returns all ways to change the kinds of the first suspects, those with most changes first, cubes before
+/// volumes.
 std::vector<ChannelKinds> combinations(std::vector<size_t> suspects) {
-    constexpr size_t k_most_suspects = 4; // as many as ShaderToy has channels: 81 ways
+    constexpr size_t k_most_suspects = 4; // ShaderToy has four channels: 81 combinations
     suspects.resize(std::min(suspects.size(), k_most_suspects));
     constexpr TextureKind k_order[] = {TextureKind::cube, TextureKind::volume, TextureKind::flat};
     size_t count = 1;
     for (size_t i = 0; i < suspects.size(); ++i)
         count *= std::size(k_order);
     std::vector<ChannelKinds> all;
-    for (size_t number = 0; number + 1 < count; ++number) { // the last one is all flat
+    for (size_t number = 0; number + 1 < count; ++number) { // the last combination is all flat
         ChannelKinds kinds{};
         size_t rest = number;
         for (const size_t suspect : suspects) {
@@ -114,7 +115,8 @@ std::vector<ChannelKinds> channel_kinds_to_try(const scene::Scene& scene, const 
                 channels.push_back(i);
         return channels;
     };
-    // What the lines name is meant; a macro or a parameter hides the name, then any channel may be.
+    // Channels named in the failing lines come first. A macro or parameter may hide the name, so any used
+    // channel is possible.
     std::vector<ChannelKinds> candidates = combinations(both(named.complained_of));
     for (const ChannelKinds& kinds : combinations(both(named.used)))
         if (std::find(candidates.begin(), candidates.end(), kinds) == candidates.end())

@@ -1,6 +1,3 @@
-// Mesa's preprocessor takes no directive among the arguments of a macro; the site's does. Where we know how a
-// condition turns out, what it leaves out of a call goes, and its directives with it. And it takes `(NAME)`
-// for the begin of such a call where NAME is also a macro with arguments: another name for it ends that.
 #include "glsl/rewrite.hpp"
 
 #include <fmt/format.h>
@@ -77,14 +74,14 @@ private:
 
     const std::vector<Token>& tokens_;
     const Preprocessed& preprocessed_;
-    std::unordered_set<std::string_view> macros_; ///< that take arguments
+    std::unordered_set<std::string_view> macros_; ///< macros with arguments
     int depth_ = 0;                               ///< of parentheses in the outermost call
-    int groups_ = 0;                              ///< #if without #endif in that call
+    int groups_ = 0;                              ///< open #if in that call
     std::vector<Edit> call_;
     std::vector<Edit> edits_;
 };
 
-/// The names of macros with arguments that stand before a `)`, if a directive follows at all.
+/// Returns the uses of macros with arguments before a `)`, up to the last directive.
 std::vector<size_t> plain_uses(const std::vector<Token>& tokens, const Preprocessed& preprocessed) {
     std::unordered_set<std::string_view> macros;
     for (const MacroLine& macro : preprocessed.macros)
@@ -97,7 +94,7 @@ std::vector<size_t> plain_uses(const std::vector<Token>& tokens, const Preproces
             uses.push_back(code[i]);
         if (code[i + 1] == code[i] + 1 || uses.empty())
             continue;
-        settled.insert(settled.end(), uses.begin(), uses.end()); // a directive stands between these tokens
+        settled.insert(settled.end(), uses.begin(), uses.end()); // a directive separates these tokens
         uses.clear();
     }
     return settled;

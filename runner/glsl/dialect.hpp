@@ -1,6 +1,6 @@
-// Which GLSL to offer the driver. ShaderToy's texts are written for WebGL 2; a desktop driver takes nearly
-// all of them as `330 core`, and most of the rest in another version or with our `main` in another place.
-// Pure text.
+// The GLSL variants in which a pass can be passed to the driver. ShaderToy's texts are written for WebGL 2;
+// desktop drivers accept nearly all of them as `330 core`, and most others in another version or with `main`
+// in another place. Text only.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -13,21 +13,21 @@
 
 namespace tidemark::glsl {
 
-/// What `#version` says, in the order of our trust: see runner/scene/README.md, "Dialect".
+/// Values of `#version`, preferred ones first: see runner/scene/README.md, "Dialect".
 enum class Version { core_330, core_450, es_300 };
 
-/// What the author's floats are.
+/// Precision of the author's floats.
 enum class Precision {
     single,
-    promoted,      ///< doubles, but for hashes (glsl/double/float_hashes.hpp)
-    promoted_whole ///< doubles, hashes too
+    promoted,      ///< doubles, except in hashes (find_float_regions)
+    promoted_whole ///< doubles, in hashes too
 };
 
-/// Where the `main` stands that calls the author's entry point.
+/// Position of the `main` that calls the author's entry point.
 enum class MainPlace {
-    first, ///< before the text, so that the author's macros do not reach it
-    last,  ///< behind the text: for an entry point that is a macro
-    author ///< the text has a `main` of its own
+    first, ///< before the text, so that the author's macros do not change it
+    last,  ///< after the text, for an entry point that is a macro
+    author ///< the text has its own `main`
 };
 
 using ChannelKinds = std::array<scene::TextureKind, scene::k_channel_count>;
@@ -36,27 +36,27 @@ using ChannelKinds = std::array<scene::TextureKind, scene::k_channel_count>;
 struct Dialect {
     Version version = Version::core_330;
     MainPlace main = MainPlace::first;
-    bool initialise = true; ///< what has no value starts at zero: glsl/initialise.hpp
+    bool initialise = true; ///< variables without a value start at zero: start_at_zero()
     ChannelKinds channels{};
     Precision precision = Precision::single;
-    bool joins_overloads = false; ///< functions named as built-in ones stand beside them: glsl/overloads.hpp
-    /// gl_FragCoord counts from the corner of the whole picture, wherever in it the target lies: the host
-    /// sets `vec2 tidemark_tile`, in pixels.
+    bool joins_overloads = false; ///< functions named like built-in ones overload them: join_overloads()
+    /// gl_FragCoord is relative to the corner of the whole picture, not of the target: the host sets `vec2
+    /// tidemark_tile`, in pixels.
     bool tiled = false;
-    /// A pixel of Image that is not finite, which bytes cannot hold, has the alpha of
-    /// image::k_non_finite_alpha instead of 1.
+    /// A NaN or infinite pixel of Image, which bytes cannot hold, gets the alpha image::k_non_finite_alpha
+    /// instead of 1.
     bool marks_non_finite = false;
-    /// Image has the alpha that its text gives it, instead of 1.
+    /// Image keeps the alpha that its text writes, instead of 1.
     bool keeps_alpha = false;
 
     bool operator==(const Dialect&) const = default;
 };
 
-/// "330 core", with what else is unusual: "300 es, main last".
+/// Returns "330 core" followed by what differs from the default: "300 es, main last".
 std::string to_string(const Dialect& dialect);
 
-/// After the driver refused `source` with `log`: kinds for the channels that nobody specified, the likeliest
-/// first, cubes before volumes. Empty when the log does not complain about samplers.
+/// Call after the driver rejected `source` with `log`. Returns kinds for the channels whose input is
+/// unspecified, the likeliest first, cubes before volumes; empty if the log has no error about samplers.
 std::vector<ChannelKinds> channel_kinds_to_try(const scene::Scene& scene, const scene::Pass& pass,
                                                const text::MappedText& source, std::string_view log);
 

@@ -16,21 +16,21 @@ namespace {
 
 constexpr double k_unknown = std::numeric_limits<double>::infinity();
 
-/// 2^16 calls of one function, an array of 4,000 in a function and a sum of 16,000 take 20 s and more, half
-/// of a GiB and the stack in turn.
+/// Measured: 2^16 calls of one function take 20 s and more, an array of 4,000 in a function takes half a GiB,
+/// and a sum of 16,000 terms overflows the stack.
 constexpr size_t k_many_words = 60'000;
 constexpr int k_deep = 500;
 constexpr double k_long_inlined = 200'000;
 constexpr double k_many_elements = 1000;
 constexpr int k_many_loops = 7;
-/// A matrix.
+/// The numbers of a mat4.
 constexpr double k_largest_plain = 16;
-/// Unsigned it stands for the least int, where another number stands for itself.
+/// 2^31: as an unsigned literal it becomes the least int when it is converted.
 constexpr long k_sign_bit = 1L << 31;
-/// Of brackets in the length of an array.
+/// Nesting of parentheses in an array length.
 constexpr int k_deepest_length = 20;
 
-/// How many numbers a built-in type holds.
+/// Returns the number of scalars in a built-in type.
 double components_of(std::string_view type) {
     const auto digit = [&](size_t at) { return double(type[at] - '0'); };
     const size_t size = type.size();
@@ -76,7 +76,8 @@ public:
     }
 
 private:
-    /// Of the whole text, for a directive folds constants too; hexadecimal and above INT_MAX included.
+    /// Checks the whole text, since directives are constant-folded too. Finds INT_MAX, larger and hexadecimal
+    /// numbers.
     bool has_largest_int() const {
         const auto& tokens = text_.tokens();
         for (size_t i = 2; i < tokens.size(); ++i) {
@@ -105,14 +106,14 @@ private:
         return false;
     }
 
-    /// Parents come behind their children.
+    /// Goes backwards, since parents come after their children.
     void count_loops() {
         loops_.resize(tree_.nodes.size());
         for (size_t id = tree_.nodes.size() - 1; id > 0; --id)
             loops_[id] = loops_[tree_[NodeId(id)].parent] + (is_loop(tree_[NodeId(id)].kind) ? 1 : 0);
     }
 
-    /// The product of all lengths in brackets among the words.
+    /// Returns the product of all bracketed lengths among the words.
     double lengths(size_t begin, size_t end) const {
         double product = 1;
         for (size_t i = begin; i < end; ++i) {
@@ -127,14 +128,14 @@ private:
         return product;
     }
 
-    /// `3`, `N`, `4 * (N + 1)`, from `at` on, which goes behind it; unknown: what else GLSL makes constants
-    /// of.
+    /// Evaluates `3`, `N` or `4 * (N + 1)` and moves `at` past it. Other constant expressions of GLSL are
+    /// unknown.
     double sum(size_t& at, size_t end, int depth) const {
         double total = product(at, end, depth);
         while (at < end && (text_.word(at) == "+" || text_.word(at) == "-")) {
             const bool plus = text_.word(at++) == "+";
             const double next = product(at, end, depth);
-            total = plus ? total + next : total; // the more, the more careful
+            total = plus ? total + next : total; // an upper bound: differences are not subtracted
         }
         return total;
     }
@@ -169,11 +170,12 @@ private:
         const auto structure = structures_.find(name);
         const double each = structure != structures_.end() ? structure->second : components_of(name);
         const Node& node = tree_[type];
-        const NodeId own = tree_.child(type, 0); // `struct { … }`: its members' brackets are not the type's
+        // for `struct { … }`, the brackets of members do not belong to the type
+        const NodeId own = tree_.child(type, 0);
         return each * lengths(own == k_no_node ? node.begin : tree_[own].end, node.end);
     }
 
-    /// By the words of a declarator from its name up to its value.
+    /// Multiplies by the lengths between a declarator's name and its value.
     double declared(NodeId declarator, size_t begin, double each) const {
         size_t end = tree_[declarator].end;
         for (const NodeId part : tree_.children(declarator))
@@ -182,7 +184,7 @@ private:
         return each * lengths(begin, end);
     }
 
-    /// For each that is declared.
+    /// Calls `take` with the size of each declared variable.
     template <class Take>
     void each_of(NodeId declaration, const Take& take) const {
         const std::vector<NodeId> parts = tree_.children(declaration);
@@ -198,7 +200,7 @@ private:
         return total;
     }
 
-    /// Plain variables live in registers.
+    /// Counts arrays and structures only; smaller variables fit in registers.
     void count(double elements) {
         if (elements > k_largest_plain)
             elements_ += elements;
@@ -219,7 +221,7 @@ private:
                 remember(parts[i]);
     }
 
-    /// One that is written twice may be either: the larger.
+    /// The larger of two constants with the same name counts.
     void remember(NodeId constant) {
         const std::vector<NodeId> parts = tree_.children(constant);
         if (parts.empty() || is_bracket(text_, parts.back()))
@@ -231,7 +233,7 @@ private:
         known = std::max(known, at == value.end ? number : k_unknown);
     }
 
-    /// What was called since the last function stands in this one.
+    /// All calls since the last function are in this one.
     void define(NodeId function) {
         if (const NodeId type = tree_.child(function, 0); tree_[type].kind == NodeKind::type)
             count(components(type));
@@ -247,9 +249,10 @@ private:
             size.loops = std::max(size.loops, loops_[call] + known->second.loops);
         }
         calls_.clear();
-        Size& all = functions_[text_.word_of(function)]; // overloads count as one
+        Size& all = functions_[text_.word_of(function)]; // overloads are added up
         const bool only_declared = all.words == 0 && text_.word(tree_[function].end - 1) == ";";
-        all.words += only_declared ? double(text_.words().size()) : size.words; // it is not known yet
+        // a declared function may be as long as the whole text
+        all.words += only_declared ? double(text_.words().size()) : size.words;
         all.loops = std::max(all.loops, size.loops);
     }
 
@@ -263,8 +266,8 @@ private:
     std::unordered_map<std::string_view, double> structures_;
     std::unordered_map<std::string_view, double> constants_;
     std::unordered_map<std::string_view, Size> functions_;
-    std::vector<int> loops_; ///< around each node, and itself
-    NodeId first_node_ = 1;  ///< behind the last function
+    std::vector<int> loops_; ///< nesting depth of each node, counting itself
+    NodeId first_node_ = 1;  ///< first node after the last function
     std::vector<NodeId> calls_;
     double elements_ = 0;
 };
@@ -285,7 +288,7 @@ bool is_modest(const scene::Scene& scene, Precision precision) {
     return std::ranges::all_of(scene.passes, [&](const scene::Pass& pass) {
         const PassReading reading(scene, pass);
         const auto assembly = reading.assemble(reading.dialects(precision).front());
-        return !assembly || driver_load(assembly->source).modest(); // one that fails says so by itself
+        return !assembly || driver_load(assembly->source).modest(); // a failure here is reported elsewhere
     });
 }
 

@@ -1,5 +1,5 @@
-// How much a text may ask of a driver that compiles it, counted from the text: an estimate to be careful by,
-// for drivers differ in what they can bear. Runs no driver.
+// Estimates from the text how much work it is for a driver to compile it. A conservative guess, since drivers
+// differ. Runs no driver.
 #pragma once
 
 #include "glsl/dialect.hpp"
@@ -11,22 +11,23 @@
 namespace tidemark::glsl {
 
 struct DriverLoad {
-    bool followed = false;    ///< else the numbers say nothing
-    size_t words = 0;         ///< with all macros expanded
-    int depth = 0;            ///< of expressions and blocks in each other; a sum of three is two deep
-    double inlined = 0;       ///< words of the longest function, where each call is its function's text
-    int loops = 0;            ///< in each other, through calls too: a driver may write out the turns of all
-    bool edge_of_int = false; ///< -2147483648 / -1 may be in it, which drivers that fold constants trip over
-    double elements = 0;      ///< numbers in all arrays together; infinite where a length is not known
+    bool followed = false;    ///< false: the text was not understood and the numbers are meaningless
+    size_t words = 0;         ///< after macro expansion
+    int depth = 0;            ///< nesting of expressions and blocks; a sum of three has depth two
+    double inlined = 0;       ///< words of the longest function after inlining all calls
+    int loops = 0;            ///< nested loops, calls included; a driver may unroll all of them
+    /// may contain -2147483648 / -1, which crashes some drivers when they fold constants
+    bool edge_of_int = false;
+    double elements = 0;      ///< numbers in all arrays and large structures; infinite if a length is unknown
 
-    /// Within what drivers compile in a second or two, as measured on llvmpipe with some room.
+    /// Returns whether drivers compile the text in a second or two, as measured on llvmpipe with some margin.
     bool modest() const;
 };
 
-/// Of a text without directives that nobody can evaluate; linear in its words.
+/// Measures a text; `followed` is false if its directives cannot be evaluated. Linear in its words.
 DriverLoad driver_load(const text::MappedText& source);
 
-/// Whether every pass of the scene is modest in the first dialect that it is offered in.
+/// Returns whether every pass of the scene is modest in its first dialect.
 bool is_modest(const scene::Scene& scene, Precision precision);
 
 } // namespace tidemark::glsl

@@ -13,7 +13,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// A message with the driver's own numbers (0: none).
+/// A message with the line and column that the driver printed (0: none).
 struct Message {
     int line = 0;
     Severity severity = Severity::error;
@@ -22,7 +22,7 @@ struct Message {
     bool of_preprocessor = false;
 };
 
-/// Consumes the front of a line of the log, piece by piece.
+/// Parses a line of the log from its beginning.
 class Cursor {
 public:
     explicit Cursor(std::string_view text) : rest_(text) {}
@@ -47,8 +47,7 @@ public:
             rest_.remove_prefix(1);
     }
 
-    /// `error`, `warning` or `note` as the driver spells it; what stands in front of the word is dropped
-    /// (`preprocessor error`).
+    /// Reads `error`, `warning` or `note` in the driver's spelling; skips a prefix (`preprocessor error`).
     std::optional<Severity> severity() {
         literal("preprocessor ");
         if (literal("error") || literal("ERROR"))
@@ -121,7 +120,7 @@ Message read_line(std::string_view line) {
     return {0, Severity::error, line};
 }
 
-/// What Mesa's parser calls its tokens.
+/// Names of tokens in Mesa's parser, and readable replacements.
 constexpr std::pair<std::string_view, std::string_view> k_tokens[] = {
     {"BASIC_TYPE_TOK", "a type"},
     {"TYPE_IDENTIFIER", "a type"},
@@ -151,7 +150,7 @@ constexpr std::pair<std::string_view, std::string_view> k_tokens[] = {
     {"MOD_ASSIGN", "%="},
 };
 
-/// `syntax error, unexpected NEW_IDENTIFIER, expecting '('`: with words that people know.
+/// Replaces the token names: `syntax error, unexpected NEW_IDENTIFIER, expecting '('`.
 std::string in_words(std::string_view message) {
     std::string text;
     while (!message.empty()) {
@@ -166,10 +165,10 @@ std::string in_words(std::string_view message) {
     return text;
 }
 
-/// Mesa lists all overloads behind a call that none fits, each as an error of its own.
+/// After a call that fits no overload, Mesa lists all overloads, each as an error of its own.
 class Candidates {
 public:
-    /// Whether `message` is one of them, behind the message before it.
+    /// Returns whether `message` is an entry of the current list.
     bool take(const Message& message) {
         if (listed_ > 0 && message.text.starts_with("   ")) {
             ++listed_;
@@ -182,10 +181,11 @@ public:
 
 private:
     static constexpr int k_most = 3;
-    int listed_ = 0; ///< with the line that announces them
+    int listed_ = 0; ///< including the line that announces the list
 };
 
-/// The word that Mesa's message is about and that stands at its column; empty: another one does.
+/// Returns the name that Mesa's message is about and that is at its column; empty for messages about
+/// something else.
 std::string_view word_there(std::string_view message) {
     if (message.starts_with("`") && message.ends_with("' undeclared"))
         return message.substr(1, message.size() - 1 - std::string_view("' undeclared").size());

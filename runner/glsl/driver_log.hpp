@@ -1,4 +1,4 @@
-// What a driver says about a shader, turned into messages about the author's own lines.
+// Parses driver logs into messages about the author's own lines.
 #pragma once
 
 #include "base/error.hpp"
@@ -12,16 +12,17 @@ namespace tidemark::glsl {
 /// One line of a log.
 struct DriverMessage {
     Diagnostic diagnostic;
-    bool follows = false; ///< from an error before it: there is nothing to mend here
+    bool follows = false; ///< caused by an earlier error; nothing to fix here
 };
 
-/// Reads the forms of Mesa `0:12(5): error: …`, NVIDIA `0(12) : error C1008: …`, and Intel, AMD and ANGLE
-/// `ERROR: 0:12: …`. A line in none of these forms, and one about a line of our own making, has no place; no
-/// column has a message of a driver that gives none, or whose column counts what a macro stands for. Of the
-/// overloads that Mesa lists where none fits a call, three are kept, as notes.
+/// Reads the formats of Mesa `0:12(5): error: …`, NVIDIA `0(12) : error C1008: …`, and Intel, AMD and ANGLE
+/// `ERROR: 0:12: …`. A line in another format, or about a generated line, has no place. A message has no
+/// column if the driver prints none, or if its column counts expanded macros. Of the overloads that Mesa
+/// lists for a failed call, three are kept, as notes.
 std::vector<DriverMessage> parse_driver_log(std::string_view log, const text::MappedText& source);
 
-/// Without what follows, which is counted in a note under the error it follows from. Errors come first.
+/// Drops messages that follow from others, and counts them in a note under the error that caused them. Errors
+/// come first.
 std::vector<Diagnostic> for_people(const std::vector<DriverMessage>& messages);
 
 } // namespace tidemark::glsl

@@ -12,7 +12,8 @@ using text::TokenKind;
 
 using Gap = DriverPlaces::Gap;
 
-/// `line` is that of its first character; `put_off` is what the gap before it says.
+/// Measures the text between two tokens. `line` is the line of its first character; `put_off` comes from the
+/// gap before.
 Gap read_gap(std::string_view text, int line, int put_off = 0) {
     Gap gap{0, line, false, 0, put_off};
     for (size_t i = 0; i < text.size();) {
@@ -46,7 +47,7 @@ Gap read_gap(std::string_view text, int line, int put_off = 0) {
     return gap;
 }
 
-/// Macros as they are defined while one walks down the text.
+/// The macros defined at a position, while the position moves down the text.
 class Defined {
 public:
     enum class What { nothing, empty, object, function, perhaps };
@@ -93,8 +94,9 @@ Gap DriverPlaces::gap_before(size_t token, int put_off) const {
                     put_off);
 }
 
-/// One past the `)` that ends the call of the macro at `name`; `name`: no arguments follow, so it is none.
-/// Nothing where no preprocessor takes it, or where it depends on the preprocessor.
+/// Returns one past the `)` that ends the call of the macro at `name`; `name` itself if no arguments follow,
+/// so that it is not a call. Returns nothing if no preprocessor accepts it, or if the result depends on the
+/// preprocessor.
 std::optional<size_t> DriverPlaces::end_of_call(size_t name, bool certain) const {
     int depth = 0;
     bool over_lines = false;
@@ -138,13 +140,13 @@ void DriverPlaces::read_rows() {
         const Defined::What what = defined.what(token.text);
         if (what == Defined::What::nothing)
             continue;
-        // What an object stands for begins where its name stood.
+        // The first token of an object's replacement begins where the name was.
         row.known_end = std::min(row.known_end, what == Defined::What::object ? i + 1 : i);
         if (what == Defined::What::object || what == Defined::What::empty)
             continue;
         const auto end = end_of_call(i, what == Defined::What::function);
         if (!end)
-            return; // from here on lines are not known
+            return; // later lines are unknown
         call_end = *end;
     }
 }

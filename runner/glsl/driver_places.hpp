@@ -1,5 +1,5 @@
-// Where a driver's line and column stand in the text that it was given. In come the numbers that Mesa prints,
-// which count what its preprocessor left of the text; what cannot be known for certain is left out.
+// Maps a line and column that Mesa printed to a place in the text that it was given. Mesa's numbers count its
+// preprocessor's output; places that are uncertain are left out.
 #pragma once
 
 #include "glsl/syntax/preprocess.hpp"
@@ -11,44 +11,44 @@
 
 namespace tidemark::glsl {
 
-/// Counted from 1, in bytes; a column of 0 is not known.
+/// Counted from 1, in bytes; column 0 means unknown.
 struct DriverPlace {
     int line = 0;
     int column = 0;
 };
 
-/// Mesa's preprocessor turns each run of blanks and comments into one blank, puts a joined line and the rest
-/// of a comment into the line where they begin, drops the line ends within a macro's arguments, and counts
-/// what macros stand for.
+/// Mesa's preprocessor replaces each run of blanks and comments by one blank, moves joined lines and the rest
+/// of a comment into the line where they begin, drops line ends within a macro's arguments, and counts
+/// columns in the expanded text.
 class DriverPlaces {
 public:
-    /// `text` must live as long.
+    /// `text` must outlive this object.
     explicit DriverPlaces(std::string_view text);
 
-    /// What the compiler said of `line` and `column`. `name` is the word that stands there, where that is
-    /// known, and finds the place behind a macro; else empty.
+    /// Maps a place printed by the compiler. `name` is the identifier at that place, if known, and finds it
+    /// after an expanded macro; else empty.
     DriverPlace of_compiler(int line, int column, std::string_view name) const;
 
-    /// What the preprocessor said: it counts the author's lines, and columns as they stand there.
+    /// Maps a place printed by the preprocessor, whose lines and columns are those of the text.
     DriverPlace of_preprocessor(int line, int column) const;
 
-    /// What lies between two tokens.
+    /// The text between two tokens.
     struct Gap {
-        int breaks = 0;      ///< line ends that the preprocessor sees as such
-        int row_line = 0;    ///< the line behind the last of those
-        bool spaced = false; ///< blanks or comments, behind that line end
-        int lines = 0;       ///< that those line ends make, with the ones put off until then
-        int put_off = 0;     ///< line ends of comments and joined lines, until the next that is seen
+        int breaks = 0;      ///< line ends that the preprocessor keeps
+        int row_line = 0;    ///< the line after the last of those
+        bool spaced = false; ///< blanks or comments after that line end
+        int lines = 0;       ///< lines that those line ends produce, including postponed ones
+        int put_off = 0;     ///< line ends of comments and joined lines, postponed to the next kept one
     };
 
 private:
-    /// A line of what the preprocessor leaves.
+    /// A line of the preprocessor's output.
     struct Row {
         int line;
         size_t begin;
         size_t end;       ///< one past its last token
         bool indented;    ///< begins with a blank
-        size_t known_end; ///< columns are known of the tokens before
+        size_t known_end; ///< columns are known for the tokens before this one
     };
 
     void read_rows();
@@ -59,7 +59,7 @@ private:
     std::string_view text_;
     std::vector<text::Token> tokens_;
     Preprocessed preprocessed_;
-    std::vector<Row> rows_; ///< their lines ascend
+    std::vector<Row> rows_; ///< in ascending order of line
 };
 
 } // namespace tidemark::glsl

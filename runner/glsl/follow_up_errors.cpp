@@ -17,7 +17,7 @@ bool has_any(std::string_view text, const std::array<std::string_view, N>& parts
     return std::ranges::any_of(parts, [&](std::string_view part) { return has(text, part); });
 }
 
-/// As Mesa, NVIDIA, ANGLE with glslang and Intel, AMD, and Apple put it.
+/// Messages of Mesa, NVIDIA, ANGLE with glslang and Intel, AMD, and Apple.
 constexpr std::array<std::string_view, 6> k_unknown_word = {"undeclared",
                                                             "undefined variable",
                                                             "Undeclared identifier",
@@ -25,18 +25,18 @@ constexpr std::array<std::string_view, 6> k_unknown_word = {"undeclared",
                                                             "no matching overloaded function",
                                                             "not declared"};
 
-/// Mesa's type of an expression that failed, alone and in the types of a call.
+/// Mesa's type of a failed expression, alone and in the types of a call.
 constexpr std::array<std::string_view, 5> k_of_failed = {"of type error", "(error,", "(error)", ", error,",
                                                          ", error)"};
 
-/// Lines that count or end, and say nothing of the text.
+/// Lines without information about the text: counts and final lines.
 constexpr std::array<std::string_view, 3> k_no_news = {"compilation errors", "compilation terminated",
                                                        "No code generated"};
 
-/// Mesa's, of a value that failed as of any other; it quotes the function, which has no part in it.
+/// Mesa reports this for a failed value too; it quotes the function, which is not at fault.
 constexpr std::string_view k_returned = "could not implicitly convert return value";
 
-/// `vec3`, `float`, `dmat2x3`; and what ANGLE quotes of an operator.
+/// Recognises type names such as `vec3`, `float`, `dmat2x3`, and the operator names that ANGLE quotes.
 bool is_of_the_language(std::string_view word) {
     constexpr std::array<std::string_view, 12> k_words = {"float",  "int",    "uint",        "bool",
                                                           "double", "highp",  "mediump",     "lowp",
@@ -44,11 +44,11 @@ bool is_of_the_language(std::string_view word) {
     constexpr std::array<std::string_view, 3> k_families = {"vec", "mat", "sampler"};
     return std::ranges::find(k_words, word) != k_words.end() ||
            std::ranges::any_of(k_families, [&](std::string_view family) {
-               return word.find(family) <= 1; // with ivec2's prefix, or without
+               return word.find(family) <= 1; // the name may have a prefix, as in ivec2
            });
 }
 
-/// What the message quotes that is an author's word, or begins with one as a call does.
+/// Returns the quoted texts that are identifiers of the author, or begin with one, as a call does.
 std::set<std::string> quoted_words(std::string_view text) {
     std::set<std::string> words;
     if (text.starts_with(k_returned))
@@ -76,7 +76,7 @@ bool FollowUpErrors::follows(const Message& message, const std::set<std::string>
         return true;
     if (!std::ranges::includes(named_, words))
         return false;
-    // Mesa judges an expression behind its parts, and what it says of one stands where the expression begins.
+    // Mesa checks an expression after its parts, and reports it at the column where the expression begins.
     if (message.column > 0 && last_->column > 0)
         return message.line < last_->line || (message.line == last_->line && message.column <= last_->column);
     return message.line > 0 && message.line == unknown_line_;

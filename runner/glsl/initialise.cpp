@@ -12,7 +12,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// Sets the global variables that are too large for an initialiser, when `main` begins.
+/// Function, called when `main` begins, that sets the globals that are too large for an initialiser.
 constexpr std::string_view k_start = "tidemark_start";
 constexpr std::string_view k_value = "tidemark_value";
 constexpr std::string_view k_unnamed = "tidemark_unnamed";
@@ -24,7 +24,7 @@ public:
 
     struct Changes {
         std::vector<text::Edit> edits;
-        std::string functions; ///< to go behind the text
+        std::string functions; ///< text to append
     };
 
     Changes run() {
@@ -90,7 +90,7 @@ private:
         gaps_.offer(tree_[function].end - 1, text, true);
     }
 
-    /// Mesa takes a definition like `float f(vec2) {…}` in the ES language alone.
+    /// Mesa accepts a definition such as `float f(vec2) {…}` in GLSL ES only.
     void name_parameters(NodeId function) {
         const std::vector<NodeId> parts = tree_.children(function);
         if (tree_[parts.back()].kind != NodeKind::block)

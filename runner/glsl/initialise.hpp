@@ -1,6 +1,6 @@
-// What the site's compiler (ANGLE) adds to a text, and a desktop driver does not. It gives a zero to whatever
-// begins without a value: variables of every type, `out` parameters, what a function gives back that comes to
-// its end without a `return`; and a name to parameters that have none. Text in, text out; no line moves.
+// Applies what ShaderToy's compiler (ANGLE) does and desktop drivers do not: gives a zero to everything that
+// starts without a value (variables of every type, `out` parameters, the result of a function that ends
+// without a `return`), and a name to unnamed parameters. Text in, text out; no line moves.
 #pragma once
 
 #include "glsl/dialect.hpp"
@@ -12,12 +12,12 @@
 
 namespace tidemark::glsl {
 
-/// Of a text that is complete but for its #version. What has a value before anything reads it, on every way,
-/// is left as it is. A text that the parser cannot follow gets initialise_plain.
+/// Changes a text that is complete except for its #version. Variables that have a value before each read, on
+/// every path, are left unchanged. Falls back to initialise_plain if the parser fails.
 void start_at_zero(text::MappedText& text, Version version);
 
-/// The same by tokens alone: every variable and `out` parameter of a plain type, in what macros stand for,
-/// too. Arrays and variables of the author's own types are left alone.
+/// Does the same from tokens alone: for every variable and `out` parameter of a built-in type, in macro
+/// bodies too. Arrays and variables of the author's own types are left unchanged.
 std::vector<text::Edit> initialise_plain(const std::vector<text::Token>& tokens,
                                          const Preprocessed& preprocessed);
 

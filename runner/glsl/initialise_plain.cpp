@@ -15,7 +15,8 @@ namespace {
 using text::Token;
 using text::TokenKind;
 
-/// `vec3`, and each macro that stands for such a type and nothing else (golf: `#define V vec3`).
+/// The built-in type names, and macros that stand for exactly one of them (common in code golf: `#define V
+/// vec3`).
 class TypeNames {
 public:
     TypeNames(const std::vector<Token>& tokens, const Preprocessed& preprocessed) {
@@ -34,10 +35,10 @@ public:
     }
 
 private:
-    std::unordered_map<std::string_view, bool> macros_; ///< whether they are such a type
+    std::unordered_map<std::string_view, bool> macros_; ///< whether each is such a type
 };
 
-/// Reads one run of tokens: the code of the text, or what one macro stands for.
+/// Reads one run of tokens: the code of the text, or the body of one macro.
 class Initialiser {
 public:
     Initialiser(const std::vector<Token>& tokens, const TypeNames& types, std::vector<text::Edit>& edits)
@@ -69,7 +70,7 @@ private:
             read_declaration();
     }
 
-    /// `struct S {`, `uniform Block {`.
+    /// Checks for `struct S {`, `uniform Block {`.
     bool opens_members() const {
         for (const long i : {-1L, -2L})
             if (peek(i).is("struct") || peek(i).is("uniform") || peek(i).is("buffer"))
@@ -88,7 +89,7 @@ private:
                before.is(":") || before.is("else") || before.is("do");
     }
 
-    /// `T a, b[2], c = …;` from its type on; nothing is changed unless it is read to its end.
+    /// Reads `T a, b[2], c = …;` from its type on; discards its edits unless the declaration is complete.
     void read_declaration() {
         const std::string_view type = peek(0).text;
         const size_t known = edits_.size();
@@ -107,7 +108,7 @@ private:
             give_up(known);
     }
 
-    /// The token that stopped us may itself begin something.
+    /// The token that stopped the parse may begin a declaration.
     void give_up(size_t known) {
         edits_.resize(known);
         --at_;
@@ -129,7 +130,7 @@ private:
     std::span<const size_t> run_;
     const std::unordered_set<std::string_view>* parameters_ = nullptr;
     size_t at_ = 0;
-    std::vector<bool> members_; ///< for each open brace, whether members stand in it
+    std::vector<bool> members_; ///< for each open brace, whether it contains members
 };
 
 } // namespace

@@ -7,14 +7,14 @@
 namespace tidemark::glsl {
 namespace {
 
-/// Drivers end a message with a zero, too.
+/// Drivers also end a message with a NUL.
 constexpr std::string_view k_blanks{" \n\0", 3};
 
 constexpr bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-/// All of `text`, which is short enough to be a count.
+/// Reads a count; the whole of `text` must be digits.
 std::optional<int> count_of(std::string_view text) {
     int count = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
@@ -23,7 +23,7 @@ std::optional<int> count_of(std::string_view text) {
     return count;
 }
 
-/// `123 inst` or `inst: 123`, whole.
+/// Reads `123 inst` or `inst: 123`; the whole item must match.
 std::optional<int> count_in(std::string_view item) {
     for (const std::string_view word : {" instructions", " inst"})
         if (item.ends_with(word))

@@ -7,7 +7,7 @@ namespace {
 
 struct Key {
     std::string_view name;
-    int code; ///< JavaScript's
+    int code; ///< JavaScript's key code
 };
 
 constexpr Key k_keys[] = {

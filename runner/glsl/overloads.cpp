@@ -15,15 +15,15 @@ namespace {
 
 using text::Token;
 
-/// The function that `join_overloads` has something to do for; nullptr: none. What takes constant expressions
-/// alone cannot be called from a function of ours.
+/// Returns the built-in function that `join_overloads` handles; nullptr if none. Functions that take constant
+/// expressions are left out, because a generated function cannot pass them on.
 const BuiltinFunction* joined(std::string_view name) {
     const BuiltinFunction* const function = find_builtin(name);
     return function && function->in_es() && !takes_constants(*function) ? function : nullptr;
 }
 
-/// `TYPE st_NAME(TYPE a, …) { return NAME(a, …); }`; adds to `known` what it takes, and is empty where
-/// something that takes the same is known already.
+/// Returns `TYPE st_NAME(TYPE a, …) { return NAME(a, …); }` and adds its parameter types to `known`; empty if
+/// they are in `known` already.
 std::string forwarder(std::string_view name, const BuiltinOverload& overload, std::set<std::string>& known) {
     std::string types, parameters, arguments;
     for (const BuiltinParameter& parameter : overload.parameters) {
@@ -40,7 +40,7 @@ std::string forwarder(std::string_view name, const BuiltinOverload& overload, st
                        parameters, arguments);
 }
 
-/// What the author's functions of that name take, as `forwarder` writes it.
+/// Returns the parameter types of the author's functions of that name, in the format of `forwarder`.
 std::set<std::string> own_signatures(const std::vector<Function>& functions, std::string_view name) {
     std::set<std::string> signatures;
     for (const Function& function : functions) {

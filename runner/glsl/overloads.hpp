@@ -1,6 +1,5 @@
-// Functions of the author's that have the name of a built-in one. WebGL's compilers have let them stand
-// beside it; on a desktop they hide it, whatever its parameters are. Text and edits that put both under
-// another name.
+// Handles functions of the author that have the name of a built-in one. WebGL compilers have accepted them as
+// overloads; on a desktop they hide the built-in. Produces edits that give both another name.
 #pragma once
 
 #include "glsl/syntax/preprocess.hpp"
@@ -12,14 +11,14 @@
 
 namespace tidemark::glsl {
 
-/// Whether the text defines a function that `join_overloads` has something to do for.
+/// Returns whether the text defines a function that `join_overloads` handles.
 bool overloads_builtins(const std::vector<text::Token>& tokens, const Preprocessed& preprocessed);
 
 struct JoinedOverloads {
-    /// The built-in's own signatures under the new name, without those that the author replaces. A call of
-    /// one is no constant expression.
+    /// The built-in's signatures under the new name, except those that the author replaces. A call of one is
+    /// not a constant expression.
     std::string functions;
-    std::vector<text::Edit> edits; ///< of the author's definitions and calls, in the order of the text
+    std::vector<text::Edit> edits; ///< the author's definitions and calls, in text order
 };
 
 JoinedOverloads join_overloads(const std::vector<text::Token>& tokens, const Preprocessed& preprocessed);

@@ -18,17 +18,17 @@ namespace {
 using text::Token;
 using text::TokenKind;
 
-/// A name that the text gives a value, and where that value stands.
+/// A name with a value, and the place of the value.
 struct Definition {
-    size_t token; ///< of the name
+    size_t token; ///< the name's token
     std::string_view name;
     size_t begin;
     size_t end;
-    bool separate; ///< nothing stands between the name and an empty value: a blank must go first
+    bool separate; ///< the value is empty, so a blank must separate it from the name
     std::optional<size_t> keyword{}; ///< the token `const`
 };
 
-/// The `#define` that the token `#` at `hash` begins; nothing for a macro with parameters.
+/// Reads the `#define` whose `#` is at `hash`; nothing for a macro with parameters.
 std::optional<Definition> read_macro(const std::vector<Token>& tokens, size_t hash) {
     const size_t end = text::end_of_directive(tokens, hash);
     if (hash + 2 >= end || !tokens[hash + 1].is("define"))
@@ -42,13 +42,13 @@ std::optional<Definition> read_macro(const std::vector<Token>& tokens, size_t ha
     return Definition{hash + 2, name.text, tokens[hash + 3].begin, tokens[end - 1].end(), false};
 }
 
-/// Whether a declaration ends here at the latest, however unfinished it is.
+/// Returns whether a declaration ends here at the latest, even if it is incomplete.
 bool ends_declaration(const Token& token) {
     return token.is(";") || token.is("const") || (token.first_on_line && token.is("#"));
 }
 
-/// The declarators of `const TYPE name = value, name = value;` behind the token at `keyword`; returns where
-/// they end.
+/// Reads the declarators of `const TYPE name = value, name = value;` after the token at `keyword`; returns
+/// where they end.
 size_t read_constants(const std::vector<Token>& tokens, size_t keyword, std::vector<Definition>& found) {
     size_t i = keyword + 1;
     while (i < tokens.size() && !ends_declaration(tokens[i])) {
@@ -96,7 +96,7 @@ Error no_such_definition(std::string_view name, const std::vector<std::string>& 
             {}};
 }
 
-/// The texts that authors write: Common, which stands in front of the others, first.
+/// Returns all texts with author's code; Common comes first, as it does for the driver.
 template <class AScene>
 auto texts_of(AScene& scene) {
     std::vector<decltype(&scene.common)> texts{&scene.common};
@@ -105,7 +105,8 @@ auto texts_of(AScene& scene) {
     return texts;
 }
 
-/// What gives NAME that value wherever the tokens define it; whatever else they define goes to `others`.
+/// Returns the edits that set every definition of `name` to `value`; adds the other defined names to
+/// `others`.
 std::vector<text::Edit> edits_of(const std::vector<Token>& tokens, std::string_view name,
                                  std::string_view value, std::vector<std::string>& others) {
     std::vector<text::Edit> edits;
@@ -119,7 +120,7 @@ std::vector<text::Edit> edits_of(const std::vector<Token>& tokens, std::string_v
     return edits;
 }
 
-constexpr int k_longest_name_chain = 32; ///< of names that stand for names, which may go round
+constexpr int k_longest_name_chain = 32; ///< limit for names that stand for names, which may be cyclic
 
 std::optional<std::string> value_of(const std::vector<NamedText>& definitions, std::string_view name) {
     const auto found = std::ranges::find(definitions, name, &NamedText::name);
@@ -197,7 +198,7 @@ void define_by_variables(scene::Scene& scene, std::span<const scene::Setting> va
     for (text::MappedText* mapped : texts_of(scene)) {
         const auto tokens = text::tokenize(mapped->text());
         std::vector<text::Edit> edits;
-        std::optional<size_t> plain; // the last `const` that went: several names may share one
+        std::optional<size_t> plain; // the last `const` removed: several names may share one
         for (const Definition& definition : find_definitions(tokens)) {
             const auto variable = std::ranges::find(variables, definition.name, &scene::Setting::name);
             if (variable == variables.end())
@@ -216,7 +217,7 @@ void define_by_variables(scene::Scene& scene, std::span<const scene::Setting> va
 void override_definition(std::string& text, const scene::Setting& setting) {
     std::vector<std::string> others;
     auto edits = edits_of(text::tokenize(text), setting.name, setting.value, others);
-    std::ranges::reverse(edits); // what stands in front keeps its place
+    std::ranges::reverse(edits); // keeps the offsets of earlier edits valid
     for (const auto& edit : edits)
         text.replace(edit.begin, edit.end - edit.begin, edit.replacement);
 }

@@ -12,33 +12,33 @@
 
 namespace tidemark::glsl {
 
-/// The names that can be replaced, each once.
+/// Returns the names that can be replaced, once each.
 std::vector<std::string> definition_names(const scene::Scene& scene);
 
 struct NamedText {
     std::string name;
     std::string text;
-    std::string file{}; ///< in which it is written
+    std::string file{}; ///< file that contains it
 };
 
-/// What the scene defines names as: the text of each one's first definition that no #if takes out.
+/// Returns each defined name with the text of its first definition that is not in an inactive #if.
 std::vector<NamedText> definitions_of(const scene::Scene& scene);
 
-/// Those of them whose text is one number, with its sign.
+/// Returns the definitions whose text is one number with an optional sign.
 std::vector<NamedText> plain_numbers(const scene::Scene& scene);
 
-/// The same of one name; a value that is itself such a name is followed.
+/// Returns the value of one name; a value that is itself a defined name is resolved.
 std::optional<std::string> definition_of(const scene::Scene& scene, std::string_view name);
 
-/// Rewrites every definition of NAME in Common and every pass. The error (ErrorCode::usage) names the nearest
-/// definition there is. Macros with parameters and values over several lines are left alone.
+/// Rewrites every definition of NAME in Common and all passes. The error (ErrorCode::usage) suggests the
+/// nearest defined name. Macros with parameters are left unchanged; a VALUE of several lines is an error.
 Result<void> override_definition(scene::Scene& scene, std::string_view setting);
 
-/// Has each NAME stand for a variable instead, wherever it is defined: a `const` becomes a plain global, for
-/// what it stands for is no constant. Names that the scene does not define are left.
+/// Replaces each NAME by a variable wherever it is defined; a `const` becomes a plain global, since its value
+/// is no longer constant. Names that the scene does not define are ignored.
 void define_by_variables(scene::Scene& scene, std::span<const scene::Setting> variables);
 
-/// As override_definition, in the text of one file, if it defines NAME.
+/// Does the same as override_definition above, in the text of one file, if it defines NAME.
 void override_definition(std::string& text, const scene::Setting& setting);
 
 } // namespace tidemark::glsl

@@ -18,7 +18,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// What tells a text that it runs in the VS Code extension or, here, in a host that gives it the same.
+/// Macro that shows a text that it runs in the VS Code extension or, here, in a compatible host.
 constexpr std::string_view k_extension_macro = "SHADER_TOY";
 
 std::vector<MainPlace> places_to_try(const Survey& facts, scene::PassKind kind) {
@@ -40,7 +40,7 @@ ChannelKinds channel_kinds(const scene::Scene& scene, const scene::Pass& pass) {
     ChannelKinds kinds{};
     for (size_t i = 0; i < kinds.size(); ++i) {
         kinds[i] = texture_kind(scene, pass.channels[i].input);
-        // The site's Sound header knows no volumes.
+        // ShaderToy's Sound header has no volumes.
         if (pass.kind == scene::PassKind::sound && kinds[i] == scene::TextureKind::volume)
             kinds[i] = scene::TextureKind::flat;
     }
@@ -149,8 +149,8 @@ text::MappedText PassReading::site_source() const {
     return source;
 }
 
-/// What the site's compiler takes and Mesa's does not: `packed` as a name, directives among the arguments of
-/// a macro, a `#` in a macro that nobody calls.
+/// Returns edits for forms that ShaderToy's compiler accepts and Mesa's does not: `packed` as a name,
+/// directives among the arguments of a macro, a `#` in a macro that is never used.
 std::vector<text::Edit> PassReading::forms_that_only_the_site_takes() const {
     constexpr std::string_view k_word = "packed";
     std::vector<text::Edit> edits = settle_arguments(tokens_, preprocessed_);
@@ -170,9 +170,9 @@ std::vector<text::Edit> PassReading::forms_that_only_the_site_takes() const {
     return edits;
 }
 
-/// The condition that leaves out an entry point which stands in the text.
+/// Returns an error with the inactive condition around the entry point, if the text has an entry point there.
 std::optional<Diagnostic> PassReading::shut_out(std::string_view entry) const {
-    std::vector<size_t> open; // the word behind the `#` of each condition around
+    std::vector<size_t> open; // the keyword after the `#` of each enclosing condition
     for (size_t i = 0; i + 1 < tokens_.size(); ++i) {
         if (tokens_[i].is("#") && tokens_[i].first_on_line) {
             const std::string_view word = tokens_[i + 1].text;
@@ -210,8 +210,7 @@ bool PassReading::entry_lacks_parameters() const {
            (pass_.kind == scene::PassKind::image || pass_.kind == scene::PassKind::buffer);
 }
 
-/// In code, and in the macros that it names: what stands in comments and in parts that are left out is
-/// nobody's business.
+/// Looks at code and at the macros that it names; comments and inactive parts do not matter.
 std::vector<Diagnostic> PassReading::strange_characters() const {
     const std::string& text = text_.text();
     if (std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; }))

@@ -1,4 +1,4 @@
-// A pass's text, Common in front, read once: for the dialects it may be offered in and for the text in each.
+// Text of a pass, with Common before it, read once: yields the dialects to try and the source in each.
 #pragma once
 
 #include "glsl/dialect.hpp"
@@ -13,41 +13,41 @@
 
 namespace tidemark::glsl {
 
-/// What the driver gets.
+/// The source for the driver.
 struct Assembly {
     text::MappedText source;
-    std::vector<KeptHash> hashes{}; ///< what a promoted text leaves in floats
+    std::vector<KeptHash> hashes{}; ///< hashes that a promoted text keeps in floats
 };
 
-/// Refers to the scene and the pass it was made of, and to itself: it stays where it is.
+/// Keeps references to the scene and the pass, and to itself, so it cannot be moved.
 class PassReading {
 public:
     PassReading(const scene::Scene& scene, const scene::Pass& pass);
     PassReading(const PassReading&) = delete;
     PassReading& operator=(const PassReading&) = delete;
 
-    /// The dialects worth offering, the likeliest first; never empty. The first that links is the one: when
-    /// none does, the first one's messages are the best. Hashes that cannot stay in floats are promoted where
-    /// nothing else links.
+    /// Returns the dialects to try, the likeliest first; never empty. Use the first one that links; if none
+    /// does, the messages for the first one are the best. Hashes that cannot stay in floats are promoted only
+    /// in the last dialect.
     std::vector<Dialect> dialects(Precision precision) const;
-    /// Fails (ErrorCode::load) where something has no double form; never in single precision.
+    /// Fails (ErrorCode::load) if something has no double form; never fails in single precision.
     Result<Assembly> assemble(const Dialect& dialect) const;
-    /// What no dialect can cure: characters that GLSL does not have, no entry point, or several (tabs pasted
-    /// into one file), each with its place.
+    /// Returns errors that no dialect can fix: characters that GLSL does not have, no entry point, or several
+    /// (ShaderToy's tabs pasted into one file), each with its place.
     std::vector<Diagnostic> problems() const;
-    /// Whether some of it a driver would draw all the same, and wrong: characters that are taken for blanks,
-    /// a mainImage that takes a vector alone (Mesa 25 links the call of ours, and draws black).
+    /// Returns whether a driver would draw some of these problems, and wrongly: non-ASCII characters taken
+    /// for blanks, a mainImage with one vector parameter (Mesa 25 links the call, and draws black).
     bool may_be_drawn_wrong() const { return entry_lacks_parameters() || !strange_characters().empty(); }
-    /// Where a name of the text stands first.
+    /// Returns the first place of a name in the text.
     std::optional<SourceLocation> place_of(std::string_view name) const;
-    /// What the site would compile of it: GLSL ES 3.00, and nothing of the text changed. Knobs are the
-    /// constants that `export` makes of them.
+    /// Returns the text as ShaderToy would compile it: GLSL ES 3.00, changed only where Mesa rejects what
+    /// ShaderToy accepts. Knobs become constants, as with `export`.
     text::MappedText site_source() const;
-    /// Announces or defines one of that name.
+    /// Returns whether the text declares or defines a function of that name.
     bool defines_function(std::string_view name) const;
-    /// A `main` of the author's own: the text may be another host's.
+    /// Returns whether the text has its own `main`; it may be written for another host.
     bool has_own_main() const { return !facts_.mains.empty(); }
-    /// Whether pixels may keep what was drawn there before.
+    /// Returns whether pixels may keep their previous contents.
     bool discards() const { return facts_.discards; }
 
 private:

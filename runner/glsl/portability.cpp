@@ -19,7 +19,7 @@ namespace {
 using text::Token;
 using text::TokenKind;
 
-/// Reserved by GLSL ES 3.00 (section 3.8), where a desktop driver may take them as names.
+/// Reserved by GLSL ES 3.00 (section 3.8); desktop drivers may accept them as names.
 constexpr std::string_view k_es_reserved[] = {
     "attribute",   "varying",       "coherent",  "restrict",      "readonly",      "writeonly", "resource",
     "atomic_uint", "noperspective", "patch",     "sample",        "subroutine",    "common",    "partition",
@@ -30,32 +30,32 @@ constexpr std::string_view k_es_reserved[] = {
     "namespace",   "using",         "sampler1D", "sampler2DRect", "samplerBuffer", "image2D",   "image3D",
     "hvec2",       "hvec3",         "hvec4",     "fvec2",         "fvec3",         "fvec4"};
 
-/// Functions that are neither GLSL's of today nor an old API's.
+/// Functions that are neither in current GLSL nor in an old API.
 constexpr OldName k_other_functions[] = {
     {"noise1", "a function of your own"},
     {"noise2", "a function of your own"},
     {"noise3", "a function of your own"},
     {"noise4", "a function of your own"},
-    // what #iKeyboard declares
+    // declared by #iKeyboard
     {"isKeyDown", "texelFetch(iChannel0, ivec2(key, 0), 0).x"},
     {"isKeyPressed", "texelFetch(iChannel0, ivec2(key, 1), 0).x"},
     {"isKeyToggled", "texelFetch(iChannel0, ivec2(key, 2), 0).x"},
     {"isKeyReleased", "a buffer that remembers isKeyDown"},
 };
 
-/// Functions of GLSL ES 3.00 that Chromium's compiler lets a text define again, with any parameters (asked in
-/// November 2026); all others it refuses.
+/// Functions of GLSL ES 3.00 that Chromium's compiler lets a text redefine, with any parameters (checked in
+/// November 2026); it rejects all others.
 constexpr std::string_view k_may_be_defined_again[] = {"mix",         "texelFetch", "texture",
                                                        "textureGrad", "textureLod", "textureSize"};
 
-/// Where texels are looked up beside a place; WebGL 2 has offsets from -8 to 7.
+/// Texture functions with an offset; WebGL 2 allows offsets from -8 to 7.
 constexpr std::string_view k_with_offset[] = {
     "textureOffset",     "texelFetchOffset",     "textureLodOffset",     "textureProjOffset",
     "textureGradOffset", "textureProjLodOffset", "textureProjGradOffset"};
 constexpr int k_least_offset = -8, k_largest_offset = 7;
 
-/// What to write in GLSL ES 3.00 instead of a function that it does not have; empty: it has it, or none is
-/// known.
+/// Returns the replacement in GLSL ES 3.00 for a function that it lacks; empty if it has the function, or if
+/// none is known.
 std::string_view instead_of(std::string_view function) {
     if (const BuiltinFunction* const builtin = find_builtin(function))
         return builtin->instead;
@@ -80,7 +80,7 @@ public:
     Linter(const text::MappedText& text, bool common)
         : text_(text), tokens_(text::tokenize(text.text())), read_(preprocess(tokens_)), common_(common) {}
 
-    /// Names that `other` makes known to this text.
+    /// Adds the names that `other` defines.
     void know(const Linter& other) {
         defined_.insert(other.defined_.begin(), other.defined_.end());
         macros_.insert(other.macros_.begin(), other.macros_.end());
@@ -123,7 +123,7 @@ private:
                                                     Severity::warning, std::move(message)});
     }
 
-    /// Functions, macros and constants of the text's own.
+    /// Collects the text's own functions and macros.
     void note_definitions() {
         for (const MacroLine& macro : read_.macros) {
             defined_.insert(macro.name);
@@ -156,7 +156,7 @@ private:
             say(tokens_[hash], "#include: the site has no files; paste the text, or use Common");
     }
 
-    /// What is wrong wherever it stands, in a macro as well.
+    /// Checks a token whose problems do not depend on context, in macros as well.
     void everywhere(const Token& token) {
         if (token.kind == TokenKind::number)
             number(token);
@@ -166,7 +166,7 @@ private:
             character(token);
     }
 
-    /// Of a character of several bytes each is a token: the first one speaks for it.
+    /// Each byte of a multi-byte character is a token; only the first one is reported.
     void character(const Token& token) {
         if (const auto strange = strange_character(std::string_view(text_.text()).substr(token.begin)))
             say(token,
@@ -230,12 +230,12 @@ private:
                             token.text));
     }
 
-    /// Between a function, another semicolon or the beginning, and the semicolon.
+    /// Returns whether the semicolon follows a function, another semicolon or the beginning of the text.
     bool stands_for_nothing() const {
         return at_ == 0 || peek(-1).is(";") || (peek(-1).is("}") && in_function_);
     }
 
-    /// `h() = 1.0`; `(x) = 1.0` is fine, and of a macro nobody knows.
+    /// Matches `h() = 1.0`, but not `(x) = 1.0`. Returns false for macros, which may stand for anything.
     bool is_call_before() const {
         if (!peek(-1).is(")"))
             return false;
@@ -260,8 +260,8 @@ private:
                     token.text));
     }
 
-    /// `uniform vec3 iResolution;`, `float iTime = 0.0;`, `out vec4 second;`, `vec4 mainImage(…)`, outside of
-    /// functions.
+    /// Checks `uniform vec3 iResolution;`, `float iTime = 0.0;`, `out vec4 second;`, `vec4 mainImage(…)`,
+    /// outside of functions.
     void global() {
         const Token& token = peek(0);
         const bool first_word = peek(-1).is(";") || peek(-1).is("}") || at_ == 0 || peek(-1).is(")");
@@ -278,7 +278,7 @@ private:
             signature();
     }
 
-    /// Among the parameters of a function, where any name may stand.
+    /// Returns whether the token is among a function's parameters, where any name is allowed.
     bool in_parameters() const {
         int depth = 0;
         for (long i = -1; !peek(i).text.empty() && !peek(i).is(";") && !peek(i).is("}"); --i)
@@ -286,7 +286,7 @@ private:
         return depth > 0;
     }
 
-    /// The site announces `void mainImage(out vec4, in vec2)`, and a definition must agree with it.
+    /// Checks a definition against ShaderToy's declaration `void mainImage(out vec4, in vec2)`.
     void signature() {
         constexpr std::string_view k_precisions[] = {"highp", "mediump", "lowp"};
         std::string parameters;
@@ -295,7 +295,7 @@ private:
             if (!is_one_of(peek(i).text, k_precisions))
                 parameters += std::string(peek(i).text) + " ";
         if (!peek(i).is(")") || !peek(i + 1).is("{"))
-            return; // announced, or something else
+            return; // only declared, or something else
         const size_t comma = parameters.find(", ");
         const std::string_view first = std::string_view(parameters).substr(0, comma);
         const std::string_view second =
@@ -312,7 +312,7 @@ private:
                                    [&](std::string_view name) { return words.find(name) != words.npos; });
     }
 
-    /// `textureOffset(iChannel0, uv, ivec2(9, 0))`.
+    /// Checks `textureOffset(iChannel0, uv, ivec2(9, 0))`.
     void offset() {
         int depth = 0;
         for (long i = 1; !peek(i).text.empty() && !peek(i).is(";"); ++i) {
@@ -333,7 +333,7 @@ private:
         }
     }
 
-    /// A parameter or variable that hides the uniform.
+    /// Returns whether a parameter or variable hides the uniform.
     bool is_local() {
         if (is_word(-1) && !peek(-1).is("return") && !peek(-1).is("else"))
             hidden_.insert(peek(0).text);
@@ -342,7 +342,7 @@ private:
 
     void reserved() {
         const Token& token = peek(0);
-        // What a macro of that name stands for is none of our business; once a name is enough.
+        // A macro of that name is not checked; each name is reported once.
         if (!is_one_of(token.text, k_es_reserved) || macros_.contains(token.text) ||
             !reported_.insert(token.text).second)
             return;
@@ -369,7 +369,7 @@ private:
                             token.text));
     }
 
-    /// `float x = 1;` and, outside functions, a value that is not constant.
+    /// Checks `float x = 1;` and, outside functions, values that are not constant.
     void declaration() {
         const std::string_view type = peek(0).text;
         if (!value_type(type) || !is_word(1) || !peek(2).is("="))
@@ -389,7 +389,7 @@ private:
 
     bool in_parentheses() const { return peek(-1).is("(") || peek(-1).is(",") || peek(-1).is("in"); }
 
-    /// Speaks of uniforms only: whether a name of the author's own is constant takes a compiler.
+    /// Checks uniforms only: only a compiler can decide whether other names are constant.
     void global_value() {
         for (long i = 3; !peek(i).text.empty() && !peek(i).is(";"); ++i) {
             const Token& part = peek(i);
@@ -411,13 +411,14 @@ private:
     bool common_;
     size_t at_ = 0;
     int braces_ = 0;
-    bool in_function_ = false;                        ///< the last brace outside of others opened a body
-    std::unordered_map<std::string_view, int> opens_; ///< braces of macros that do not close them
+    bool in_function_ = false;                        ///< the last brace at depth 0 opened a function body
+    /// macros that open or close more braces than the reverse, with the difference
+    std::unordered_map<std::string_view, int> opens_;
     std::unordered_set<std::string_view> defined_;    ///< macros and functions
     std::unordered_set<std::string_view> macros_;
     std::unordered_set<std::string_view> reported_;
     std::unordered_set<std::string_view> hidden_;
-    std::vector<std::pair<size_t, Diagnostic>> found_; ///< by offset
+    std::vector<std::pair<size_t, Diagnostic>> found_; ///< with the offset of each
 };
 
 } // namespace

@@ -1,6 +1,6 @@
-// `tidemark check --portable`: what ShaderToy's own compiler (GLSL ES 3.00, in a browser) will refuse
-// although a desktop driver takes it. Reads the texts alone and speaks only when it is sure; a compiler for
-// that language (PassReading::site_source) finds the rest.
+// `tidemark check --portable`: finds code that a desktop driver accepts but ShaderToy's compiler (GLSL ES
+// 3.00, in a browser) will reject. Reads the texts only and reports only certain problems; an ES compiler
+// finds the rest (PassReading::site_source).
 #pragma once
 
 #include "glsl/pass_reading.hpp"
@@ -11,11 +11,11 @@
 
 namespace tidemark::glsl {
 
-/// One warning for each place, in the order of the scene's passes (Common first), with what to write instead.
+/// Returns one warning for each place, with a replacement, in the order of the scene's passes (Common first).
 std::vector<Diagnostic> portability_lint(const scene::Scene& scene);
 
-/// Whether a driver's message is about what the site takes: a parameter without a name, or a function of
-/// GLSL's own that the text defines again.
+/// Returns whether a driver's message is about something that ShaderToy accepts: an unnamed parameter, or a
+/// built-in function that the text redefines.
 bool is_taken_by_the_site(const PassReading& reading, std::string_view message);
 
 } // namespace tidemark::glsl

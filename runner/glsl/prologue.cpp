@@ -9,7 +9,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// WebGL 2 has these; `330 core` needs to be told.
+/// Features of WebGL 2 that `330 core` has only as extensions.
 constexpr std::string_view k_core_330 = R"(#version 330 core
 #extension GL_ARB_shading_language_packing : enable
 #extension GL_ARB_shading_language_420pack : enable
@@ -19,8 +19,9 @@ constexpr std::string_view k_core_330 = R"(#version 330 core
 #extension GL_ARB_arrays_of_arrays : enable
 )";
 
-/// Samplers too: by default they are lowp, and Mesa then reads float buffers as halves. An author's own word
-/// for less is nothing on a desktop, where the scene was written.
+/// Covers samplers too: their default is lowp, and Mesa then reads float buffers as halves. The macros
+/// disable lower precisions in the author's text, since those have no effect on a desktop, where the scene
+/// was written.
 constexpr std::string_view k_es_precision = R"(precision highp float;
 precision highp int;
 precision highp sampler2D;
@@ -30,9 +31,9 @@ precision highp sampler3D;
 #define lowp highp
 )";
 
-/// The corner comes from the vertex shader: what is flat is there for nothing, where a driver that draws on
-/// the CPU looks a uniform up for every few pixels anew. Halves below 2^23 and whole numbers add without
-/// rounding; `precise` keeps a compiler from mixing this sum with the author's own.
+/// The corner comes from the vertex shader: a flat input costs nothing, while drivers that draw on the CPU
+/// reload a uniform for every few pixels. Multiples of 0.5 below 2^23 add without rounding; `precise` keeps a
+/// compiler from merging this sum with the author's code.
 constexpr const char* k_tile = R"(flat in vec2 tidemark_corner;
 vec4 tidemark_frag_coord() {{
     {}vec4 at = gl_FragCoord + vec4(tidemark_corner, 0.0, 0.0);
@@ -59,7 +60,8 @@ constexpr std::string_view k_paint_assertions =
                                                     : vec3(1.0, 1.0, 0.0);
 )";
 
-/// 51 of 255: image::k_non_finite_alpha. By the bits, which no optimiser takes for granted.
+/// 0.2 is 51 of 255: image::k_non_finite_alpha. Tests the bits, because optimisers may assume that numbers
+/// are finite.
 constexpr const char* k_mark_non_finite =
     R"(    if (any(equal(floatBitsToUint({0}.rgb) & uvec3(0x7f800000u), uvec3(0x7f800000u))))
         {0}.a = 0.2;
@@ -122,14 +124,14 @@ std::string macros(const Survey& survey, const Dialect& dialect) {
         if (found == survey.names.end() || found->second.count == 0 || found->second.function ||
             found->second.macro)
             continue;
-        // A uniform of that name that we took out is ours to provide.
+        // The author's uniform of that name was removed, so the macro must replace it.
         if (!found->second.variable && !survey.keeps_uniform(old.name))
             text += fmt::format("#define {} {}\n", old.name, old.today);
     }
     return text;
 }
 
-/// The site's four; all of the extension's for a text that reads one of the others.
+/// Returns ShaderToy's four channels, or all of the VS Code extension's if the text reads one of the others.
 int channel_count(const Survey& survey) {
     for (size_t i = scene::k_site_channel_count; i < k_channel_names.size(); ++i)
         if (survey.wants(k_channel_names[i]))
@@ -144,7 +146,7 @@ std::string declare(const Survey& survey, std::string_view type, std::string_vie
                       : fmt::format("uniform {} {};\n", type, name);
 }
 
-/// What the site has; its arrays may be longer than there.
+/// Declares ShaderToy's uniforms; the arrays may be longer than ShaderToy's.
 std::string site_uniforms(const scene::Pass& pass, const Survey& survey, const Dialect& dialect,
                           int channels) {
     std::string text;
@@ -164,7 +166,7 @@ std::string site_uniforms(const scene::Pass& pass, const Survey& survey, const D
     return text;
 }
 
-/// The extension's, and knobs.
+/// Declares the uniforms of the VS Code extension, and knobs.
 std::string more_uniforms(const scene::Scene& scene, const Survey& survey, const Dialect& dialect) {
     std::string text;
     for (size_t i = k_channel_structs.size(); i < k_channel_names.size(); ++i)

@@ -1,4 +1,4 @@
-// Our own lines around an author's text: what stands before it, and the `main` that calls its entry point.
+// Generated code around an author's text: the lines before it, and the `main` that calls its entry point.
 #pragma once
 
 #include "glsl/dialect.hpp"
@@ -10,25 +10,26 @@
 
 namespace tidemark::glsl {
 
-/// #version and what must follow it at once; what every text needs untouched. `extensions` are the author's
-/// own lines that go to the top.
+/// Returns #version and the lines that must follow it directly, which promotion must not change. `extensions`
+/// are the author's #extension lines.
 std::string version_lines(const Dialect& dialect, std::span<const std::string> extensions);
 
-/// From there to the last helper.
+/// Returns the lines between version_lines and the author's text: macros, uniforms, output, helper functions.
 std::string prologue(const scene::Scene& scene, const scene::Pass& pass, const Survey& survey,
                      const Dialect& dialect);
 
-/// All that the site puts in front of a text. It has no old names and no knobs.
+/// Returns everything that ShaderToy puts before a text; no aliases for old names and no knobs.
 std::string site_prologue(const scene::Pass& pass, const Survey& survey, const Dialect& dialect);
 
 struct Wrapper {
-    std::string prototype; ///< so that `main` can stand first
+    std::string prototype; ///< lets `main` come first
     std::string main;
 };
 
 Wrapper wrapper(const scene::Pass& pass, const Survey& survey, const Dialect& dialect);
 
-/// `isKeyDown(int)` and its kind, with the `Key_` constants of the VS Code extension: `#iKeyboard`.
+/// Returns `isKeyDown(int)` and related functions, with the VS Code extension's `Key_` constants:
+/// `#iKeyboard`.
 std::string keyboard_helpers();
 
 } // namespace tidemark::glsl

@@ -14,7 +14,7 @@ using text::Edit;
 using text::Token;
 using text::TokenKind;
 
-/// Families of extensions that a desktop driver, and one that takes ES, may know.
+/// Prefixes of extensions that a desktop driver, or a driver for GLSL ES, may support.
 constexpr std::string_view k_desktop_extensions[] = {"GL_ARB_", "GL_EXT_", "GL_KHR_",   "GL_NV_",
                                                      "GL_AMD_", "GL_ATI_", "GL_INTEL_", "GL_MESA_"};
 constexpr std::string_view k_es_extensions[] = {"GL_OES_", "GL_EXT_", "GL_KHR_"};
@@ -38,7 +38,7 @@ public:
             if (uniform.replaced)
                 remove(uniform.begin, uniform.end);
         for (size_t nul = text_.find('\0'); nul != std::string_view::npos; nul = text_.find('\0', nul + 1))
-            result_.edits.push_back({nul, nul + 1, " "}); // would end the text for some drivers
+            result_.edits.push_back({nul, nul + 1, " "}); // NUL would end the text for some drivers
         if (dialect_.main == MainPlace::author && !survey_.mains.empty())
             for (const size_t name : survey_.mains)
                 rename(tokens_[name], k_author_main);
@@ -81,8 +81,8 @@ private:
             renames_.emplace("gl_FragColor", k_output);
     }
 
-    /// #version and #line are ours to say; an #extension goes to the top or, when no driver of that kind can
-    /// know it, nowhere.
+    /// Removes #version and #line, which Tidemark writes itself. Moves an #extension to the top, or drops it
+    /// if no driver of that kind can support it.
     void directive(size_t hash) {
         const size_t end = text::end_of_directive(tokens_, hash);
         if (hash + 1 >= end)
@@ -101,14 +101,15 @@ private:
             families = k_es_extensions;
         const bool known = std::any_of(families.begin(), families.end(),
                                        [&](std::string_view family) { return name.starts_with(family); });
-        std::string line = fmt::format("#extension {} : enable\n", name); // never `require`: try and see
+        // `enable` instead of `require`, so that compilation continues without it
+        std::string line = fmt::format("#extension {} : enable\n", name);
         auto& lines = result_.extensions;
         if (known && std::find(lines.begin(), lines.end(), line) == lines.end())
             lines.push_back(std::move(line));
     }
 
-    /// We define GL_ES ourselves; a driver would refuse to. A comma behind the last parameter is nothing to
-    /// the site's preprocessor.
+    /// Removes definitions of GL_ES, which Tidemark defines and drivers reject. Removes a comma after the
+    /// last parameter, which ShaderToy's preprocessor ignores.
     void macro_line(const MacroLine& macro) {
         if (macro.name == "GL_ES")
             remove(tokens_[macro.hash].begin, tokens_[macro.end - 1].end());
@@ -120,7 +121,7 @@ private:
     void token(size_t i) {
         const Token& token = tokens_[i];
         if (token.kind == TokenKind::punctuation) {
-            // A stray byte, as from a no-break space, is blank to the site's preprocessor.
+            // ShaderToy's preprocessor treats a stray byte, as from a no-break space, as a blank.
             if ((unsigned char)(token.text[0]) >= 0x80)
                 rename(token, " ");
             return;
@@ -134,7 +135,7 @@ private:
         }
     }
 
-    /// In the order of the text; what stands in a part that is removed goes with it.
+    /// Sorts edits by place, and drops those inside a removed part.
     void sort_edits() {
         auto& edits = result_.edits;
         std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) {

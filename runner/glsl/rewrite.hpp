@@ -1,5 +1,5 @@
-// The changes that an author's text needs before the driver takes it, as edits that move no line. Most texts
-// need none.
+// Makes the edits that an author's text needs before a driver accepts it; no line moves. Most texts need
+// none.
 #pragma once
 
 #include "glsl/dialect.hpp"
@@ -11,38 +11,42 @@
 
 namespace tidemark::glsl {
 
-/// What the `GL_ES` and the `__VERSION__` of a text become on a desktop version.
+/// Names that replace `GL_ES` and `__VERSION__` in desktop versions.
 inline constexpr std::string_view k_es_macro = "tidemark_GL_ES";
 inline constexpr std::string_view k_version_macro = "tidemark_VERSION";
-/// In front of a reserved word that the text uses as a name.
+/// Prefix for a reserved name that the text uses as an identifier.
 inline constexpr std::string_view k_renamed = "st_";
-/// What the author's own `main` is called where ours calls it.
+/// New name of the author's own `main`.
 inline constexpr std::string_view k_author_main = "tidemark_author_main";
-/// Our output, and what an author's `gl_FragColor` becomes.
+/// The shader's output; also replaces the author's `gl_FragColor`.
 inline constexpr std::string_view k_output = "tidemark_color";
 
 struct Rewriting {
     std::vector<text::Edit> edits;       ///< sorted, without overlap
-    std::vector<std::string> extensions; ///< the text's own #extension lines that go to the top
-    std::string functions;               ///< of ours, and macros, that the edited text uses
+    std::vector<std::string> extensions; ///< #extension lines to move to the top
+    std::string functions;               ///< helper functions and macros for the edited text
 };
 
 Rewriting rewrite(std::string_view text, const std::vector<text::Token>& tokens,
                   const Preprocessed& preprocessed, const Survey& survey, const Dialect& dialect);
 
-/// Without the directives that stand among the arguments of a macro; see conditional_arguments.cpp.
+/// Returns edits that remove the directives among the arguments of a macro, which Mesa's preprocessor rejects
+/// and ShaderToy's does not; the inactive tokens between them are removed too. Calls whose conditions are
+/// unknown are left unchanged.
 std::vector<text::Edit> settle_arguments(const std::vector<text::Token>& tokens,
                                          const Preprocessed& preprocessed);
 
 struct PlainNames {
-    std::string macros; ///< go in front of the text
+    std::string macros; ///< to be put before the text
     std::vector<text::Edit> edits;
 };
 
-/// Other names for what is no call of the macro of that name; see conditional_arguments.cpp.
+/// Renames uses of a macro's name that are not calls. Mesa takes `(NAME)` for the begin of a call that
+/// contains the next directive if NAME is a macro with arguments.
 PlainNames name_plainly(const std::vector<text::Token>& tokens, const Preprocessed& preprocessed);
 
-/// A blank where two signs would meet once the macros are expanded; see spacing.cpp.
+/// Returns edits that insert a blank where two signs would meet after macro expansion. Mesa's preprocessor
+/// passes its result on as text: where `-` precedes a macro that begins with `-`, its compiler reads `--`.
 std::vector<text::Edit> separate_signs(const std::vector<text::Token>& tokens,
                                        const Preprocessed& preprocessed);
 

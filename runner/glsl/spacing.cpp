@@ -1,5 +1,3 @@
-// Mesa's preprocessor hands its result on as text: where `-` meets a macro that begins with `-`, the compiler
-// reads `--`. A blank between them keeps them apart, as they are on the site.
 #include "glsl/rewrite.hpp"
 
 #include <unordered_map>
@@ -43,7 +41,7 @@ private:
             trailing_[macro.name] = tokens_[macro.end - 1].text;
     }
 
-    /// What a macro with parameters stands for may begin with a sign, its own or an argument's.
+    /// The replacement of a macro with parameters may begin with a sign, its own or an argument's.
     bool may_meet(size_t i) const {
         const Token& before = tokens_[i - 1];
         if (is_sign(before))
@@ -64,7 +62,7 @@ private:
     const std::vector<Token>& tokens_;
     const Preprocessed& preprocessed_;
     std::unordered_set<std::string_view> functions_;                  ///< macros with parameters
-    std::unordered_map<std::string_view, std::string_view> trailing_; ///< with the sign they end in
+    std::unordered_map<std::string_view, std::string_view> trailing_; ///< macros that end in a sign
     std::vector<Edit> edits_;
 };
 

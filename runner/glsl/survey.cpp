@@ -13,7 +13,7 @@ namespace {
 using text::Token;
 using text::TokenKind;
 
-/// Names that are looked for and stand in no table of words.hpp.
+/// Names of interest that are not in another table.
 constexpr std::string_view k_other_names[] = {"GL_ES",
                                               "__VERSION__",
                                               "gl_FragColor",
@@ -43,7 +43,7 @@ std::unordered_map<std::string_view, NameUse> names_of_interest() {
     return names;
 }
 
-/// The parameters of an entry point as our prototype has them, `in` left out.
+/// Returns the parameter types of an entry point as in Tidemark's prototype, without `in`.
 std::span<const std::string_view> plain_parameters(scene::PassKind kind) {
     static constexpr std::string_view k_image[] = {"vec4", "vec2"};
     static constexpr std::string_view k_cubemap[] = {"vec4", "vec2", "vec3", "vec3"};
@@ -79,7 +79,7 @@ public:
 
 private:
     const std::vector<size_t>& code() const { return preprocessed_.code; }
-    /// A token of the code, counted from the one being read.
+    /// Returns a token of the code, relative to the current one.
     const Token& peek(long offset) const {
         static const Token k_none;
         const long i = long(at_) + offset;
@@ -87,7 +87,7 @@ private:
     }
     bool is_word(long offset) const { return peek(offset).kind == TokenKind::identifier; }
 
-    /// Most words of a text differ from all names of interest in length or first letter already.
+    /// Hash of length and first letter: most identifiers differ from all names of interest in it.
     static size_t shape(std::string_view name) {
         return (name.size() % 32) * 128 + ((unsigned char)(name[0]) & 127);
     }
@@ -99,7 +99,7 @@ private:
         return found == result_.names.end() ? nullptr : &found->second;
     }
 
-    /// Macro bodies count, and so does what no longer does anything: a needless alias does no harm.
+    /// Counts macro bodies and inactive code too: a needless alias is harmless.
     void count_names() {
         bool in_layout = false;
         for (size_t i = 0; i < tokens_.size(); ++i) {
@@ -163,7 +163,7 @@ private:
             use->variable = true;
     }
 
-    /// Here is a word behind a word and before a parenthesis: in GLSL that is a function's own name.
+    /// Handles an identifier between another one and a parenthesis: in GLSL that declares a function.
     void read_function() {
         const Token& name = peek(0);
         if (peek(-1).is("return") || peek(-1).is("else") || peek(-1).is("case"))
@@ -179,7 +179,7 @@ private:
         read_entry();
     }
 
-    /// Whether `{` follows the parameters.
+    /// Returns whether `{` follows the parameters.
     bool has_body() const {
         long i = 1;
         do {
@@ -188,7 +188,7 @@ private:
         return peek(i).is(")") && peek(i + 1).is("{");
     }
 
-    /// However unfinished they are: parameters hold no parentheses.
+    /// Parameters have no parentheses; also stops in incomplete text.
     static bool ends_parameters(const Token& token) {
         return token.text.empty() || token.is(")") || token.is("(") || token.is("{") || token.is(";");
     }
@@ -264,7 +264,8 @@ private:
         --at_;
     }
 
-    /// Ours is the same, and the author's own would come too late or may not come at all.
+    /// Returns whether Tidemark's declaration is equal, and needed because the author's comes too late or may
+    /// be inactive.
     bool can_replace(const UniformDeclaration& declaration, size_t token) const {
         const auto wanted = uniforms_of_wrapper(kind_);
         bool needed = declaration.activity == Activity::unknown;
@@ -277,7 +278,7 @@ private:
         return needed;
     }
 
-    /// `[4]`; false when it is something that we do not read.
+    /// Reads `[4]`; returns false for any other length.
     bool read_length(int& length) {
         if (!peek(0).is("["))
             return true;

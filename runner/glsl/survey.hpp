@@ -1,5 +1,5 @@
-// What must be known of a text before a prologue is written for it: its entry points, what it declares
-// itself, and which of the names we could provide it uses. Reads tokens; changes nothing.
+// Collects what the prologue depends on: the text's entry points, its own declarations, and its uses of names
+// that Tidemark can provide. Reads tokens; changes nothing.
 #pragma once
 
 #include "glsl/syntax/preprocess.hpp"
@@ -18,7 +18,7 @@ namespace tidemark::glsl {
 struct OwnUniform {
     std::string_view name;
     std::string_view type;
-    bool same_as_site = false; ///< same type and length as the site's: either declaration will do
+    bool same_as_site = false; ///< same type and length as ShaderToy's, so either declaration works
 };
 
 /// One `uniform …;` of the author's.
@@ -27,51 +27,52 @@ struct UniformDeclaration {
     size_t end = 0;
     std::vector<OwnUniform> names;
     Activity activity = Activity::active;
-    bool replaced = false; ///< ours stands for it: the same type, and needed earlier or in doubt
+    bool replaced = false; ///< removed in favour of Tidemark's: the same type, and needed earlier or in doubt
 };
 
-/// What the text does with a name that we could provide or must rename.
+/// How the text uses a name that Tidemark can provide or must rename.
 struct NameUse {
     size_t count = 0;
-    size_t first = 0;       ///< where it is used first, as an index of tokens
+    size_t first = 0;       ///< token index of the first use
     bool function = false;  ///< defined as a function
     bool macro = false;     ///< defined as a macro
     bool variable = false;  ///< declared as a global variable
-    bool qualifier = false; ///< stands before another word, or in layout(…): used as the keyword it is
+    bool qualifier = false; ///< precedes another identifier, or is in layout(…): used as a keyword
 
     bool defined() const { return function || macro || variable; }
 };
 
 struct Survey {
-    std::unordered_map<std::string_view, NameUse> names; ///< of knobs, and those that words.hpp has
+    /// knobs, and the fixed names that survey() looks for
+    std::unordered_map<std::string_view, NameUse> names;
     std::vector<UniformDeclaration> uniforms;
-    std::vector<size_t> entries; ///< the name of each definition of the entry point, as an index of tokens
-    bool entry_is_macro = false; ///< golf: `#define mainImage(O,U) …`
-    bool entry_is_plain = false; ///< the definition has the parameters that our prototype has
-    bool entry_reads_colour = false;     ///< its colour is `inout`
+    std::vector<size_t> entries; ///< the name's token index in each definition of the entry point
+    bool entry_is_macro = false; ///< common in code golf: `#define mainImage(O,U) …`
+    bool entry_is_plain = false; ///< the definition has the parameters of Tidemark's prototype
+    bool entry_reads_colour = false;     ///< its colour parameter is `inout`
     bool entry_takes_one = false;        ///< its only parameter is a vector
     bool entry_in_macro = false;         ///< `#define main() mainImage(out vec4 …)`
     bool sound_takes_time_alone = false; ///< `mainSound(float time)`
-    std::vector<size_t> mains;           ///< the name of each `void main()` of the author's own
+    std::vector<size_t> mains;           ///< the name's token index in each `void main()` of the author
     bool main_is_macro = false;
-    bool discards = false;       ///< or may do so
+    bool discards = false;       ///< may discard pixels
     std::string_view own_output; ///< `out vec4 NAME;`
     std::string_view own_output_type;
 
-    /// Declares that uniform in a way that ours cannot replace.
+    /// Returns whether the text declares that uniform in a way that Tidemark cannot replace.
     bool keeps_uniform(std::string_view name) const;
     bool uses(std::string_view name) const;
     bool defines(std::string_view name) const;
-    /// Used, and left to us to provide.
+    /// Returns whether the text uses the name and Tidemark must provide it.
     bool wants(std::string_view name) const { return uses(name) && !defines(name) && !keeps_uniform(name); }
 };
 
 std::string_view entry_point(scene::PassKind kind);
 
-/// The uniforms that our own `main` reads; an author's declaration of those must stand before it.
+/// Returns the uniforms that Tidemark's `main` reads; an author's declaration of those must precede it.
 std::span<const std::string_view> uniforms_of_wrapper(scene::PassKind kind);
 
-/// `knobs` are names that we could provide, too.
+/// Surveys a text. The names of `knobs` can be provided, too.
 Survey survey(const std::vector<text::Token>& tokens, const Preprocessed& preprocessed, scene::PassKind kind,
               std::span<const scene::Knob> knobs = {});
 

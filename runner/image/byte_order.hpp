@@ -1,4 +1,4 @@
-// Whole numbers of several bytes, as files hold them. The bytes must be there.
+// Reads integers of several bytes from a file's bytes. Does not check bounds.
 #pragma once
 
 #include <cstdint>

@@ -8,7 +8,7 @@ namespace {
 
 enum class Kind { ordinary, nan, positive_infinity, negative_infinity, subnormal, beyond_half };
 
-/// 65520: half way from the largest half to the next power of two, and rounded to infinity.
+/// 65520, half way from the largest half to the next power of two, rounds to infinity.
 constexpr uint32_t k_beyond_half = 0x477ff000u;
 
 Kind kind_of(uint32_t bits) {

@@ -1,5 +1,5 @@
-// How many samples of a picture are not ordinary numbers, and where the first of them is. Judges by bits,
-// so that no compiler flag and no flush to zero changes the answer.
+// Counts the samples of a picture that are not ordinary numbers, and locates the first. Tests bits, so that
+// neither compiler flags nor flush to zero change the result.
 #pragma once
 
 #include "image/image.hpp"
@@ -35,13 +35,14 @@ struct FiniteCensus {
 
 FiniteCensus census(const Image& image);
 
-/// How many pixels of a picture of floats have an alpha below 0 or above 1; NaN is neither.
+/// Counts the pixels of a picture of floats whose alpha is below 0 or above 1. Ignores NaN.
 size_t pixels_of_no_coverage(const Image& image);
 
-/// The alpha of a pixel of bytes that was no number when it was drawn: bytes have no NaN of their own.
+/// Alpha of a byte pixel whose value was NaN or infinite when drawn, because bytes cannot hold these.
 inline constexpr uint8_t k_non_finite_alpha = 51;
 
-/// How many pixels hold a NaN or an infinity: floats by their bits, bytes by that alpha, which becomes 1.
+/// Counts the pixels with a NaN or an infinity: floats by their bits, bytes by k_non_finite_alpha, which it
+/// sets to 1.
 size_t take_non_finite(Image& image);
 
 } // namespace tidemark::image

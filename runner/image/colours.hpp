@@ -1,4 +1,4 @@
-// The samples of a picture but for its alpha.
+// Copies the samples of a picture without its alpha.
 #pragma once
 
 #include "image/image.hpp"
@@ -7,7 +7,7 @@
 
 namespace tidemark::image {
 
-/// Of row `y`, bit by bit, of an image that has alpha.
+/// Copies the colours of row `y`, bit by bit. The image must have alpha.
 void copy_colours(const Image& image, int y, std::byte* to);
 
 } // namespace tidemark::image

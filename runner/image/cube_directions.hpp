@@ -1,4 +1,4 @@
-// Which way the texels of a cubemap look: the table of the OpenGL specification (8.13) in both directions.
+// Converts between texels of a cubemap and directions, by the table of the OpenGL specification (8.13).
 #pragma once
 
 namespace tidemark::image {
@@ -16,10 +16,11 @@ struct CubePlace {
     double t = 0.0;
 };
 
-/// Not of unit length. s and t may lie outside 0..1: the direction through the face's plane there.
+/// Returns the direction of a place, not of unit length. For s and t outside 0..1 it is the direction to that
+/// point in the face's plane.
 Direction direction_of(const CubePlace& place);
 
-/// Where a direction, of any length but 0, meets the cube.
+/// Returns the intersection of a direction, of any length but 0, with the cube.
 CubePlace place_of(const Direction& direction);
 
 } // namespace tidemark::image

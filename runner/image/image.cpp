@@ -17,8 +17,8 @@ bool last_channel_is(std::span<const Sample> samples, size_t channels, Sample va
     return true;
 }
 
-/// Of pixels of that many bytes the first ones. Each pixel is copied whole,
-/// and its surplus written over by the next: one move instead of one for each sample.
+/// Copies the first `kept` bytes of each pixel. Copies whole pixels, each overwriting the surplus of the
+/// last: one move per pixel instead of one per sample.
 template <size_t pixel, size_t kept>
 void copy_front(const std::byte* from, size_t count, std::byte* to) {
     for (; count > 1; --count, from += pixel, to += kept)

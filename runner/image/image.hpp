@@ -1,4 +1,5 @@
-// A picture in memory: plain samples, no file, no GL. Rows run from the bottom to the top, as OpenGL's do.
+// A picture in memory: plain samples, independent of files and GL. Rows run from the bottom to the top, as in
+// OpenGL.
 #pragma once
 
 #include "base/extent.hpp"
@@ -20,8 +21,8 @@ constexpr size_t size_of(SampleType type) {
     return type == SampleType::u8 ? 1 : 4;
 }
 
-/// `channels` interleaved samples a pixel: grey, grey and alpha, RGB or RGBA; row 0 is the bottom row; rows
-/// are not padded.
+/// Interleaved samples, `channels` per pixel: grey, grey and alpha, RGB or RGBA; row 0 is the bottom row;
+/// rows are not padded.
 struct Image {
     Extent extent;
     int channels = 4;
@@ -49,13 +50,13 @@ struct Image {
     bool operator==(const Image&) const = default;
 };
 
-/// The same picture upside down.
+/// Returns the picture upside down.
 Image flipped(const Image& image);
 
-/// Whether the picture has an alpha channel and it is 1 in every pixel.
+/// Returns whether the picture has an alpha channel that is 1 in every pixel.
 bool has_opaque_alpha(const Image& image);
 
-/// The picture without its alpha channel; the same picture when it has none.
+/// Returns the picture without its alpha channel; an unchanged copy when it has none.
 Image without_alpha(const Image& image);
 
 } // namespace tidemark::image

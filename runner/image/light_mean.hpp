@@ -1,6 +1,5 @@
-// The mean of pictures as light adds up, and as the eye or a film would take it: samples are taken as sRGB,
-// decoded, added and encoded again. A colour counts as much as it covers: by its straight alpha; where
-// nothing covers a pixel it is black.
+// Averages pictures in linear light, as the eye or a film does: samples are taken as sRGB, decoded, added and
+// encoded again. Colours are weighted by their straight alpha; a pixel with alpha 0 in all pictures is black.
 #pragma once
 
 #include "image/image.hpp"
@@ -9,15 +8,15 @@
 
 namespace tidemark::image {
 
-/// Of RGBA pictures in floats. A pixel that is NaN or infinite in one of them is so in the mean.
+/// Mean of RGBA pictures in floats. A pixel that is NaN or infinite in one of them is so in the mean.
 class LightMean {
 public:
-    /// `clamped`: colours beyond 0 to 1 count as what a display shows of them.
+    /// `clamped`: colours beyond 0 to 1 count as displayed.
     explicit LightMean(bool clamped) : clamped_(clamped) {}
 
-    /// Of the size of those before it.
+    /// Adds a picture, of the same size as those before.
     void add(const Image& picture);
-    /// Of all that were added; begins anew.
+    /// Writes the mean of the added pictures into `mean` and starts again.
     void take(Image& mean);
 
 private:

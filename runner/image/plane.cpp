@@ -7,7 +7,7 @@
 namespace tidemark::image {
 namespace {
 
-/// One pass: `step` is 1 along rows and the width along columns.
+/// Convolves a row or a column: `step` is 1 along rows and the width along columns.
 void convolve_line(const double* from, double* to, int length, size_t step, const Kernel& kernel) {
     const int radius = int(kernel.size() / 2);
     for (int i = 0; i < length; ++i) {
@@ -54,7 +54,7 @@ std::array<Plane, 3> shown_colours(const Image& image) {
     for (int i = 0; i < 3; ++i) {
         colours[size_t(i)] = channel_of(image, image.channels < 3 ? 0 : i);
         for (double& value : colours[size_t(i)].values)
-            value = value > 0.0 ? std::min(value, 1.0) : 0.0; // a NaN is not above 0
+            value = value > 0.0 ? std::min(value, 1.0) : 0.0; // NaN gives 0
     }
     return colours;
 }

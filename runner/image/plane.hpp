@@ -1,4 +1,5 @@
-// One number a pixel, and filters over them: what perceptual metrics are made of. No files, no colour.
+// Planes of one number per pixel, and filters for them, as perceptual metrics use them. Independent of files
+// and colour.
 #pragma once
 
 #include "base/extent.hpp"
@@ -10,7 +11,7 @@
 
 namespace tidemark::image {
 
-/// Rows from the bottom, as an Image has them.
+/// Rows run from the bottom, as in an Image.
 struct Plane {
     Extent extent;
     std::vector<double> values;
@@ -22,16 +23,17 @@ struct Plane {
 /// Weights for the offsets -radius..radius; their number is odd.
 using Kernel = std::vector<double>;
 
-/// exp(-x² / (2 deviation²)) for the offsets -radius..radius, not normalised.
+/// Returns exp(-x² / (2 deviation²)) for the offsets -radius..radius, not normalised.
 Kernel gaussian(double deviation, int radius);
 
-/// `row` along x, then `column` along y. Pixels beyond the edge are those of the edge.
+/// Convolves by `row` along x, then by `column` along y. Pixels beyond an edge equal those at the edge.
 Plane convolved(const Plane& plane, const Kernel& row, const Kernel& column);
 
-/// A channel of a picture: bytes as v / 255, floats as they are.
+/// Returns a channel of a picture: bytes as v / 255, floats unchanged.
 Plane channel_of(const Image& image, int channel);
 
-/// Red, green and blue as they are shown: clamped to 0..1, NaN as 0; of a grey picture three times the same.
+/// Returns red, green and blue as shown: clamped to 0..1, NaN as 0; of a grey picture the same plane three
+/// times.
 std::array<Plane, 3> shown_colours(const Image& image);
 
 } // namespace tidemark::image

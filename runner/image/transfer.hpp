@@ -1,19 +1,19 @@
-// The transfer function of sRGB (IEC 61966-2-1), between what a sample holds and the light that it stands
-// for. Below 0 and above 1 it goes on as scRGB's does: odd about 0, without a bound.
+// The transfer function of sRGB (IEC 61966-2-1) between a sample and linear light. It continues below 0 and
+// above 1 as in scRGB: odd about 0 and unbounded.
 #pragma once
 
 #include <cmath>
 
 namespace tidemark::image {
 
-/// What the samples of a file stand for. Colours are those of BT.709's primaries and white.
+/// Meaning of the samples of a file. Colours have BT.709's primaries and white.
 enum class Transfer {
-    data,  ///< numbers, such as the state that a buffer keeps: no colours
-    srgb,  ///< as a display takes them, which is what ShaderToy's Image writes
-    linear ///< light
+    data,  ///< numbers without colour, such as a buffer's state
+    srgb,  ///< display values, as ShaderToy's Image writes them
+    linear ///< linear light
 };
 
-/// Error: that of two roundings and of pow.
+/// Decodes a sample. The error is that of two roundings and of pow.
 inline double light_of_srgb(double sample) {
     const double size = std::abs(sample);
     return std::copysign(size <= 0.04045 ? size / 12.92 : std::pow((size + 0.055) / 1.055, 2.4), sample);

@@ -18,7 +18,7 @@ using namespace std::string_view_literals;
 constexpr std::string_view k_signature = "BIN\0"sv;
 constexpr size_t k_header = 20;
 
-/// What a file of so many bytes that begins so holds, without its samples.
+/// Parses the header in `file` for a file of `file_size` bytes; returns a volume without its samples.
 Result<VolumeData> described(std::string_view file, size_t file_size, const std::string& name) {
     const auto refuse = [&](std::string_view why) {
         return fail(ErrorCode::load, fmt::format("cannot read '{}': {}", name, why));
@@ -65,7 +65,7 @@ Result<VolumeData> volume_of(std::string_view file, const std::string& name) {
     return volume;
 }
 
-/// Its first bytes say whether it is worth reading all of it.
+/// Checks the header before it reads the whole file.
 Result<VolumeData> read_volume(const std::filesystem::path& path) {
     std::error_code error;
     if (const auto size = std::filesystem::file_size(path, error);

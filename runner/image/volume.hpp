@@ -1,4 +1,4 @@
-// A block of samples in three dimensions, and ShaderToy's file of one.
+// A block of samples in three dimensions, and ShaderToy's file format for it.
 #pragma once
 
 #include "base/result.hpp"
@@ -12,8 +12,8 @@
 
 namespace tidemark::image {
 
-/// `channels` interleaved samples a texel, x fastest, then y, then z: as OpenGL takes a 3-D texture and as
-/// the file stores it. Nothing is padded.
+/// Interleaved samples, `channels` per texel, x fastest, then y, then z, as in an OpenGL 3-D texture and in
+/// the file. Not padded.
 struct VolumeData {
     int width = 0;
     int height = 0;
@@ -26,16 +26,16 @@ struct VolumeData {
     bool operator==(const VolumeData&) const = default;
 };
 
-/// The largest side of a volume that is read, and the most bytes it may hold.
+/// Limits of a volume: texels on a side, and bytes of samples.
 inline constexpr int k_largest_volume_side = 512;
 inline constexpr size_t k_largest_volume = size_t{1} << 30;
 
 /// Reads ShaderToy's `.bin`: "BIN\0", width, height and depth as little-endian u32, u8 channels (1 to 4), u8
-/// layout (ignored, as the site does), u16 format (0: u8, 10: f32), then the samples and nothing else.
-/// ErrorCode::load names the file and what is wrong in it.
+/// layout (ignored, as on ShaderToy), u16 format (0: u8, 10: f32), then the samples and nothing else.
+/// ErrorCode::load names the file and the error.
 Result<VolumeData> read_volume(const std::filesystem::path& path);
 
-/// The same from the bytes of a file; `name` is what messages call it.
+/// Does the same for the bytes of a file; `name` is its name in messages.
 Result<VolumeData> volume_of(std::string_view file, const std::string& name);
 
 } // namespace tidemark::image

@@ -22,7 +22,7 @@ std::vector<bool> natural_loop(const Function& function, uint32_t header) {
     inside[header] = true;
     std::vector<uint32_t> open;
     for (const uint32_t predecessor : function.blocks[header].predecessors)
-        if (predecessor >= header) // what leads back stands behind
+        if (predecessor >= header) // a back edge: blocks come after those that dominate them
             open.push_back(predecessor);
     while (!open.empty()) {
         const uint32_t block = open.back();

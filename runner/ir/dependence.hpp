@@ -1,4 +1,5 @@
-// Which instructions depend on which, and what belongs to a loop.
+// Data dependence between instructions, and the blocks that belong to a loop. Input for program slicing;
+// nothing is changed.
 #pragma once
 
 #include "ir/function.hpp"
@@ -9,34 +10,34 @@ namespace tidemark::ir {
 
 bool overlap(const Access& a, const Access& b);
 
-/// The block of every instruction; that of constants is 0.
+/// Returns the index of the block of each instruction; 0 for constants.
 std::vector<uint32_t> blocks_of_instructions(const Function& function);
 
-/// The blocks that lie on a way from the loop's header back to it.
+/// Returns, for each block, whether it lies on a path from the loop's header back to it.
 std::vector<bool> natural_loop(const Function& function, uint32_t header);
 
-/// Those, and the ones in the loop's text that lead out of it, as before a `break`; empty where nothing leads
-/// back to the header.
+/// Returns the natural loop and the blocks in the loop's source text that leave it, such as the one before a
+/// `break`. Returns an empty vector if no block leads back to the header.
 std::vector<bool> text_of_loop(const Function& function, uint32_t header);
 
-/// What of a loop a value is computed from.
+/// The instructions of a loop that a value is computed from (backward slice within the loop).
 class Cone {
 public:
-    /// `inside` says of every instruction whether it is in the loop. Phis of the header and what `stops`
-    /// names are in the cone, and nothing beyond them.
+    /// `inside[i]` is true if instruction i is in the loop. The header's phis and the values in `stops` are
+    /// in the cone, but nothing that they are computed from.
     Cone(const Function& function, const std::vector<bool>& inside, uint32_t header,
          std::vector<Value> stops = {});
 
-    /// Sorted.
+    /// Returns the cone of `value`, sorted.
     std::vector<Value> of(Value value) const;
-    /// What a value in the loop is computed from at once: its operands; of a load the stores in the loop,
-    /// too, that may have written there.
+    /// Returns the direct sources of a value in the loop: its operands, and for a load also the stores in the
+    /// loop that may write the same cells.
     std::vector<Value> sources(Value value) const;
 
 private:
     const Function* function_;
     const std::vector<bool>* inside_;
-    std::vector<Value> stores_; ///< in the loop
+    std::vector<Value> stores_; ///< stores in the loop
     uint32_t first_phi_, last_phi_;
     std::vector<Value> stops_;
 };

@@ -1,6 +1,6 @@
-// Evaluates a Function over a number system. A system has a Value and says what an operation makes of values;
-// where it cannot decide a condition, or where an operation jumps within its operand, the evaluator is told
-// by Decisions which way to go, and whoever wants all ways runs it once for each.
+// Evaluates a Function over a number system. A system defines a Value and the result of each operation on
+// values. If it cannot decide a condition, or an operation jumps within its operand, Decisions choose the
+// path; a caller that needs all paths runs the evaluator once for each.
 #pragma once
 
 #include "ir/function.hpp"
@@ -16,13 +16,14 @@
 
 namespace tidemark::ir {
 
-/// Ways through the undecided conditions of a run, one after the other: the first run goes the first way
-/// everywhere, `next` turns to another way at the last place that has one left.
+/// Enumerates the paths through the undecided conditions of a run: the first run takes the first path at each
+/// of them, `next` switches to the other path at the last one that has a path left. `most`: how many
+/// decisions a run may take.
 class Decisions {
 public:
     explicit Decisions(size_t most) : most_(most) {}
 
-    /// No decisions are left: the run gives up.
+    /// True once a run needed more than `most` decisions; that run is cancelled.
     bool exhausted() const { return exhausted_; }
     void begin() { at_ = 0; }
     bool decide() {
@@ -32,7 +33,7 @@ public:
         }
         return ways_[at_++];
     }
-    /// Whether there is another run to make.
+    /// Prepares the next run; false if there is none.
     bool next() {
         ways_.resize(std::min(ways_.size(), at_));
         while (!ways_.empty() && ways_.back())
@@ -49,7 +50,7 @@ private:
     bool exhausted_ = false;
 };
 
-/// The value of a look-up, of its coordinates and levels.
+/// Returns the value of a texture look-up. The operands are the coordinates, then a level, bias or gradients.
 template <class Value>
 using Textures = std::function<Value(const Lookup& lookup, std::span<const Value> operands)>;
 
@@ -75,26 +76,27 @@ public:
     std::vector<Number>& memory() { return memory_; }
     const std::vector<Number>& memory() const { return memory_; }
 
-    /// Instructions of the last run.
+    /// Number of instructions that the last run executed.
     uint64_t steps() const { return steps_; }
 
     System& system() { return system_; }
 
     void unpin() { pinned_.clear(); }
-    /// Whatever the text computes there, it is this number.
+    /// Replaces the result of instruction `at` by `number` in all runs, until unpin().
     void pin(Value at, const Number& number) {
         pinned_.push_back(at);
         values_[at] = number;
     }
 
     Textures<Number> textures{};
-    /// Derivatives along x and y of an operand. Where there is none, and no textures, the value is unknown.
+    /// Returns the derivative of an operand along x or y. If this or `textures` is not set, such values are
+    /// unknown.
     std::function<Number(Op, Value)> derivative{};
-    uint64_t most_steps = 50'000'000; ///< instructions
-    bool splits = false;              ///< asks the decisions at jumps, too
+    uint64_t most_steps = 50'000'000; ///< limit of a run, in instructions
+    bool splits = false; ///< also splits operands at jumps, by a decision each
 
-    /// From `block` on, entered from its predecessor `from`. `visit` is called behind each block with its
-    /// index, and ends the run where it gives false.
+    /// Runs from `block` on, entered from its predecessor `from`. `visit` is called with the index of each
+    /// block after it has run, and ends the run by returning false.
     template <class Visit>
     Ended run(Decisions& decisions, Visit visit, uint32_t block = 0, uint32_t from = 0) {
         decisions.begin();
@@ -116,7 +118,7 @@ public:
         }
     }
 
-    /// The phis of `block` as entered from `from`, all at once.
+    /// Assigns the phis of `block`, entered from `from`, simultaneously.
     void enter(uint32_t block, uint32_t from) {
         const Block& here = function_->blocks[block];
         const auto& predecessors = here.predecessors;
@@ -143,8 +145,8 @@ private:
             if (!pinned || !is_pinned(i))
                 execute(i, decisions);
     }
-    /// Results are made in their places: a copy, read while its members are being written, makes the machine
-    /// wait.
+    /// Constructs results in place: copying a result while its members are still being written stalls the
+    /// CPU.
     void execute(uint32_t index, Decisions& decisions) {
         const Instruction& instruction = function_->instructions[index];
         const auto operands = function_->operands_of(instruction);
@@ -207,7 +209,7 @@ private:
             memory_[cell] = low == high ? what : system_.hull(memory_[cell], what);
     }
 
-    /// The index of the successor that is taken.
+    /// Returns the index of the successor to take.
     size_t way(const Block& block, Decisions& decisions) {
         if (block.end == Block::End::jump)
             return 0;
@@ -231,7 +233,7 @@ private:
     System system_;
     std::vector<Number> values_, memory_;
     std::vector<Number> entering_;
-    std::vector<Value> pinned_; ///< few
+    std::vector<Value> pinned_; ///< few entries
     uint64_t steps_ = 0;
 };
 

@@ -8,19 +8,20 @@ namespace tidemark::ir {
 namespace {
 
 constexpr double k_first_part = 1.0 / 16;
-/// Over larger parts too many ways are open for a close look.
+/// Share of the ray's length: longer pieces have too many open paths for a closer evaluation.
 constexpr double k_looked_at = 1.0 / 256;
-/// Of the ray's length: near the start a hit is not narrowed down further than by the relative width of that,
-/// or of the distance there if it is less.
+/// Share of the ray's length: a hit nearer to the start is narrowed down relative to that length, or to the
+/// distance at the start if that is less.
 constexpr double k_near_part = 1e-2;
-/// How far behind a place that may be one a hit is looked for: so often the width is doubled.
+/// How often the width is doubled in the search for a certain hit after a possible one.
 constexpr int k_doublings = 10;
-/// For the roundings of a quotient.
+/// Allowance for rounding in quotients.
 constexpr double k_shorter = 1 - 1e-12;
-/// Wider than a slope makes it.
+/// A piece whose field is this many times wider than its parameter counts as a jump.
 constexpr double k_jump = 1e3;
 
-/// Whether to ask again what did not help last time: after each failure twice as many times not, up to a few.
+/// Backs off from a method that failed: after each failure it is skipped twice as often as before (plus one),
+/// up to 7 times in a row.
 class Patience {
 public:
     bool ask(bool needed) {
@@ -76,15 +77,15 @@ private:
     }
     double narrowest(double at) const { return relative_width_ * std::max(std::abs(at), near_); }
 
-    /// What is proved of a cell.
+    /// The proved facts about a cell.
     struct Look {
-        double free = 0;                ///< so far from its low end there is no hit
-        std::optional<double> hit_by{}; ///< there is one up to here
+        double free = 0; ///< length from the cell's low end that has no hit
+        std::optional<double> hit_by{}; ///< there is a hit at or before this place
     };
 
-    /// Where slopes told more of the last cell than bounds, they are looked at first. What did not help is
-    /// not asked at every cell; at the narrowest all are. A closer look costs a run for each way: it is taken
-    /// where the others leave it open.
+    /// If slopes excluded more of the last cell than bounds did, they are evaluated first. Methods that
+    /// failed are not tried at every cell, except at the narrowest ones, where all are tried. Close
+    /// evaluation costs one run for each path, so it comes last.
     Look look_at(const Interval& cell) {
         const Look all{cell.width()};
         const bool narrow = cell.width() <= narrowest(cell.low);
@@ -110,8 +111,8 @@ private:
 
     bool is_free(const Interval& cell, Care care) { return slice_.excludes_hit(slice_.distance(cell, care)); }
 
-    /// By the mean value theorem: the field falls no faster than the lowest slope, and as fast as the
-    /// highest.
+    /// Applies the mean value theorem: the field falls at most as fast as the lowest slope, and at least as
+    /// fast as the highest.
     Look by_slope(const Interval& cell, const Interval& slope) {
         const auto here = slice_.distance(place_at(cell.low), Care::thorough);
         if (!here || here->partial || !(here->low > 0))
@@ -134,7 +135,7 @@ private:
         return look.free > narrowest(cell.low) ? std::clamp(2 * look.free, width / 8, width / 2) : width / 4;
     }
 
-    /// Of a march that does not leave it.
+    /// Decides the hit at the start, for a march that does not leave it.
     FirstHit at_start() {
         const Interval start{last_, last_};
         const auto here = slice_.distance(place_at(last_), Care::thorough);
@@ -146,7 +147,8 @@ private:
                       here->partial ? FirstHit::Reason::not_finite : FirstHit::Reason::grazing);
     }
 
-    /// Somewhere from here on it is surely below the threshold, or that is not known.
+    /// Decides a cell of the least width: looks for a place after it that is certainly below the threshold,
+    /// else gives the reason why the cell is undecided.
     FirstHit at_narrow(const Interval& cell) {
         double reach = cell.width();
         for (int i = 0; i < k_doublings; ++i, reach *= 2) {

@@ -1,5 +1,5 @@
 // A pass as one function in static single assignment (SSA) form over scalars: vectors, matrices and structs
-// are taken apart, all calls are inlined. Plain data; evaluating it is evaluate.hpp's business.
+// are split into components, and all calls are inlined. Plain data; evaluate.hpp evaluates it.
 #pragma once
 
 #include "ir/source_names.hpp"
@@ -15,27 +15,27 @@ namespace tidemark::ir {
 
 enum class Scalar : uint8_t { real, signed_int, unsigned_int, boolean };
 
-/// The index of the instruction that computes it.
+/// Index of the instruction that computes the value.
 using Value = uint32_t;
 inline constexpr Value k_no_value = ~Value{0};
 
-/// What an instruction computes of its operands a, b, c. Where the type decides (add of reals or of whole
-/// numbers, less of signed or unsigned ones) it is the type of the operand a.
+/// Operation of an instruction on its operands a, b, c. If the type selects the operation (`add` of reals or
+/// of whole numbers, `less` of signed or unsigned numbers), it is the type of operand a.
 enum class Op : uint8_t {
-    constant,  ///< immediate: its bits
+    constant, ///< immediate: the bits of the value
     undefined, ///< any value
-    phi,       ///< one operand for each predecessor of its block
-    load,      ///< of the access `immediate`; a: the offset in it, absent where that is fixed
-    store,     ///< of a into the access `immediate`; b: the offset, as in load
+    phi, ///< one operand for each predecessor of the block
+    load, ///< of the access `immediate`; a: the offset in it, absent if it is fixed
+    store, ///< of a into the access `immediate`; b: the offset, as for `load`
 
     add,
     subtract,
     multiply,
     divide,
-    modulo,    ///< x - y floor(x / y); of whole numbers the remainder with the sign of y
+    modulo, ///< x - y floor(x / y); for whole numbers the remainder with the sign of y
     remainder, ///< with the sign of x
     negate,
-    square, ///< a a
+    square, ///< a * a
     absolute,
     sign,
     minimum,
@@ -57,7 +57,7 @@ enum class Op : uint8_t {
     asin,
     acos,
     atan,
-    atan2, ///< of a / b
+    atan2, ///< atan of a / b, by quadrant
     sinh,
     cosh,
     tanh,
@@ -79,7 +79,7 @@ enum class Op : uint8_t {
     bit_xor,
     bit_not,
     shift_left,
-    shift_right, ///< with the sign of signed numbers
+    shift_right, ///< arithmetic shift for signed numbers
     bit_count,
     lowest_bit,
     highest_bit,
@@ -88,25 +88,25 @@ enum class Op : uint8_t {
     less,
     less_equal,
     equal,
-    not_equal, ///< of NaN too
+    not_equal, ///< true for NaN
     is_nan,
     is_inf,
     logical_and,
     logical_or,
     logical_not,
     select,   ///< a ? b : c
-    narrowed, ///< a; b is the same in real arithmetic (real_identities.hpp)
+    narrowed, ///< a; b is equal in real arithmetic (real_identities.hpp) and may have narrower bounds
 
-    to_real, ///< of a whole number
-    to_int,  ///< of a real, towards zero
+    to_real, ///< from a whole number
+    to_int, ///< from a real number, rounded towards zero
     bits_as, ///< the same 32 bits as another type
 
-    texel,        ///< component and form of a look-up: `Lookup` of index `immediate`
+    texel, ///< component and form of a look-up: the `Lookup` of index `immediate`
     derivative_x, ///< of a, to the next pixel
     derivative_y,
 };
 
-/// The numbers that an operation is made of; those that it does not have are zeros.
+/// Operands of an operation; missing ones are zeros.
 template <class Number>
 struct Operands {
     const Number& a;
@@ -118,17 +118,17 @@ struct Instruction {
     Op op = Op::undefined;
     Scalar type = Scalar::real;
     uint32_t immediate = 0;
-    uint32_t first_operand = 0; ///< in Function::operands
+    uint32_t first_operand = 0; ///< index into Function::operands
     uint32_t operand_count = 0;
-    int line = 0; ///< of the text that was compiled; 0: none
+    int line = 0; ///< in the text that was compiled; 0: none
 };
 
-/// A part of the memory: an array that is indexed, a uniform, an input, the output.
+/// A range of memory cells: an array that is indexed, a uniform, an input or the output.
 struct Access {
     uint32_t first = 0; ///< cell
-    uint32_t size = 1;  ///< an offset is clamped to it
+    uint32_t size = 1; ///< offsets are clamped to it
 
-    /// The first and the last cell that an offset within those bounds may mean.
+    /// Returns the first and the last cell that an offset within these bounds may select.
     std::pair<uint32_t, uint32_t> cells(const std::pair<int64_t, int64_t>& offset) const {
         const auto inside = [this](int64_t at) {
             return first + uint32_t(std::clamp<int64_t>(at, 0, int64_t{size} - 1));
@@ -137,21 +137,21 @@ struct Access {
     }
 };
 
-/// A variable that lives in memory.
+/// A variable in memory.
 struct Variable {
     enum class Kind { uniform, input, output, local } kind = Kind::local;
     std::string name{};
-    uint32_t first = 0; ///< cell; scalars in the order in which they are declared
+    uint32_t first = 0; ///< cell; scalars in the order of declaration
     uint32_t size = 0;
-    Scalar type = Scalar::real;                 ///< of its first scalar
-    uint32_t columns = 1, rows = 1, length = 0; ///< of a matrix or vector; of an array, 0: none
+    Scalar type = Scalar::real; ///< type of its first scalar
+    uint32_t columns = 1, rows = 1, length = 0; ///< of a matrix or vector; `length` of an array, 0: none
 };
 
 struct Lookup {
     enum class Form { sample, fetch, size, gather, query } form = Form::sample;
-    std::string sampler{}; ///< name of the uniform
+    std::string sampler{}; ///< name of the sampler uniform
     uint32_t component = 0;
-    uint32_t coordinates = 2; ///< operands that are coordinates; an explicit level or two gradients follow
+    uint32_t coordinates = 2; ///< number of operands that are coordinates; a level or two gradients follow
     bool has_level = false;
     bool has_bias = false;
     bool has_gradients = false;
@@ -161,22 +161,22 @@ struct Block {
     enum class End { jump, branch, multiway, leave, discard } end = End::leave;
     uint32_t first = 0, last = 0; ///< instructions [first, last); phis come first
     std::vector<uint32_t> predecessors{};
-    Value condition = k_no_value;       ///< of a branch: successor 0 where it holds, else 1
-    std::vector<uint32_t> successors{}; ///< of a multiway jump: successor 0 where no case fits
+    Value condition = k_no_value; ///< of a branch: successor 0 if it holds, else 1
+    std::vector<uint32_t> successors{}; ///< of a multiway jump: successor 0 if no case fits
     std::vector<uint32_t> cases{};      ///< case i leads to successor i + 1
-    bool loop = false;                  ///< the header of one
-    uint32_t behind_loop = 0;           ///< of a header: where the text goes on behind the loop
-    int line = 0;                       ///< of its end
+    bool loop = false; ///< is the header of a loop
+    uint32_t behind_loop = 0; ///< of a header: the block at which the text continues after the loop
+    int line = 0; ///< of the jump that ends the block
 };
 
 struct Function {
     std::vector<Instruction> instructions; ///< constants first, then block by block
     std::vector<Value> operands;
-    std::vector<Block> blocks; ///< a block stands behind those that dominate it; 0 is the entry
+    std::vector<Block> blocks; ///< a block comes after its dominators; 0 is the entry
     std::vector<Access> accesses;
     std::vector<Variable> variables;
     std::vector<Lookup> lookups;
-    std::vector<Scalar> cells; ///< of memory, each of its kind
+    std::vector<Scalar> cells; ///< memory; the type of each cell
     SourceNames names{};
 
     std::span<const Value> operands_of(const Instruction& instruction) const {

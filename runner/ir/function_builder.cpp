@@ -8,7 +8,8 @@
 namespace tidemark::ir {
 
 Value FunctionBuilder::add(Op op, Scalar type, std::span<const Value> operands, uint32_t immediate) {
-    if (op == Op::multiply && operands[0] == operands[1]) // never negative, which intervals do not see
+    // intervals cannot see that a product of equal factors is never negative
+    if (op == Op::multiply && operands[0] == operands[1])
         return add(Op::square, type, operands.first(1), immediate);
     const Value result = append(op, type, operands, immediate);
     const auto equal = type == Scalar::real ? equal_in_real(function, result) : std::nullopt;
@@ -136,7 +137,7 @@ Values FunctionBuilder::outer_product(const Values& column, const Values& row) {
 
 namespace {
 
-/// The matrix without a column and a row.
+/// Returns the matrix without one column and one row.
 Values minor_of(const Values& matrix, uint32_t size, uint32_t without_column, uint32_t without_row) {
     Values result;
     for (uint32_t column = 0; column < size; ++column)
@@ -148,7 +149,7 @@ Values minor_of(const Values& matrix, uint32_t size, uint32_t without_column, ui
 
 } // namespace
 
-/// By the first column.
+/// Expands by the first column.
 Value FunctionBuilder::determinant(const Values& matrix, uint32_t size) {
     if (size == 1)
         return matrix[0];
@@ -161,7 +162,7 @@ Value FunctionBuilder::determinant(const Values& matrix, uint32_t size) {
     return sum;
 }
 
-/// Cramer's rule.
+/// Uses Cramer's rule.
 Values FunctionBuilder::inverse(const Values& matrix, uint32_t size) {
     const Value whole = determinant(matrix, size);
     Values result;

@@ -1,5 +1,5 @@
-// Appends instructions to a Function, and writes out what is made of several: dot products, lengths, the
-// functions of linear algebra. Sums go from the left to the right.
+// Appends instructions to a Function, and expands functions of several operations: dot products, lengths,
+// linear algebra. Sums are evaluated from left to right.
 #pragma once
 
 #include "ir/function.hpp"
@@ -27,7 +27,8 @@ public:
     Value constant(uint32_t bits, Scalar type) { return add(Op::constant, type, {}, bits); }
     Scalar type_of(Value value) const { return function.instructions[value].type; }
 
-    /// The operation on each component; an operand of one component goes with all of the others.
+    /// Applies the operation to each component; an operand of one component is used for all components of the
+    /// others.
     Values each(Op op, Scalar type, std::span<const Values> operands);
     Values each(Op op, Scalar type, std::initializer_list<Values> operands) {
         return each(op, type, std::span(operands.begin(), operands.size()));
@@ -45,7 +46,7 @@ public:
     Values refract(const Values& incident, const Values& normal, Value ratio);
     Values face_forward(const Values& normal, const Values& incident, const Values& reference);
 
-    /// Matrices column by column, with `rows` components in each.
+    /// Matrices are column by column, with `rows` components in each.
     Values matrix_times_vector(const Values& matrix, const Values& vector);
     Values vector_times_matrix(const Values& vector, const Values& matrix);
     Values product(const Values& left, uint32_t left_columns, const Values& right);

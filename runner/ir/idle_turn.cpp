@@ -36,7 +36,7 @@ std::optional<IdleTurn> IdleTurn::find(const LoopBlocks& loop, const Cone& cone,
     return real ? std::optional(std::move(turn)) : std::nullopt;
 }
 
-/// The operand of a phi that it has where it is entered on that way.
+/// Returns the index of the phi's operand on the idle path; nullopt if the path does not enter its block.
 std::optional<size_t> IdleTurn::slot_of(const LoopBlocks& loop, Value phi) const {
     const Instruction& instruction = loop.function.instructions[phi];
     if (instruction.op != Op::phi || loop.is_header_phi(phi))

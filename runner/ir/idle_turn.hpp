@@ -1,5 +1,5 @@
-// Turns of a loop that do nothing: where `if (distance > eps) { … }` is all that a loop without a `break`
-// has, it has ended, though it goes on turning.
+// Idle iterations of a loop: a loop whose whole body is `if (distance > eps) { … }`, without a `break`, has
+// ended once the condition fails, although it continues to iterate.
 #pragma once
 
 #include "ir/dependence.hpp"
@@ -13,7 +13,7 @@ struct LoopBlocks {
     const Function& function;
     const std::vector<uint32_t>& block_of; ///< of instructions
     uint32_t header;
-    size_t back_slot; ///< of the operand of its phis that comes from the turn before
+    size_t back_slot; ///< index of the phi operand that comes from the previous iteration
 
     bool is_header_phi(Value value) const {
         return function.instructions[value].op == Op::phi && block_of[value] == header;
@@ -22,11 +22,12 @@ struct LoopBlocks {
 
 class IdleTurn {
 public:
-    /// From that block, which branches within the loop: where the way to its successor `way`, and on to the
-    /// header, changes nothing of what the branch looks at. No later turn does then. `cone` is the loop's.
+    /// Checks whether `block`, which branches within the loop, makes an iteration idle: the path to its
+    /// successor `way`, and on to the header, changes no value that the branch depends on, so no later
+    /// iteration does. Returns nullopt if it does not. `cone` is the loop's.
     static std::optional<IdleTurn> find(const LoopBlocks& loop, const Cone& cone, uint32_t block, size_t way);
 
-    /// What a turn makes of a value that is not idle.
+    /// Returns the value that `value` has in an iteration that is not idle.
     Value busy(const LoopBlocks& loop, Value value) const;
 
 private:

@@ -7,9 +7,9 @@ namespace tidemark::ir {
 namespace {
 
 constexpr double k_pi = 3.141592653589793;
-/// The next multiple of a quarter turn is not told apart beyond that.
+/// Beyond this angle, multiples of a quarter turn are not distinguished.
 constexpr double k_largest_angle = 1e9;
-/// Beyond that not every whole number is a double.
+/// Beyond this number, not every whole number is a double.
 constexpr double k_largest_whole = 4503599627370496; // 2^52
 
 Interval of_corners(const std::array<double, 4>& corners, bool is_partial) {
@@ -19,7 +19,7 @@ Interval of_corners(const std::array<double, 4>& corners, bool is_partial) {
     return {below(low), above(high), is_partial};
 }
 
-/// Whether a + 2 pi k lies in the interval for some whole k, or may.
+/// Returns whether a + 2 pi k, with `angle` as a, may lie in the interval for some whole k.
 bool contains_angle(const Interval& interval, double angle) {
     const double slack = 1e-15 * std::max(std::abs(interval.low), std::abs(interval.high)) + 1e-15;
     const double turns = std::ceil((interval.low - slack - angle) / (2 * k_pi) - 1e-12);
@@ -38,7 +38,7 @@ Interval wave(double (*function)(double), const Interval& a, double top) {
     return {std::max(result.low, -1.0), std::min(result.high, 1.0), a.partial};
 }
 
-/// The largest whole k with k b <= a; fma tells the sign of k b - a exactly.
+/// Returns the largest whole k with k b <= a. fma gives the exact sign of k b - a.
 double whole_multiples(double a, double b) {
     double k = std::floor(a / b);
     if (std::fma(k, b, -a) > 0)
@@ -64,10 +64,10 @@ Interval hull(const Interval& a, const Interval& b) {
 
 Interval intersection(const Interval& a, const Interval& b) {
     const Interval both{std::max(a.low, b.low), std::min(a.high, b.high), a.partial && b.partial};
-    return a.point() || both.low > both.high ? a : both; // a float of the text's own may be off by a rounding
+    return a.point() || both.low > both.high ? a : both; // the text's own float may be off by one rounding
 }
 
-/// a / b where 0 is a bound of b: the quotient is not bounded on one side.
+/// Returns a / b if 0 is a bound of b: the quotient is unbounded on one side.
 static Interval beside_pole(const Interval& a, const Interval& b) {
     if (b.high == 0)
         return beside_pole(-a, -b);
@@ -110,8 +110,8 @@ Interval inverse_sqrt(const Interval& a) {
     return {std::max(0.0, below(below(1 / std::sqrt(a.high)))), high, a.partial || a.low <= 0};
 }
 
-/// How often one number above 0 goes into those of the interval: the least and the most. Its multiples are
-/// exact in double as long as it is a float and they are few.
+/// Returns the least and the largest floor(x / b) for x in the interval, b > 0. Multiples are exact in double
+/// as long as b is a float and the factor is small.
 static std::pair<double, double> multiples_in(const Interval& a, double b) {
     double last = whole_multiples(a.high, b);
     if (a.from_below && std::fma(last, b, -a.high) == 0)
@@ -153,7 +153,7 @@ Interval nearest_rest(const Interval& a, const Interval& b) {
     if (!b.point() || b.low <= 0)
         return everything(a.partial || b.partial || b.contains(0));
     const Interval half{b.low / 2, b.low / 2};
-    Interval moved = a + half; // x modulo y, from -y / 2 on
+    Interval moved = a + half; // x modulo y, shifted to begin at -y / 2
     moved.from_below = a.from_below;
     return modulo(moved, b) - half;
 }
@@ -180,8 +180,8 @@ Interval tan(const Interval& a) {
     return increasing(std::tan, a);
 }
 
-/// On each side of the cut (the negative x axis) it goes the same way along an edge of the box, so that its
-/// extremes are at corners.
+/// On each side of the cut (the negative x axis) it is monotonic along the edges of the box, so its extremes
+/// are at corners.
 Interval atan2(const Interval& a, const Interval& b) {
     const bool above_cut = a.from_above && a.low == 0 && b.high < 0;
     const bool below_cut = a.from_below && a.high == 0 && b.high < 0;
@@ -201,11 +201,11 @@ Interval cosh(const Interval& a) {
     return result;
 }
 
-/// Goes one way in each operand, where the first is positive.
+/// For a positive base it is monotonic in each operand.
 Interval pow(const Interval& a, const Interval& b) {
     if (a.high < 0)
         return everything();
-    const double base = a.low > 0 ? a.low : 0.0; // -0 has powers of its own
+    const double base = a.low > 0 ? a.low : 0.0; // -0 has different powers
     const bool undefined = a.low < 0 || (base == 0 && b.low <= 0);
     const std::array<double, 4> corners{std::pow(base, b.low), std::pow(base, b.high),
                                         std::pow(a.high, b.low), std::pow(a.high, b.high)};
@@ -229,7 +229,7 @@ Interval mix(const Interval& a, const Interval& b, const Interval& c) {
 
 namespace {
 
-/// Of a polynomial that rises from 0 to 1.
+/// Bounds a polynomial that rises from 0 at 0 to 1 at 1.
 template <class Polynomial>
 Interval rising(const Interval& a, Polynomial polynomial) {
     if (a.low < 0 || a.high > 1)

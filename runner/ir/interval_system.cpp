@@ -17,7 +17,7 @@ Interval all_of(Scalar type) {
     return everything();
 }
 
-/// One number that the device has, too: a real one is a float.
+/// Returns whether the interval is one number that the device can represent: a real number has to be a float.
 bool is_exact(const Interval& a, Scalar type) {
     return a.point() && (type != Scalar::real || double(float(a.low)) == a.low);
 }
@@ -35,7 +35,7 @@ Interval interval_of(const Point<float>& a, Scalar type) {
     return {number, number};
 }
 
-/// Booleans as numbers: what holds for all, for none, or for some.
+/// Returns a boolean as an interval of 0 and 1: true, false, or either.
 Interval truth(bool always, bool never) {
     return {always ? 1.0 : 0.0, never ? 0.0 : 1.0};
 }
@@ -58,7 +58,7 @@ Interval negated(const Interval& a) {
     return {1 - a.high, 1 - a.low};
 }
 
-/// Outwards to whole numbers.
+/// Rounds both bounds to whole numbers.
 template <class Rounding>
 Interval rounded(const Interval& a, Rounding rounding) {
     return {rounding(a.low), rounding(a.high), a.partial || std::isinf(a.low) || std::isinf(a.high)};
@@ -107,7 +107,7 @@ Interval logical(Op op, const Interval& a, const Interval& b, const Interval& c)
     return hull(b, c);
 }
 
-/// Of numbers that are not negative.
+/// Bounds bitwise operations on numbers that are not negative; other operands give the type's whole range.
 Interval bits(Op op, Scalar type, const Interval& a, const Interval& b) {
     if (a.low < 0 || b.low < 0)
         return all_of(type);
@@ -209,7 +209,8 @@ Interval to_int(const Interval& a, Scalar type) {
     return !whole.partial && whole.low >= all.low && whole.high <= all.high ? whole : all;
 }
 
-/// Between whole numbers that both types have, and from the bits of positive floats, which rise with them.
+/// Converts between whole numbers that both types have, and from the bits of positive floats, which increase
+/// with the float.
 Interval bits_as(const Interval& a, Scalar of, Scalar result) {
     constexpr double k_first_infinite = 0x7f800000;
     if (of == Scalar::real || a.low < 0 || a.high >= k_first_infinite)
@@ -220,8 +221,8 @@ Interval bits_as(const Interval& a, Scalar of, Scalar result) {
     return {number(a.low), number(a.high)};
 }
 
-/// Where the operation on an operand jumps, `period` being the other: at first + k unit for every whole k; a
-/// unit of 0: at `first` alone. Whether it has another value there than below, and than above.
+/// Places where an operation jumps on its operand: first + k unit for every whole k, or at `first` alone if
+/// `unit` is 0. The flags say whether the value at the jump differs from the values below and above it.
 struct Jumps {
     double first = 0, unit = 1;
     bool from_below = true, from_above = false;
@@ -251,8 +252,8 @@ std::optional<Jumps> jumps_of(Op op, const Interval& period) {
     }
 }
 
-/// The jump within the interval, or at a bound of it that has another value than what lies beside, where
-/// there is one alone.
+/// Returns the only jump within the interval, or at a bound of it if the value at the bound differs from
+/// those beside it; nullopt if there is none or more than one.
 std::optional<double> jump_in(const Interval& a, const Jumps& jumps) {
     const bool at_low = jumps.from_above && !a.from_above, at_high = jumps.from_below && !a.from_below;
     const auto inside = [&](double at) {

@@ -1,6 +1,6 @@
-// The number system of intervals: what the text computes in real arithmetic for all numbers of its operands.
-// An operand of one number is a float of the scene's, and what is computed of such alone is computed in
-// float, as a driver does it: so hashes of lattice points are the scene's own. Whole numbers and booleans are
+// The number system of intervals: the results of the text in real arithmetic for all numbers of its operands.
+// An operand of a single number is one of the scene's floats; results of such operands alone are computed in
+// float, as a driver does, so hashes of lattice points equal the scene's. Whole numbers and booleans are
 // intervals, too.
 #pragma once
 

@@ -1,6 +1,7 @@
-// The number system of three at once: each number in float, as the text has it, in double, and in samples of
-// stochastic arithmetic. Conditions are decided by the float alone, so that all three go the same way and
-// turn of a loop lines up with turn; where another would have gone elsewhere can be seen in the condition.
+// The number system of three at once: each number in float, as written in the text, in double, and in samples
+// of stochastic arithmetic. Conditions are decided by the float alone, so all three take the same path and
+// loop iterations correspond; the condition's value shows whether double or a sample would have branched
+// otherwise.
 #pragma once
 
 #include "ir/evaluate.hpp"
@@ -13,7 +14,7 @@ struct Lockstep {
     Point<double> in_double{};
     Samples samples{};
 
-    /// As a condition or a whole number: whether double or a sample would have it otherwise.
+    /// For conditions and whole numbers: whether double, or a sample, has another value than float.
     bool double_differs() const { return in_double.bits != in_float.bits; }
     bool rounding_decides() const {
         return std::ranges::any_of(samples, [&](const auto& each) { return each.bits != in_float.bits; });
@@ -33,13 +34,14 @@ public:
     static Value unknown() {
         return {PointSystem<float>::unknown(), PointSystem<double>::unknown(), StochasticSystem::unknown()};
     }
-    /// What comes in from outside is exact.
+    /// Returns an input value, which is exact in all three.
     static Value exactly(const Point<float>& point) {
         return {point, {point.real, point.bits}, StochasticSystem::all(point)};
     }
 
     Value compute(Op op, Scalar result, Scalar of, const Operands<Value>& operands) {
-        const Value a = op == Op::select ? exactly(operands.a.in_float) : operands.a; // it decides
+        // the condition's float decides
+        const Value a = op == Op::select ? exactly(operands.a.in_float) : operands.a;
         const auto& [_, b, c] = operands;
         return {PointSystem<float>().compute(op, result, of, {a.in_float, b.in_float, c.in_float}),
                 PointSystem<double>().compute(op, result, of, {a.in_double, b.in_double, c.in_double}),

@@ -9,9 +9,9 @@ constexpr uint32_t k_most = 1'000'000;
 
 struct Numbers {
     Value first, added, limit;
-    bool down;         ///< it is subtracted
-    bool of_next;      ///< what the turn leaves is looked at
-    bool from_smaller; ///< ends below the limit
+    bool down; ///< `added` is subtracted
+    bool of_next; ///< the test looks at the value after the iteration
+    bool from_smaller; ///< the loop ends below the limit
     bool at_equality;
 };
 

@@ -1,4 +1,4 @@
-// How often a loop turns that counts: from one number of the text, by another, up to a third.
+// Iteration count of a counting loop: from one constant, by a second, up to a third.
 #pragma once
 
 #include "ir/function.hpp"
@@ -8,14 +8,15 @@
 
 namespace tidemark::ir {
 
-/// What a loop carries, and ends it where `smaller` is below `larger`.
+/// A value that the loop carries; it ends the loop once `smaller` is below `larger`.
 struct LoopCounter {
     Value phi, first, next;
     Value smaller, larger;
-    bool at_equality; ///< and where they are equal
+    bool at_equality; ///< also ends it if they are equal
 };
 
-/// Whole turns before it ends the loop; nothing where it counts otherwise, or for very long.
+/// Returns the number of full iterations before it ends the loop; nullopt if it counts otherwise, or for over
+/// a million iterations.
 std::optional<uint32_t> turns_of(const Function& function, const LoopCounter& counter);
 
 } // namespace tidemark::ir

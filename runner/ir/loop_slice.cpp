@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint32_t k_no_block = ~uint32_t{0};
 
-/// What becomes of an instruction of the whole function.
+/// Role of an instruction of the whole function in the slice.
 enum class Role : uint8_t { left_out, input, invariant, turn };
 
 class Slicer {
@@ -34,7 +34,8 @@ public:
     }
 
 private:
-    /// Those on a way from the header to the test; of a test in the next turn, the whole loop.
+    /// Keeps the blocks on a path from the header to the test; the whole loop if the test is in the next
+    /// iteration.
     void keep_blocks() {
         const std::vector<bool> inside = natural_loop(whole_, loop_.header);
         std::vector<uint32_t> open{loop_.header};
@@ -58,7 +59,7 @@ private:
                                    [&](const Carried& each) { return loop_.cut(each) == value; });
     }
 
-    /// All that the distance, its threshold, and the way to them depend on.
+    /// Keeps all that the distance, its threshold, and the path to them depend on.
     void keep_instructions() {
         keep(loop_.distance);
         keep(loop_.threshold);
@@ -76,7 +77,8 @@ private:
                 keep_operands(value);
         }
     }
-    /// The place on the ray, which is set from outside in the first turn: there is no other one.
+    /// Returns whether the value is the place on the ray and is set from outside, because the slice has no
+    /// second iteration.
     bool is_given(Value value) const { return is_cut(value) && !kept_[loop_.latch]; }
     void keep(Value value) {
         if (roles_[value] != Role::left_out)
@@ -99,7 +101,7 @@ private:
                        whole_.accesses[whole_.instructions[load].immediate]);
     }
 
-    /// Of a phi: what it is coming from blocks that are kept, or from the loop's entry.
+    /// Returns the operands of a value; of a phi those that come from kept blocks or from the loop's entry.
     std::vector<Value> operands_of(Value value) const {
         const auto all = whole_.operands_of(whole_.instructions[value]);
         if (whole_.instructions[value].op != Op::phi)
@@ -113,7 +115,7 @@ private:
     }
     bool is_way(uint32_t predecessor) const { return predecessor == loop_.entry || kept_[predecessor]; }
 
-    /// What dominates an instruction stands in front of it, so one pass finds them all.
+    /// Dominators come before the instructions that they dominate, so one pass finds all invariants.
     void find_invariants() {
         for (Value value = 0; value < roles_.size(); ++value)
             if (roles_[value] == Role::turn && is_invariant(value))
@@ -179,7 +181,7 @@ private:
             }
         result_.function.accesses = whole_.accesses;
         for (Access& access : result_.function.accesses)
-            if (access.first < number.size()) // else it is of no cell
+            if (access.first < number.size()) // else it refers to no cell
                 access.first = number[access.first];
     }
     bool is_access(Value value) const {
@@ -218,7 +220,7 @@ private:
         result_.function.instructions.push_back(instruction);
         result_.stores = result_.stores || instruction.op == Op::store;
     }
-    /// With the instructions from `at` on that are kept of it.
+    /// Returns the block with its kept instructions, numbered from `at` on.
     Block block_of(const Block& whole, uint32_t& at) const {
         Block block = whole;
         block.first = at;
@@ -254,12 +256,12 @@ private:
     const MarchingLoop& loop_;
     bool with_step_;
     std::vector<uint32_t> block_of_;
-    std::vector<bool> kept_; ///< blocks
+    std::vector<bool> kept_; ///< by block
     std::vector<Role> roles_;
-    std::vector<Value> number_; ///< in the slice
-    std::vector<Value> order_;  ///< of the slice's instructions: those of the whole
+    std::vector<Value> number_; ///< index in the slice
+    std::vector<Value> order_; ///< values of the whole function, in the order of the slice's instructions
     std::vector<Value> open_;
-    std::vector<Value> stores_; ///< in the blocks that are kept
+    std::vector<Value> stores_; ///< in the kept blocks
     std::vector<uint32_t> block_number_;
     Value first_of_turn_ = 0;
     uint32_t leave_ = 0;

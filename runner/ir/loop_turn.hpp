@@ -1,5 +1,5 @@
-// One turn of a marching loop over a number system, run as often as wanted: but for the places on the ray all
-// is as a pixel had it that has entered the loop.
+// Runs one iteration of a marching loop over a number system, as often as needed. Everything but the places
+// on the ray is as it was when a pixel entered the loop.
 #pragma once
 
 #include "ir/evaluate.hpp"
@@ -39,8 +39,8 @@ public:
 
     Evaluator<System>& evaluator() { return evaluator_; }
 
-    /// Up to the test that looks at the distance at those places: stopped where it has come to that. The next
-    /// turn, if it is that one's, goes on as the text does.
+    /// Runs at those places up to the test of the distance; returns Ended::stopped if it was reached. If the
+    /// test belongs to the next iteration, that one computes its own places, as the text does.
     Ended run(const std::vector<Number>& places, Decisions& decisions) {
         set_out(places);
         int left = turn_->in_next_turn ? 2 : 1;
@@ -53,8 +53,8 @@ public:
         evaluator_.unpin();
         return ended;
     }
-    /// Of a slice that has the step: through the test, to what is then added to the ray's parameter; stopped
-    /// where the loop goes on.
+    /// Runs a slice that includes the step: through the test, to the amount that is then added to the ray's
+    /// parameter. Returns Ended::stopped if the loop continues.
     Ended step(const std::vector<Number>& places, Decisions& decisions) {
         set_out(places);
         bool again = false, tested = false;
@@ -84,7 +84,7 @@ public:
     const Number& threshold() const { return evaluator_.value(turn_->threshold); }
 
 private:
-    /// Where the loop goes on, the distance is not below the threshold.
+    /// Applies that the distance is not below the threshold if the loop continues.
     void stay() {
         if constexpr (std::is_same_v<Number, Interval>)
             if (turn_->at_hit) {
@@ -94,7 +94,7 @@ private:
             }
     }
 
-    /// What a turn leaves in memory for the next one is known at no place between those of the march itself.
+    /// Memory that an iteration leaves for the next one is known only at the places of the march itself.
     static std::vector<Number> forget_stored(const Function& function, std::vector<Number> memory) {
         for (const Instruction& each : function.instructions)
             if (each.op == Op::store) {
@@ -126,8 +126,8 @@ private:
             return {interval, {}};
     }
 
-    /// Once for all turns; but where a jump within one of them may be gone through, each turn begins with
-    /// them.
+    /// Computes the invariants once for all iterations. If one of them may be split at a jump, each iteration
+    /// computes them again instead.
     void compute_invariants(const Block& block) {
         Decisions none(0);
         evaluator_.run(none, [](uint32_t) { return false; });
@@ -139,10 +139,10 @@ private:
 
     const MarchingLoop* turn_;
     bool stores_;
-    uint32_t leave_; ///< block behind the loop
+    uint32_t leave_; ///< the block after the loop
     Evaluator<System> evaluator_;
     Number advance_{};
-    std::vector<Number> memory_{}; ///< as the loop is entered, where a turn changes it
+    std::vector<Number> memory_{}; ///< the memory on entry of the loop, if an iteration changes it
     uint32_t first_block_ = 0;
 };
 

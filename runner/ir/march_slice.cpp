@@ -9,7 +9,7 @@
 namespace tidemark::ir {
 namespace {
 
-/// Ways through undecided conditions: so many decisions after one another, so many ways in all.
+/// Limits for the paths through undecided conditions: decisions in one run, and paths in all.
 constexpr size_t k_most_decisions = 14;
 constexpr int k_few_ways = 32;
 constexpr int k_many_ways = 2048;
@@ -17,10 +17,10 @@ constexpr uint64_t k_most_steps = 2'000'000;
 int most_ways(Care care) {
     return care == Care::thorough ? k_many_ways : k_few_ways;
 }
-/// Instructions that count as one run: a field of seven octaves has a thousand.
+/// Instructions that count as one run: a field of seven octaves has about a thousand.
 constexpr uint64_t k_long_run = 20'000;
 
-/// What is looked up at a place that changes may have any slope.
+/// Returns a look-up with slopes: a texture value at a varying place may have any slope.
 Textures<Tangent> with_slopes(const Textures<Interval>& textures) {
     return [textures](const Lookup& lookup, std::span<const Tangent> operands) {
         std::vector<Interval> places;
@@ -40,7 +40,7 @@ const Interval& bounds(const Interval& interval) {
     return interval;
 }
 
-/// How far a carried value goes where the parameter goes 1.
+/// Returns the change of a carried value per unit of the parameter.
 template <class System>
 Interval factor_of(const Carried& carried, const Evaluator<System>& entered) {
     Interval product = k_one;
@@ -106,7 +106,7 @@ auto MarchSlice::run(LoopTurn<System>& turn, const std::vector<typename System::
 }
 
 double MarchSlice::end(const March& march) const {
-    constexpr double k_beyond = 1.5; // a hit that is a little early is still found
+    constexpr double k_beyond = 1.5; // a hit of the exact field slightly after the march's is still found
     if (march.far)
         return *march.far;
     auto last = march.turns.rbegin();
@@ -141,7 +141,7 @@ auto MarchSlice::distances(const Interval& parameter, Care care) -> std::optiona
     for (int way = 0; way == 0 || decisions.next(); ++way) {
         const auto one = run(intervals_, at, decisions);
         if (way == most_ways(care) || decisions.exhausted())
-            return Distances{everything(false), everything(false)}; // too many ways: too many jumps
+            return Distances{everything(false), everything(false)}; // too many paths mean too many jumps
         if (!one)
             continue;
         const Interval above = one->distance - one->threshold;

@@ -1,5 +1,5 @@
-// The distance that a marching loop tests, as a function of the ray's parameter alone: all else is what it
-// was when a pixel entered the loop. Evaluated over intervals, it bounds the field on a piece of the ray.
+// The distance that a marching loop tests, as a function of the ray's parameter alone; everything else is as
+// it was when a pixel entered the loop. Evaluated over intervals, it bounds the field on a piece of the ray.
 #pragma once
 
 #include "ir/interval_system.hpp"
@@ -11,83 +11,86 @@
 
 namespace tidemark::ir {
 
-/// One turn of the loop as the text makes it, in float.
+/// One iteration of the loop as the text runs it, in float.
 struct Turn {
-    std::vector<float> carried; ///< the values of MarchingLoop::carried where the distance is measured
-    float measured = 0;         ///< distance
+    std::vector<float> carried; ///< values of MarchingLoop::carried at which the distance is measured
+    float measured = 0; ///< the distance
     float threshold = 0;
 
-    float distance() const { return measured - threshold; } ///< above the threshold
+    float distance() const { return measured - threshold; } ///< margin above the threshold
 };
 
 /// The march of one pixel.
 struct March {
     std::vector<Turn> turns;
-    std::optional<float> far{}; ///< the loop's limit, where it has a finite one
-    bool hit = false;           ///< it was left because of the distance
+    std::optional<float> far{}; ///< the loop's limit; nullopt if it has none or it is not finite
+    bool hit = false; ///< the distance ended the march
 };
 
-/// What becomes of conditions and jumps that are not decided: they cost width; or they are gone through one
-/// by one, as far as that is few ways, or many.
+/// Treatment of undecided conditions and jumps: `quick` accepts wider bounds; `close` and `thorough`
+/// enumerate the paths, up to 32 or 2048 of them.
 enum class Care { quick, close, thorough };
 
-/// What counts as hit: where the loop's own test holds, or where the distance itself is below 0.
+/// Definition of a hit: the loop's own test holds, or the distance itself is below 0.
 enum class Surface { threshold, zero };
 
-/// A place on a ray that is not one number: those are floats, and what floats make of them is rounded.
+/// Returns the interval from `parameter` to the next double. An interval of a single number would be taken
+/// for a float, and computed with a float's rounding.
 inline Interval place_at(double parameter) {
     return std::isfinite(parameter) ? Interval{parameter, std::nextafter(parameter, k_infinity)}
                                     : everything();
 }
 
-/// Everything but the ray's parameter is as `entered` has it, which has run up to the loop's entry: of one
-/// ray, or of all rays of an area and a span of time at once, if it has intervals.
+/// The field along one ray, or along all rays of an area and a time span at once if `entered` holds
+/// intervals. All values but the ray's parameter are those of `entered`, which has run up to the loop's
+/// entry.
 class MarchSlice {
 public:
     template <class System>
     MarchSlice(const LoopSlice& slice, const Evaluator<System>& entered,
                const Textures<Interval>& textures = {}, Surface surface = Surface::threshold);
 
-    /// Where the ray begins, in terms of its parameter; the first of the rays. -infinity, where it may begin
-    /// at NaN or at an infinity.
+    /// Returns the ray's start as a value of its parameter; the least one for several rays. Returns -infinity
+    /// if the start may be NaN or infinite.
     double start() const { return start_; }
-    /// The parameter at which a turn measured.
+    /// Returns the ray's parameter at which an iteration measured the distance.
     double parameter(const Turn& turn) const;
-    /// How long the way is that the parameter calls 1: 1, where the loop carries the parameter itself. Of
-    /// many rays at least.
+    /// Returns the length on the ray of one unit of the parameter: 1 if the loop carries the parameter
+    /// itself. For several rays, returns a lower bound.
     double unit() const;
-    /// Up to where a first hit is looked for: the loop's limit; else the last place that the march came to,
-    /// and beyond its own hit. What has no limit may go to infinity.
+    /// Returns the end of the search for a first hit: the loop's limit; else the last place of the march, and
+    /// half as far again if it ended in a hit. A march without a limit may go to infinity.
     double end(const March& march) const;
-    /// The loop's limit, where all rays have a finite one: the largest.
+    /// Returns the largest limit of the loop; nullopt unless all rays have a finite one.
     std::optional<double> far() const { return far_; }
 
-    /// Bounds, over that piece of the ray, of what is negative behind the surface; `partial` where NaN or an
-    /// infinity may come of it. Nothing where the loop is left before it measures.
+    /// Returns bounds, over a piece of the ray, of a value that is negative past the surface; `partial` if it
+    /// may be NaN or infinite. Returns nullopt if the loop is left before it measures.
     std::optional<Interval> distance(const Interval& parameter, Care care);
-    /// That, and the distance above the loop's threshold, whatever the surface is.
+    /// The same bounds, and those of the distance above the loop's threshold, for either kind of surface.
     struct Distances {
         Interval own;
         Interval above_threshold;
     };
     std::optional<Distances> distances(const Interval& parameter, Care care);
-    /// The same with bounds of its slope, where all conditions are decided and nothing jumps: nothing else.
+    /// Returns the bounds of the distance and of its slope if all conditions are decided and nothing jumps,
+    /// else nullopt.
     std::optional<Tangent> tangent(const Interval& parameter);
-    /// Bounds of its slope beside jumps, whatever conditions are; nothing where those are not known.
+    /// Returns bounds of the slope on both sides of all jumps, over all paths; nullopt if they are not known.
     std::optional<Interval> slope_beside_jumps(const Interval& parameter);
 
-    /// Of a slice that has the step: what a turn adds to the parameter where it goes on from a place of the
-    /// piece; nothing where the loop is left at all of them.
+    /// Requires a slice with the step. Returns bounds of the amount that an iteration adds to the parameter
+    /// if the loop continues from a place of the piece; nullopt if the loop is left from all of them.
     std::optional<Interval> advance(const Interval& parameter, Care care);
 
-    /// Of what `distance` gives: no place of the piece is a hit; every one is.
+    /// For a result of `distance`: whether no place of the piece is a hit, or every place is.
     bool excludes_hit(const std::optional<Interval>& distance) const;
     bool is_hit(const std::optional<Interval>& distance) const;
-    /// Runs of the loop's turn so far; a very long one counts as several.
+    /// Returns the number of iterations run so far; a very long one counts as several.
     uint64_t evaluations() const { return evaluations_; }
 
 private:
-    /// What a turn compares.
+    /// The two operands of the loop's test.
     template <class Number>
     struct Compared {
         Number distance, threshold;
@@ -111,12 +114,13 @@ private:
     uint64_t evaluations_ = 0;
 };
 
-/// The distance itself, in float: what the text has where its march comes to that place.
+/// The distance itself, in float: the value that the text computes when its march reaches that place.
 class FloatField {
 public:
     FloatField(const LoopSlice& slice, const FloatEvaluator& entered);
 
-    /// Of a ray's parameter, as MarchSlice has it. Nothing where the loop is left before it measures.
+    /// Returns the distance at a ray's parameter, as defined by MarchSlice; nullopt if the loop is left
+    /// before it measures.
     std::optional<float> distance(double parameter);
 
 private:
@@ -125,8 +129,8 @@ private:
     std::vector<float> first_, factor_;
 };
 
-/// Runs the pixel that `evaluator` is set up for until it enters one of the loops; its index, none where it
-/// enters none, or where it is not known which.
+/// Runs the pixel that `evaluator` is set up for until it enters one of the loops. Returns the loop's index;
+/// nullopt if the pixel enters none, or if the path is not decided.
 template <class System>
 std::optional<size_t> enter_first(Evaluator<System>& evaluator, const std::vector<MarchingLoop>& loops) {
     Decisions none(0);
@@ -141,12 +145,12 @@ std::optional<size_t> enter_first(Evaluator<System>& evaluator, const std::vecto
     return entered;
 }
 
-/// Goes on from there through the loop.
+/// Continues from the loop's entry through the loop, and returns all iterations that measured a distance.
 March follow(FloatEvaluator& evaluator, const Function& function, const MarchingLoop& loop);
 
-/// Whether the slice at the text's own places has the text's own distances and thresholds, bit by bit: else
-/// something that the loop carries beside the place changes them. A threshold that changes by turns may be
-/// above that of the first.
+/// Returns whether the slice, at the text's own places, has the text's own distances and thresholds bit by
+/// bit. If not, the loop carries another value that changes them. A threshold that changes with the
+/// iterations may be above that of the slice.
 bool is_faithful(const LoopSlice& slice, const FloatEvaluator& entered, const March& march);
 
 } // namespace tidemark::ir

@@ -9,23 +9,23 @@
 namespace tidemark::ir {
 namespace {
 
-/// A comparison that decides whether the loop is left: where `smaller` is below `larger`.
+/// A comparison that ends the loop: it does so if `smaller` is below `larger`.
 struct ExitTest {
     Value smaller, larger;
-    bool at_equality; ///< it is left, too, where they are equal
-    bool at_nan;      ///< or where one of them is NaN
-    bool alone;       ///< nothing else has to hold beside it
+    bool at_equality; ///< also ends it if they are equal
+    bool at_nan; ///< also ends it if one of them is NaN
+    bool alone; ///< needs no other condition
     Value comparison;
     uint32_t block;
     int line;
 };
 
-/// A real value that the loop carries, and what a turn adds to it.
+/// A real value that the loop carries, and the amount that an iteration adds to it.
 struct Step {
     Value phi, update, added;
-    Value core;                 ///< the factor of `added` that changes in the loop; none: it does not change
-    std::vector<Value> factors; ///< the others
-    bool scales = false;        ///< `update` is a multiple of `phi`, and `added` says which one
+    Value core; ///< the factor of `added` that changes in the loop; k_no_value: it does not change
+    std::vector<Value> factors; ///< the other factors
+    bool scales = false; ///< `update` is `added` times `phi`, not a sum
 };
 
 class LoopReader {
@@ -65,7 +65,7 @@ private:
 
     LoopBlocks loop() const { return {function_, block_of_, header_, back_slot_}; }
 
-    // -- Where the loop is left
+    // -- Exit tests
 
     void read_tests() {
         for (uint32_t block = header_; block < function_.blocks.size(); ++block) {
@@ -82,7 +82,7 @@ private:
         }
     }
 
-    /// Where a turn does nothing, and none does after it, the loop has ended as if it were left.
+    /// An idle iteration, after which all iterations are idle, counts as the end of the loop.
     void read_idle(uint32_t block, size_t way) {
         if (idle_)
             return;
@@ -93,7 +93,8 @@ private:
         add_tests(function_.blocks[block].condition, way == 0, block);
     }
 
-    /// Of a condition that leaves the loop where it is `leaving`: a part alone may make it so.
+    /// Collects the comparisons of a condition that ends the loop if it equals `leaving`. `alone`: one of its
+    /// parts is enough.
     void add_tests(Value condition, bool leaving, uint32_t block, bool alone = true, int depth = 0) {
         constexpr int k_deepest = 16;
         if (!inside_[condition] || depth > k_deepest)
@@ -103,7 +104,7 @@ private:
         case Op::logical_not: add_tests(parts[0], !leaving, block, alone, depth + 1); return;
         case Op::logical_or:
         case Op::logical_and:
-        case Op::phi: // && and || that are evaluated as far as needed
+        case Op::phi: // && and || with short-circuit evaluation
             for (const Value part : parts)
                 add_tests(part, leaving, block, alone && is_either(condition, leaving), depth + 1);
             return;
@@ -119,14 +120,15 @@ private:
         }
     }
 
-    /// Whether one of the parts is enough to make a condition so.
+    /// Returns whether one part of a condition is enough to make it equal to `so`.
     bool is_either(Value condition, bool so) const {
         if (at(condition).op != Op::phi)
             return (at(condition).op == Op::logical_or) == so;
         const uint32_t merge = block_of_[condition];
         const auto& predecessors = function_.blocks[merge].predecessors;
         const auto parts = operands(condition);
-        for (size_t i = 0; i < parts.size(); ++i) { // the part that may decide it alone goes there at once
+        // the part that may decide alone jumps to the merge block directly
+        for (size_t i = 0; i < parts.size(); ++i) {
             const Block& from = function_.blocks[predecessors[i]];
             if (parts.size() == 2 && from.end == Block::End::branch && from.condition == parts[i])
                 return from.successors[so ? 0 : 1] == merge;
@@ -134,7 +136,7 @@ private:
         return false;
     }
 
-    // -- What a turn adds
+    // -- Step of an iteration
 
     void read_steps() {
         const Block& here = function_.blocks[header_];
@@ -144,7 +146,8 @@ private:
                     steps_.push_back(step(phi, *update));
     }
 
-    /// The sum or product of `phi` and something that `value` is, perhaps limited, perhaps on one way alone.
+    /// Finds the sum or product of `phi` and another value that `value` consists of, perhaps after a limit,
+    /// perhaps on one path only.
     std::optional<Value> sum_with(Value phi, Value value, int depth = 0) const {
         constexpr int k_deepest = 6;
         if (value == phi || !inside_[value] || depth > k_deepest)
@@ -192,7 +195,8 @@ private:
         return result;
     }
 
-    /// Each value alone as the parameter; then those that are moved together by one step.
+    /// Returns the candidates for the place on the ray: each value alone as the parameter, then the values
+    /// that one step moves together.
     std::vector<std::vector<Step>> groups() const {
         std::vector<std::vector<Step>> result, together;
         for (const Step& each : steps_)
@@ -213,7 +217,7 @@ private:
         return result;
     }
 
-    // -- A distance along the way
+    // -- Distance along the way
 
     bool is_header_phi(Value value) const { return loop().is_header_phi(value); }
 
@@ -264,18 +268,20 @@ private:
         return result;
     }
 
-    /// What a value that the loop carries becomes for the next turn, unless that does nothing.
+    /// Returns the value of a phi in the next iteration that is not idle.
     Value next_of(Value phi) const {
         const Value next = operands(phi)[back_slot_];
         return idle_turn_ ? idle_turn_->busy(loop(), next) : next;
     }
 
-    /// What it becomes is made of itself, of its like and of the place by sums and products.
+    /// Returns whether its next value consists of itself, of similar values and of the place, by sums and
+    /// products only.
     bool counts_turns(Value phi, const std::vector<Value>& cuts) const {
         return !computes(made_of(phi, cuts));
     }
 
-    /// All that a value is computed from in the loop, in this turn and those before, up to `stops`.
+    /// Returns all values of the loop that `value` is computed from, in this iteration and earlier ones, up
+    /// to `stops`.
     std::vector<Value> made_of(Value value, const std::vector<Value>& stops = {}) const {
         const Cone to_stops = cone(stops);
         std::vector<Value> all = to_stops.of(value);
@@ -288,8 +294,8 @@ private:
         return all;
     }
 
-    /// Real numbers that the loop carries beside the place on the ray: a distance that is tested in the next
-    /// turn is one, but if it depends on itself, too, it is no function of the place.
+    /// Returns the reals that the loop carries besides the place on the ray. A distance that is tested in the
+    /// next iteration is one; if it also depends on itself, it is not a function of the place.
     std::vector<Value> carried_beside(const std::vector<Value>& values,
                                       const std::vector<Value>& cuts) const {
         std::vector<Value> result;
@@ -300,7 +306,7 @@ private:
         return result;
     }
 
-    /// What is tested is how far the ray has come, not a distance there.
+    /// Returns whether the test compares the distance travelled, not a distance to a surface.
     static bool tests_the_place(const std::vector<Value>& field, const std::vector<Step>& group,
                                 bool at_update) {
         return !at_update && std::ranges::any_of(group, [&](const Step& each) {
@@ -308,7 +314,8 @@ private:
         });
     }
 
-    /// What counts the way along with the place may do so behind the test: there it is of another turn.
+    /// Removes the carried values that the field does not read. A second counter of the distance travelled
+    /// may be updated after the test, and then belongs to another iteration.
     static std::vector<Step> needed(std::vector<Step> group, bool at_update,
                                     const std::vector<Value>& field) {
         std::erase_if(group, [&](const Step& each) {
@@ -317,7 +324,7 @@ private:
         return group;
     }
 
-    /// Those of the values that change with the place.
+    /// Returns those of the values that change with the place.
     std::vector<Value> depending(const std::vector<Value>& values, const std::vector<Value>& cuts) const {
         const Cone loop = cone();
         std::vector<Value> result(cuts);
@@ -334,7 +341,7 @@ private:
         return result;
     }
 
-    /// More than sums and products: a field.
+    /// Returns whether the operation is more than a sum or product, so that it may be part of a field.
     bool is_computed(Value value) const {
         switch (at(value).op) {
         case Op::add:
@@ -353,8 +360,9 @@ private:
         return std::ranges::any_of(values, [this](Value value) { return is_computed(value); });
     }
 
-    /// A step that is made of the field's values is a sphere tracer's; one that is made of sums and products,
-    /// of the way so far and of numbers that count turns, is fixed.
+    /// Returns the kind of march: `sphere_tracing` if the step is computed from the field's values;
+    /// `fixed_step` if it consists of sums and products of constants, the distance travelled and iteration
+    /// counts.
     std::optional<MarchingLoop::Kind> kind_of(const Step& step, const std::vector<Value>& field) const {
         std::vector<Value> added = cone().of(step.added);
         for (const Value value : std::vector(added))
@@ -403,7 +411,7 @@ private:
         return loop;
     }
 
-    /// By the counter that ends it first.
+    /// Returns the iteration count of the counter that ends the loop first.
     std::optional<uint32_t> turns() const {
         std::optional<uint32_t> least;
         const Block& here = function_.blocks[header_];
@@ -418,7 +426,7 @@ private:
         return least;
     }
 
-    /// As far as it is known without running.
+    /// Returns whether the value may be above zero, as far as that is known without a run.
     bool is_above_zero(Value value) const {
         return at(value).op != Op::constant || std::bit_cast<float>(at(value).immediate) > 0;
     }
@@ -440,8 +448,8 @@ private:
     const std::vector<uint32_t>& block_of_;
     uint32_t header_;
     std::vector<bool> blocks_;
-    std::vector<bool> inside_; ///< of instructions
-    size_t back_slot_ = 0;     ///< of the operand of a phi that comes from the turn before
+    std::vector<bool> inside_; ///< by instruction
+    size_t back_slot_ = 0; ///< index of the phi operand that comes from the previous iteration
     std::optional<MarchingLoop::Idle> idle_;
     std::optional<IdleTurn> idle_turn_;
     std::vector<ExitTest> tests_;

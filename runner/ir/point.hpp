@@ -1,6 +1,6 @@
-// The number system of points: one value for a real number, in float (what a driver computes, but for its own
-// sine and its kind) or in double (the same text without most of the rounding). Whole numbers and booleans
-// are what they are.
+// The number system of points: one value for a real number, in float (the driver's result, except for its own
+// sine and similar functions) or in double (the same text without most of the rounding). Whole numbers and
+// booleans are exact.
 #pragma once
 
 #include "ir/function.hpp"
@@ -21,14 +21,14 @@ struct Point {
     uint32_t bits = 0; ///< of a whole number or a boolean
 };
 
-/// A part of a real number above its floor, below 1 as GLSL has it.
+/// Returns the part of a real number above its floor, always below 1 as GLSL requires.
 template <class Real>
 Real fract(Real a) {
     const Real part = a - std::floor(a);
     return part < 1 ? part : std::nextafter(Real(1), Real(0));
 }
 
-/// Towards zero; what does not fit is the nearest that does, NaN is 0.
+/// Rounds towards zero and clamps to the type's range; NaN gives 0.
 template <class Real>
 uint32_t to_int(Real a, bool is_signed) {
     if (std::isnan(a))
@@ -38,7 +38,7 @@ uint32_t to_int(Real a, bool is_signed) {
     return is_signed ? uint32_t(int32_t(inside)) : uint32_t(inside);
 }
 
-/// Operations on real numbers that give one.
+/// Computes the operations on real numbers that result in one.
 template <class Real>
 Real real_number(Op op, Real a, Real b, Real c) {
     switch (op) {
@@ -52,7 +52,7 @@ Real real_number(Op op, Real a, Real b, Real c) {
     case Op::square: return a * a;
     case Op::absolute: return std::abs(a);
     case Op::sign: return Real(a > 0) - Real(a < 0);
-    case Op::minimum: return std::fmin(a, b); // drivers prefer what is no NaN
+    case Op::minimum: return std::fmin(a, b); // drivers prefer the operand that is not NaN
     case Op::maximum: return std::fmax(a, b);
     case Op::floor: return std::floor(a);
     case Op::ceil: return std::ceil(a);
@@ -125,12 +125,12 @@ public:
     }
 
     static std::optional<bool> decide(const Value& condition) { return condition.bits != 0; }
-    /// What it may be, as a signed number.
+    /// Returns the lowest and highest value it may have, as a signed number.
     static std::pair<int64_t, int64_t> range(const Value& index) {
         return {int32_t(index.bits), int32_t(index.bits)};
     }
     static Value hull(const Value& a, const Value&) { return a; }
-    /// Where the operation jumps within the operand: the two parts on the sides of the jump.
+    /// Splits an operand at a jump of the operation; nullopt if there is none. Points have none.
     static std::optional<std::pair<Value, Value>> split(Op, const Operands<Value>&) { return std::nullopt; }
     static bool may_be_split(const Value&) { return false; }
 

@@ -7,7 +7,7 @@
 namespace tidemark::ir {
 namespace {
 
-/// Beyond that nobody evaluates it.
+/// Limit above which an evaluation takes too long.
 constexpr size_t k_most_instructions = 4'000'000;
 
 std::vector<SpirvInstruction> instructions_of(std::span<const uint32_t> words) {
@@ -23,7 +23,7 @@ std::vector<SpirvInstruction> instructions_of(std::span<const uint32_t> words) {
     return result;
 }
 
-/// The module itself, and its flow of control.
+/// Reads the module itself, and its control flow.
 class Reader : SpirvNames {
 public:
     Function read(std::span<const uint32_t> words) {
@@ -207,7 +207,7 @@ private:
         end_block(Block::End::multiway, targets);
     }
 
-    /// Its operands may stand further down: they are filled in at the end.
+    /// Operands may be defined later, so fill_phis() adds them at the end.
     void read_phi(const SpirvInstruction& each) {
         Values result;
         for (const Scalar scalar : scalars(each.at(0)))
@@ -225,7 +225,7 @@ private:
                 phi.operand_count = uint32_t(function().blocks[block].predecessors.size());
             }
     }
-    /// What is one value on every way is that value: of calls that are inlined much of it is left.
+    /// Replaces phis that have the same value on every path; inlining leaves many.
     void leave_out_phis() {
         Function& all = function();
         std::vector<Value> same(all.instructions.size());
@@ -266,7 +266,7 @@ private:
 Result<Function> read_spirv(std::span<const uint32_t> words) {
     try {
         return Reader().read(words);
-    } catch (const std::exception& reason) { // CannotFollow, or an id that nothing defines
+    } catch (const std::exception& reason) { // CannotFollow, or an undefined id
         return fail(ErrorCode::load, reason.what());
     }
 }

@@ -8,7 +8,7 @@
 namespace tidemark::ir {
 namespace {
 
-/// Looks at how a value is computed. A value that has been narrowed stands for what the text says.
+/// Reads how a value is computed. A narrowed value counts as its first operand, the expression in the text.
 class Identities {
 public:
     explicit Identities(const Function& function) : function_(function) {}
@@ -22,12 +22,12 @@ public:
         return instruction.op == Op::constant && std::bit_cast<float>(instruction.immediate) == constant;
     }
 
-    /// The operands of a sum or product, in both orders.
+    /// Returns the operands of a sum or product, in both orders.
     std::array<std::pair<Value, Value>, 2> both_orders(Value value) const {
         const Value a = operand(value, 0), b = operand(value, 1);
         return {{{a, b}, {b, a}}};
     }
-    /// What is multiplied by `factor`.
+    /// Returns the other operand of a product with `factor`.
     std::optional<Value> times(Value value, float factor) const {
         if (op(value) == Op::multiply)
             for (const auto& [a, b] : both_orders(value))
@@ -47,7 +47,7 @@ private:
 
 using Found = std::optional<EqualInReal>;
 
-/// b floor(a / b) and b round(a / b): the operation and b.
+/// Matches b floor(a / b) and b round(a / b); returns the operation and b.
 std::optional<std::pair<Op, Value>> multiple_near(const Identities& read, Value value, Value a) {
     if (read.op(value) != Op::multiply)
         return std::nullopt;
@@ -63,7 +63,7 @@ std::optional<std::pair<Op, Value>> multiple_near(const Identities& read, Value 
     return std::nullopt;
 }
 
-/// s (b - a): s and b.
+/// Matches s (b - a); returns s and b.
 std::optional<std::pair<Value, Value>> part_of_way(const Identities& read, Value value, Value a) {
     if (read.op(value) != Op::multiply)
         return std::nullopt;
@@ -73,7 +73,7 @@ std::optional<std::pair<Value, Value>> part_of_way(const Identities& read, Value
     return std::nullopt;
 }
 
-/// a (1 - s): a and s.
+/// Matches a (1 - s); returns a and s.
 std::optional<std::pair<Value, Value>> rest_of(const Identities& read, Value value) {
     if (read.op(value) != Op::multiply)
         return std::nullopt;
@@ -83,7 +83,7 @@ std::optional<std::pair<Value, Value>> rest_of(const Identities& read, Value val
     return std::nullopt;
 }
 
-/// x - floor(x), x - fract(x) and their kind.
+/// Matches x - floor(x), x - fract(x) and similar differences.
 Found of_difference(const Identities& read, Value value) {
     const Value a = read.operand(value, 0), b = read.operand(value, 1);
     const bool same = read.op(b) == Op::floor || read.op(b) == Op::fract || read.op(b) == Op::modulo;
@@ -99,7 +99,7 @@ Found of_difference(const Identities& read, Value value) {
     return std::nullopt;
 }
 
-/// Interpolation by hand: a + s (b - a), and a (1 - s) + b s.
+/// Matches interpolation by hand: a + s (b - a), and a (1 - s) + b s.
 Found of_sum(const Identities& read, Value value) {
     for (const auto& [a, other] : read.both_orders(value)) {
         if (const auto part = part_of_way(read, other, a))
@@ -114,14 +114,14 @@ Found of_sum(const Identities& read, Value value) {
     return std::nullopt;
 }
 
-/// x of 3 - 2 x.
+/// Matches 3 - 2 x; returns x.
 std::optional<Value> of_three_less_two(const Identities& read, Value value) {
     if (read.op(value) != Op::subtract || !read.is(read.operand(value, 0), 3))
         return std::nullopt;
     return read.times(read.operand(value, 1), 2);
 }
 
-/// x of x (6 x - 15) + 10.
+/// Matches x (6 x - 15) + 10; returns x.
 std::optional<Value> of_quintic_factor(const Identities& read, Value value) {
     if (read.op(value) != Op::add)
         return std::nullopt;
@@ -136,7 +136,7 @@ std::optional<Value> of_quintic_factor(const Identities& read, Value value) {
     return std::nullopt;
 }
 
-/// All that a product multiplies, a square's twice.
+/// Appends all factors of a product; the factor of a square twice.
 void add_factors(const Identities& read, Value value, std::vector<Value>& factors, int depth = 0) {
     constexpr int k_deepest = 3;
     const Op op = read.op(value);
@@ -148,7 +148,7 @@ void add_factors(const Identities& read, Value value, std::vector<Value>& factor
         add_factors(read, read.operand(value, side), factors, depth + 1);
 }
 
-/// Smooth steps by hand: x x (3 - 2 x), x x x (x (6 x - 15) + 10).
+/// Matches smooth steps by hand: x x (3 - 2 x), x x x (x (6 x - 15) + 10).
 Found of_product(const Identities& read, Value value) {
     std::vector<Value> factors;
     add_factors(read, value, factors);
@@ -163,7 +163,7 @@ Found of_product(const Identities& read, Value value) {
     return std::nullopt;
 }
 
-/// The smaller or the larger by hand: a < b ? a : b.
+/// Matches a minimum or maximum by hand: a < b ? a : b.
 Found of_selection(const Identities& read, Value value) {
     const Value condition = read.operand(value, 0);
     if (read.op(condition) != Op::less && read.op(condition) != Op::less_equal)

@@ -1,5 +1,5 @@
-// What is the same number in real arithmetic, written so that intervals see more of it: in x - floor(x) they
-// do not see that both x are one, in fract(x) they do.
+// Rewrites an operation as another one that is equal in real arithmetic and has narrower interval bounds: in
+// x - floor(x) intervals treat both x as independent, in fract(x) they do not.
 #pragma once
 
 #include "ir/function.hpp"
@@ -14,7 +14,7 @@ struct EqualInReal {
     std::vector<Value> operands;
 };
 
-/// Another form of an instruction; none where no identity is known.
+/// Returns another form of an instruction; nullopt if no identity applies.
 std::optional<EqualInReal> equal_in_real(const Function& function, Value value);
 
 } // namespace tidemark::ir

@@ -1,5 +1,5 @@
-// From a text to its Function: glslang compiles it, SPIRV-Tools inlines it (a plug-in, loaded when it is
-// first asked for), and the module is taken apart into scalars.
+// Compiles a text to a Function: glslang compiles it, SPIRV-Tools inlines it (in a plug-in, loaded at the
+// first call), and the module is split into scalars.
 #pragma once
 
 #include "base/result.hpp"
@@ -13,11 +13,11 @@
 
 namespace tidemark::ir {
 
-/// Of a whole fragment shader; lines in the error and in the function are those of `text`. An error says what
-/// the compiler refuses, or what of the text cannot be followed.
+/// Compiles a whole fragment shader; line numbers in the error and in the function are those of `text`. The
+/// error is the compiler's message, or names the construct that is not supported.
 Result<Function> compile(const std::string& text, Names names = Names::drop);
 
-/// Of a module that the plug-in made.
+/// Reads a module that the plug-in made.
 Result<Function> read_spirv(std::span<const uint32_t> words);
 
 } // namespace tidemark::ir

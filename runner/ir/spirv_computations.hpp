@@ -1,4 +1,4 @@
-// Reading a SPIR-V module, third layer: what an instruction computes of values that are known.
+// Reads a SPIR-V module, third layer: computations on known values.
 #pragma once
 
 #include "ir/spirv_memory.hpp"
@@ -176,7 +176,7 @@ protected:
             write(pointer(each.at(5)), whole);
             return build_.difference(a(), whole);
         }
-        case GLSLstd450ModfStruct: { // glslang 15's form: a structure of both parts
+        case GLSLstd450ModfStruct: { // glslang 15 uses this form: a structure of both parts
             const Values whole = build_.each(Op::truncate, Scalar::real, {a()});
             Values parts = build_.difference(a(), whole);
             parts.insert(parts.end(), whole.begin(), whole.end());
@@ -186,7 +186,7 @@ protected:
         }
     }
 
-    /// Drivers make products of the squares, which are defined for negative numbers, too.
+    /// Drivers expand these powers into products of squares, which are defined for negative numbers, too.
     Values power(const Values& base, const Values& exponent) {
         const auto is = [&](float number) {
             return std::ranges::all_of(exponent, [&](Value each) {
@@ -206,7 +206,7 @@ protected:
 
     Values looked_up(const SpirvInstruction& each) {
         Lookup lookup;
-        size_t extra = 4; // where the image operands begin
+        size_t extra = 4; // index of the first image operand
         switch (each.op) {
         case spv::OpImage: same_pointer(each.at(1), each.at(2)); return {};
         case spv::OpImageSampleImplicitLod:

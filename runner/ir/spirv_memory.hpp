@@ -1,16 +1,16 @@
-// Reading a SPIR-V module, second layer: its variables, and the pointers into them.
+// Reads a SPIR-V module, second layer: variables, and pointers into them.
 #pragma once
 
 #include "ir/spirv_values.hpp"
 
 namespace tidemark::ir {
 
-/// A place in memory: fixed, or with an offset that is computed.
+/// A place in memory, fixed or with a computed offset.
 struct Pointer {
-    Id type = 0; ///< of what it points at
+    Id type = 0; ///< of the target
     uint32_t first = 0;
     Value offset = k_no_value;
-    uint32_t last = 0; ///< cell that the offset may reach
+    uint32_t last = 0; ///< last cell that the offset may reach
     std::string sampler{};
 };
 
@@ -78,7 +78,7 @@ protected:
         return result;
     }
 
-    /// What global variables hold is written at the head of the function.
+    /// Writes the initial values of global variables at the start of the function.
     void initialise() {
         for (const auto& [variable, value_id] : std::exchange(initialisers_, {}))
             write(pointer(variable), values(value_id));
@@ -104,7 +104,7 @@ protected:
         return place;
     }
 
-    /// By an index that is computed; it is kept in the range of its array.
+    /// Moves the place by a computed index, which is clamped to its array.
     void move(Pointer& place, Value index, uint32_t stride, uint32_t count) {
         const auto number = [&](uint32_t bits) { return build_.constant(bits, Scalar::signed_int); };
         const auto whole = [&](Op op, Value a, Value b) {

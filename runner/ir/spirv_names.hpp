@@ -1,5 +1,5 @@
-// Reading a SPIR-V module, fourth layer: what its debug information (NonSemantic.Shader.DebugInfo.100) says
-// of the text, where the plug-in was asked to keep that.
+// Reads a SPIR-V module, fourth layer: debug information (NonSemantic.Shader.DebugInfo.100), which is there
+// if the text was compiled with Names::keep.
 #pragma once
 
 #include "ir/spirv_computations.hpp"
@@ -12,7 +12,7 @@ namespace tidemark::ir {
 
 class SpirvNames : protected SpirvComputations {
 protected:
-    /// Whether it was debug information.
+    /// Returns whether it was debug information.
     bool read_debug(const SpirvInstruction& each) {
         if (each.op == spv::OpString)
             strings_[each.at(0)] = string_at(each.from(1));
@@ -25,7 +25,7 @@ protected:
         return true;
     }
 
-    /// To be told before an instruction is computed: its statement.
+    /// Begins a statement if the line or the call has changed. Call it before each instruction is computed.
     void begin_statement() {
         if (set_ == 0)
             return;
@@ -38,7 +38,7 @@ protected:
         line_is_known_ = false;
         carried_.clear();
     }
-    /// What the phis of this block were said to be is carried by the loop.
+    /// Turns the names of this block's phis into assignments that the loop carries.
     void is_loop_header() {
         for (Assignment& each : carried_) {
             each.line = build_.line;
@@ -47,7 +47,7 @@ protected:
         }
         carried_.clear();
     }
-    /// An element of an array in memory that has a name.
+    /// Names an element of an array in memory.
     void name_stored(const SpirvInstruction& store) {
         const Pointer& place = pointer(store.at(0));
         for (const auto& [variable, declared] : declared_)
@@ -63,10 +63,10 @@ protected:
 
 private:
     static constexpr std::string_view k_set = "NonSemantic.Shader.DebugInfo.100";
-    /// Elements of an array that gets a value as a whole.
+    /// Limit of elements to name if an array is assigned as a whole.
     static constexpr uint32_t k_most_elements = 16;
 
-    /// Words: its id, the set, its kind, the operands.
+    /// The words are: id, set, kind, operands.
     void read_fact(const SpirvInstruction& each) {
         constexpr size_t k_operands = 3;
         const auto operands = each.from(k_operands);
@@ -127,7 +127,7 @@ private:
 
     // -- Values
 
-    /// A part of a variable of the text, and the type that the text has for it.
+    /// A part of a variable, and its debug type.
     struct Part {
         std::string name{};
         Id type = 0;
@@ -142,7 +142,7 @@ private:
     }
 
     void name_value(Id variable, Id id, std::span<const Id> indices) {
-        if (!has_values(id)) // of a pointer
+        if (!has_values(id)) // undefined for pointers
             return;
         Part part = named_[variable];
         for (const Id index : indices)
@@ -204,9 +204,10 @@ private:
     std::unordered_map<Id, Part> named_; ///< functions, variables, members
     std::unordered_map<Id, std::vector<Id>> parts_;
     std::unordered_map<Id, InlinedAt> inlined_;
-    std::map<std::pair<Id, Id>, uint32_t> calls_; ///< by scope and where it is inlined
-    std::map<Id, Id> declared_;                   ///< variables in memory
-    std::vector<Assignment> carried_;             ///< of this block, until it is known to be a loop's header
+    std::map<std::pair<Id, Id>, uint32_t> calls_; ///< by scope and place of inlining
+    std::map<Id, Id> declared_; ///< variables in memory
+    /// names of this block's phis, until the block is known to be a loop header
+    std::vector<Assignment> carried_;
     uint32_t call_ = 0;
     uint32_t named_block_ = 0;
     bool line_is_known_ = false;

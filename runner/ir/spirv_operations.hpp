@@ -1,5 +1,4 @@
-// SPIR-V's instructions and built-in functions that go component by component, and our operations of the same
-// meaning.
+// Maps the SPIR-V instructions and built-in functions that work component by component to our operations.
 #pragma once
 
 #include "ir/function.hpp"

@@ -1,4 +1,4 @@
-// Reading a SPIR-V module, first layer: its types, and its values, each taken apart into scalars.
+// Reads a SPIR-V module, first layer: types and values, each split into scalars.
 #pragma once
 
 #include "ir/function_builder.hpp"
@@ -18,14 +18,14 @@
 
 namespace tidemark::ir {
 
-/// What the text does and we do not follow; caught where a module is read.
+/// Thrown for constructs that are not supported; caught in read_spirv.
 struct CannotFollow : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
 struct SpirvInstruction {
     spv::Op op;
-    std::span<const uint32_t> words; ///< after the first
+    std::span<const uint32_t> words; ///< without the first word
 
     uint32_t at(size_t i) const {
         if (i >= words.size())
@@ -83,7 +83,7 @@ protected:
         for (uint32_t i = 0; i < whole.parts; ++i)
             append_filled(types_.part(type_id, i), op, result);
     }
-    /// The kinds of the scalars of a type.
+    /// Returns the types of the scalars of a type.
     std::vector<Scalar> scalars(Id type_id) {
         std::vector<Scalar> result;
         append_scalars(type_id, result);

@@ -8,14 +8,14 @@ namespace tidemark::ir {
 namespace {
 
 constexpr size_t k_first_pieces = 8;
-/// What is safe and what is not are told apart to that.
+/// The search ends once the safe and the unsafe multiple differ by less than this factor.
 constexpr double k_close_enough = 1.05;
-/// Of the way to the hit: over longer pieces too many ways are open for a close look.
+/// Share of the way to the hit: longer pieces have too many open paths for a closer evaluation.
 constexpr double k_looked_at_closely = 1.0 / 64;
-/// The last piece begins so much nearer to the hit each time that it is cut.
+/// Factor by which each cut of the last piece moves its start nearer to the hit.
 constexpr double k_nearer = 1.0 / 8;
 
-/// A piece of the ray in front of the hit, and the scale that is safe from all of its places.
+/// A piece of the ray before the hit, and the multiple that is safe from all of its places.
 struct Piece {
     double low, high;
     double safe;
@@ -50,7 +50,7 @@ private:
                piece.high - piece.low > 1e-12 * std::abs(piece.high);
     }
 
-    /// In the middle as the hit sees it: half as many times nearer.
+    /// Returns the place that divides the piece geometrically, by its distance from the hit.
     double cut(const Piece& piece) const {
         const double far = hit_.low - piece.low, near = hit_.low - piece.high;
         return hit_.low - (near > 0 ? std::sqrt(far * near) : far * k_nearer);
@@ -72,7 +72,7 @@ private:
         return distance.partial || !(distance.high > 0) ? 0 : (hit_.low - piece.high) / distance.high;
     }
 
-    /// By the mean value theorem: the distance is at most so many times the way to its zero.
+    /// Applies the mean value theorem: the distance is at most the slope times the way to its zero.
     double by_slope(const Interval& piece) {
         const auto tangent = slice_.tangent({piece.low, hit_.high});
         if (!tangent)

@@ -6,12 +6,12 @@
 namespace tidemark::ir {
 namespace {
 
-/// Student's factor for 95 % and two degrees of freedom, over the root of three samples.
+/// Student's factor for 95 % and two degrees of freedom, divided by the root of three samples.
 constexpr double k_student = 4.302652729911275 / 1.7320508075688772;
 
 bool gives_real(Op op, Scalar result, Scalar of) {
     if (op == Op::select || op == Op::bits_as || op == Op::ldexp)
-        return false; // nothing is rounded
+        return false; // these do not round
     return result == Scalar::real && of == Scalar::real;
 }
 
@@ -50,7 +50,7 @@ double significant_digits(double relative_spread) {
     return std::clamp(-std::log10(relative_spread), 0.0, k_most_digits);
 }
 
-/// splitmix64.
+/// Returns the next number of the splitmix64 generator.
 uint64_t StochasticSystem::draw() {
     uint64_t bits = state_ += 0x9e3779b97f4a7c15;
     bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
@@ -68,8 +68,8 @@ float StochasticSystem::rounded(double exact) {
     return to_nearest ? nearest : std::nextafter(nearest, exact > nearest ? infinity : -infinity);
 }
 
-/// The operations that are made of several round each of them, as the text's own operators would; a single
-/// one is computed in double, where a sum, a product, a quotient and a root of floats are as good as exact.
+/// Rounds each step of a composite operation, as the text's own operators would. Single operations are
+/// computed in double, in which a sum, product, quotient or root of floats is nearly exact.
 float StochasticSystem::real_number(Op op, float a, float b, float c) {
     const auto product = [&](float x, float y) { return rounded(double(x) * y); };
     const auto difference = [&](float x, float y) { return rounded(double(x) - y); };
@@ -84,7 +84,7 @@ float StochasticSystem::real_number(Op op, float a, float b, float c) {
     }
 }
 
-/// As in CADNA, the last sample rounds opposite to the one before: so three never agree by chance.
+/// The last sample rounds opposite to the one before, as in CADNA, so three samples never agree by chance.
 Samples StochasticSystem::compute(Op op, Scalar result, Scalar of, const Operands<Samples>& operands) {
     const auto& [a, b, c] = operands;
     Samples computed;

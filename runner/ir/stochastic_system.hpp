@@ -1,5 +1,5 @@
 // The number system of stochastic arithmetic: a real number is a few floats, each computed with every
-// operation rounded up or down by lot, so that what they have in common are the digits that rounding leaves.
+// operation rounded up or down at random, so their common digits are those that rounding leaves correct.
 // CESTAC: J. Vignes, A stochastic arithmetic for reliable scientific computation, Mathematics and Computers
 // in Simulation 35 (1993); its proof and its limits: J.-M. Chesneaux, L'arithmétique stochastique et le
 // logiciel CADNA (1995). The number of samples and Student's factor are those of CADNA.
@@ -14,16 +14,16 @@
 namespace tidemark::ir {
 
 inline constexpr size_t k_samples = 3;
-/// Of a float: 24 log10 2.
+/// Digits of a float: 24 log10 2.
 inline constexpr double k_most_digits = 7.22471989593555;
 
-/// A whole number is one in each sample, too: what it was made from may have been rounded otherwise.
+/// A whole number has a value in each sample, too: it may come from reals that were rounded differently.
 using Samples = std::array<Point<float>, k_samples>;
 
-/// Relative to its size, within what a vector's (a scalar's) real value lies with a probability of 95 %; 0
-/// where all samples agree, infinite where they have nothing in common.
+/// Returns the half-width of the 95 % confidence interval of a vector (or scalar), relative to its size; 0 if
+/// all samples agree, infinite if they have nothing in common.
 double relative_spread(std::span<const Samples> components);
-/// Decimal digits that the samples have in common, 0 to k_most_digits.
+/// Returns the number of decimal digits that the samples have in common, 0 to k_most_digits.
 double significant_digits(double relative_spread);
 inline double significant_digits(std::span<const Samples> components) {
     return significant_digits(relative_spread(components));
@@ -47,7 +47,7 @@ public:
 
     Value compute(Op op, Scalar result, Scalar of, const Operands<Value>& operands);
 
-    /// What most samples say.
+    /// Returns the majority of the samples.
     static std::optional<bool> decide(const Value& condition);
     static std::pair<int64_t, int64_t> range(const Value& index) {
         return PointSystem<float>::range(index[0]);
@@ -56,13 +56,13 @@ public:
     static std::optional<std::pair<Value, Value>> split(Op, const Operands<Value>&) { return std::nullopt; }
 
 private:
-    /// One of the two floats around it, by the next choice; a float is itself.
+    /// Returns one of the two floats around `exact`, by the next random bit; a float is returned unchanged.
     float rounded(double exact);
     float real_number(Op op, float a, float b, float c);
     uint64_t draw();
 
     uint64_t state_;
-    uint64_t choices_ = 0; ///< for the roundings of the operation at hand, a bit each
+    uint64_t choices_ = 0; ///< random bits for the roundings of the current operation
 };
 
 } // namespace tidemark::ir

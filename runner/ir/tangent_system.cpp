@@ -13,7 +13,7 @@ Interval number(double value) {
     return {value, value};
 }
 
-/// Of a function of one number that is continuous: its derivative. `value` is the function's.
+/// Returns the derivative of a continuous function of one number; `value` is the function's value.
 std::optional<Interval> derivative(Op op, const Interval& a, const Interval& value) {
     const auto hermite_factor = [&a] { return number(0.25) - square(a - number(0.5)); }; // a (1 - a)
     switch (op) {
@@ -44,7 +44,7 @@ std::optional<Interval> derivative(Op op, const Interval& a, const Interval& val
     }
 }
 
-/// Of what is one whole number over the piece, and of what is a rest beside one.
+/// Returns whether the rounding operation gives a single whole number over the piece.
 bool is_one_number(Op op, const Interval& a) {
     return IntervalSystem().compute(op, Scalar::real, Scalar::real, {a, {}, {}}).point();
 }
@@ -131,7 +131,7 @@ Tangent TangentSystem::compute(Op op, Scalar result, Scalar of, const Operands<T
         return {value, {}};
     if (op == Op::select)
         return {value, slope_of(op, value, a, b, c, jumps_aside)};
-    if (result != Scalar::real || of != Scalar::real) // whole numbers jump, and nothing else
+    if (result != Scalar::real || of != Scalar::real) // whole numbers change only by jumps
         return {value, jumps_aside && op != Op::bits_as ? Interval{} : everything()};
     const bool constant = a.constant() && b.constant() && c.constant();
     return {value, constant ? Interval{} : slope_of(op, value, a, b, c, jumps_aside)};

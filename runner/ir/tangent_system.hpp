@@ -1,7 +1,7 @@
 // The number system of intervals with a derivative: bounds of a value over a piece of a ray, and of its slope
-// along the ray there (R. E. Moore: Interval Analysis, 1966; forward mode). At a kink, of abs() or min(), the
-// slopes of both sides are in it (F. H. Clarke: Optimization and Nonsmooth Analysis, 1983), so that the mean
-// value theorem holds; where the value may jump, the slope is everything.
+// along the ray (R. E. Moore: Interval Analysis, 1966; forward mode). At a kink, of abs() or min(), the
+// slopes of both sides are included (F. H. Clarke: Optimization and Nonsmooth Analysis, 1983), so the mean
+// value theorem holds; if the value may jump, the slope is unbounded.
 #pragma once
 
 #include "ir/interval_system.hpp"
@@ -12,7 +12,7 @@ struct Tangent {
     Interval value;
     Interval slope;
 
-    /// Does not change over the piece.
+    /// Returns whether the value does not change over the piece.
     bool constant() const { return slope.low == 0 && slope.high == 0; }
 };
 
@@ -20,7 +20,8 @@ class TangentSystem {
 public:
     using Value = Tangent;
 
-    /// Slopes are those beside all jumps; else everything where the value may jump.
+    /// If true, slopes are those on both sides of jumps; else the slope of a value that may jump is
+    /// unbounded.
     bool jumps_aside = false;
 
     static Value constant(uint32_t bits, Scalar type) { return {IntervalSystem::constant(bits, type), {}}; }
@@ -35,7 +36,7 @@ public:
     static std::pair<int64_t, int64_t> range(const Value& index) {
         return IntervalSystem::range(index.value);
     }
-    /// Of two cells of memory, of which either is read: the value may jump.
+    /// Combines two memory cells of which either may be read: the value may jump.
     Value hull(const Value& a, const Value& b) const {
         return {ir::hull(a.value, b.value), jumps_aside ? ir::hull(a.slope, b.slope) : everything()};
     }

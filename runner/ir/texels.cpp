@@ -9,16 +9,16 @@ namespace tidemark::ir {
 namespace {
 
 constexpr uint32_t k_components = 4;
-/// A range of at most so many texels along each axis is looked through as it is.
+/// Ranges of at most this many texels along each axis are read at full size.
 constexpr int64_t k_few = 4;
-/// Linear filtering over at most so many cells along each axis is bounded cell by cell.
+/// Linear filtering over at most this many cells along each axis is bounded cell by cell.
 constexpr int64_t k_few_cells = 3;
-/// Beyond that an index is no use: coordinates are anywhere.
+/// Limit of an index: larger coordinates may be anywhere.
 constexpr double k_largest_index = 1e9;
 
 constexpr float k_infinite = std::numeric_limits<float>::infinity();
 
-/// One index of a texture of `size`, from one beyond its edges.
+/// Returns the index in a texture of `size` for an index that may lie beyond its edges.
 int64_t wrapped(int64_t index, int64_t size, Texels::Wrap wrap) {
     const auto rest = [](int64_t a, int64_t b) { return ((a % b) + b) % b; };
     switch (wrap) {
@@ -34,14 +34,14 @@ int64_t wrapped(int64_t index, int64_t size, Texels::Wrap wrap) {
 
 using Span = std::pair<int64_t, int64_t>;
 
-/// The indices within the texture that those from first to last fall on, as one or two spans.
+/// Returns the indices within the texture for those from first to last, as one or two spans.
 std::vector<Span> wrapped_spans(int64_t first, int64_t last, int64_t size, Texels::Wrap wrap) {
     if (wrap == Texels::Wrap::clamp)
         return {{wrapped(first, size, wrap), wrapped(last, size, wrap)}};
     const int64_t begin = wrapped(first, size, wrap), end = wrapped(last, size, wrap);
     if (last - first >= size - 1)
         return {{0, size - 1}};
-    if (wrap == Texels::Wrap::mirror) { // as far as the turning points lie within, up to the edge
+    if (wrap == Texels::Wrap::mirror) { // extends to the edge if the mirror point lies within
         const bool turns = std::abs(end - begin) != last - first;
         const bool at_end = begin + end >= size - 1;
         const auto [low, high] = std::minmax(begin, end);
@@ -52,13 +52,13 @@ std::vector<Span> wrapped_spans(int64_t first, int64_t last, int64_t size, Texel
     return {{begin, size - 1}, {0, end}};
 }
 
-/// What filtering needs of one level: which texels, and how much of each.
+/// Bounds the filtered value of one level.
 class Filter {
 public:
     Filter(const TexelLevel& level, uint32_t component, Texels::Wrap wrap)
         : level_(level), component_(component), wrap_(wrap) {}
 
-    /// Coordinates in texels, of as many axes as are filtered; `layer` of a cube.
+    /// `places` are coordinates in texels, one for each filtered axis; `layer` is that of a cube.
     Interval at(std::span<const Interval> places, bool linear, int64_t layer) const {
         if (std::ranges::any_of(places, [](const Interval& place) {
                 return place.partial || place.low < -k_largest_index || place.high > k_largest_index;
@@ -79,7 +79,7 @@ private:
         return range(first, last, places.size());
     }
 
-    /// Cells lie between the centres of texels.
+    /// Cells lie between texel centres.
     Interval interpolated(std::span<const Interval> places, int64_t layer) const {
         TexelIndex first{0, 0, layer}, last = first;
         std::array<Interval, 3> parts;
@@ -110,7 +110,7 @@ private:
         return *all;
     }
 
-    /// Linear along the first `axes` axes.
+    /// Interpolates linearly along the first `axes` axes.
     Interval in_cell(TexelIndex cell, std::span<const Interval> parts, size_t axes) const {
         if (axes == 0) {
             for (size_t axis = 0; axis < parts.size(); ++axis)
@@ -147,7 +147,8 @@ private:
     Texels::Wrap wrap_;
 };
 
-/// A direction as a face of a cube and coordinates on it in [0, 1]. Nothing where the face is not decided.
+/// Converts a direction to a face of a cube and coordinates on it in [0, 1]; nullopt if the face is not
+/// decided.
 struct OnFace {
     int64_t face = 0;
     std::array<Interval, 2> place;
@@ -173,7 +174,7 @@ std::optional<OnFace> on_face(std::span<const Interval> direction) {
     return OnFace{int64_t(face), {part(sides[face][0]), part(sides[face][1])}};
 }
 
-/// The level of a look-up, from where its operands have it.
+/// Returns the level of a look-up from its operands: level, bias or gradients.
 Interval level_of(const Lookup& lookup, std::span<const Interval> operands, const TexelIndex& size) {
     const auto rest = operands.subspan(std::min<size_t>(lookup.coordinates, operands.size()));
     if (lookup.has_level)
@@ -272,7 +273,7 @@ const TexelLevel* Texels::level_at(std::span<const Interval> number) const {
     return there ? &levels[size_t(number[0].low)] : nullptr;
 }
 
-/// Beyond the edges it is 0.
+/// Texels beyond the edges are 0.
 Interval Texels::fetched(const Lookup& lookup, std::span<const Interval> operands) const {
     const TexelLevel* level = level_at(operands.subspan(lookup.coordinates));
     if (!level)

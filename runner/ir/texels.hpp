@@ -1,6 +1,6 @@
-// The texels of a texture, and what a look-up makes of them: bounded over all coordinates of a box, by the
-// filter, the wrap and the levels that GL would use (OpenGL 4.5 specification, 8.14). Weights are real
-// numbers: a device has them in 8 bits or more.
+// The texels of a texture, and the result of look-ups in it: bounds over a box of coordinates, by the filter,
+// the wrap and the levels that GL uses (OpenGL 4.5 specification, 8.14). Filter weights are real numbers; a
+// device has them in 8 bits or more.
 #pragma once
 
 #include "ir/evaluate.hpp"
@@ -20,22 +20,23 @@ namespace tidemark::ir {
 
 using TexelIndex = std::array<int64_t, 3>;
 
-/// One level, RGBA in floats, x fastest. Over it stand smaller ones with the least and the largest of
-/// 2 x 2 x 2 texels each, so that a range of any size takes a few looks.
+/// One level, RGBA in floats, x fastest. It keeps smaller levels with the minimum and maximum of 2 x 2 x 2
+/// texels each, so a range of any size takes a few reads.
 class TexelLevel {
 public:
-    /// `size` 1 where there is no such axis; the layers of a cube stand in depth.
+    /// A missing axis has size 1; the layers of a cube are stacked in depth.
     TexelLevel(TexelIndex size, std::vector<float> rgba);
 
     const TexelIndex& size() const { return extrema_.front().size; }
-    /// The least and the largest with an index in [first, last], which lie within the level.
-    /// Where one of them is NaN or infinite, nothing is known.
+    /// Returns the least and the largest texel with an index in [first, last], which must lie within the
+    /// level; unbounded if one of the texels read is NaN or infinite.
     Interval range(const TexelIndex& first, const TexelIndex& last, uint32_t component) const;
 
 private:
     struct Extrema {
         TexelIndex size{1, 1, 1};
-        std::vector<float> least, largest; ///< RGBA; of the level itself they are the texels
+        /// RGBA; at full size `least` holds the texels and `largest` is empty
+        std::vector<float> least, largest;
         size_t offset(const TexelIndex& index, uint32_t component) const;
     };
     static Extrema halved(const Extrema& from);
@@ -43,8 +44,8 @@ private:
     std::vector<Extrema> extrema_;
 };
 
-/// Which level a look-up takes that names none: what neighbouring pixels do, from which a device chooses it,
-/// is not known here.
+/// Level of a look-up that names none. A device chooses it by the neighbouring pixels, which are not known
+/// here, so it is the base level or may be any.
 enum class UnnamedLevel { base, any };
 
 struct Texels {
@@ -72,13 +73,13 @@ private:
                       bool linear) const;
 };
 
-/// By the name of the sampler. Of one that is not there nothing is known.
+/// Textures by the name of the sampler. Look-ups in a missing texture are unbounded.
 using TextureSet = std::map<std::string, std::shared_ptr<const Texels>, std::less<>>;
 
 Interval look_up(const TextureSet& textures, const Lookup& lookup, std::span<const Interval> operands,
                  UnnamedLevel unnamed = UnnamedLevel::base);
 
-/// At one place, of the base level where none is named.
+/// Looks up a single place, in the base level if none is named.
 template <class Real>
 Point<Real> look_up(const TextureSet& textures, const Lookup& lookup, std::span<const Point<Real>> operands) {
     std::vector<Interval> places;
@@ -93,14 +94,14 @@ Point<Real> look_up(const TextureSet& textures, const Lookup& lookup, std::span<
     return {Real(found.low + (found.high - found.low) / 2), 0};
 }
 
-/// For an evaluator that lives no longer than the set.
+/// The result refers to `textures`, which must outlive it.
 inline Textures<Interval> textures_at_any_level(const TextureSet& textures) {
     return [&textures](const Lookup& lookup, std::span<const Interval> operands) {
         return look_up(textures, lookup, operands, UnnamedLevel::any);
     };
 }
 
-/// Likewise.
+/// The result refers to `textures`, which must outlive it.
 template <class Number>
 Textures<Number> textures_in(const TextureSet& textures) {
     return [&textures](const Lookup& lookup, std::span<const Number> operands) {

@@ -8,16 +8,16 @@ namespace tidemark::ir {
 namespace {
 
 constexpr double k_widest_part = 1.0 / 16;
-/// Within a piece the shortest step is at least such a part of the longest. Closer pieces bound the turns
-/// closer, and are more.
+/// Within a piece the shortest step is at least this share of the longest. Evener pieces give a closer bound,
+/// and there are more of them.
 constexpr double k_evenness[] = {0.5, 0.8};
-/// Or the piece is so short that a step leaves it anyway.
+/// Or the piece is this share of its shortest step or less, so a step leaves it anyway.
 constexpr double k_of_a_step = 0.25;
 constexpr double k_narrowest = 1e-9;
-/// For the roundings of sums.
+/// Allowance for rounding in sums.
 constexpr double k_step_shorter = 1 - 1e-12;
 
-/// A piece of the ray, and how far a step from any of its places goes, at least and at most.
+/// A piece of the ray, and bounds of the step from any of its places.
 struct Stretch {
     double low, high;
     Interval step;
@@ -47,8 +47,8 @@ private:
         return slice_.advance({low, high}, narrow ? Care::close : Care::quick);
     }
 
-    /// Stretchs from the start to the end, or to where the loop is surely left: that is the goal. Beyond it,
-    /// as far as the loop is left all along, `wall_`.
+    /// Covers the ray with pieces from the start to the goal: the end, or the first place from which the loop
+    /// is certainly left. `wall_` is how far beyond the goal the loop is left at every place.
     bool cover(double evenness) {
         pieces_.clear();
         goal_ = wall_ = end_;
@@ -75,8 +75,8 @@ private:
         return slice_.far().has_value();
     }
 
-    /// Whether no step goes past the wall. It is looked how far the wall goes, and pieces whose steps seem to
-    /// go past are looked at in halves.
+    /// Returns whether no step goes past the wall. Extends the wall first, then halves pieces whose steps
+    /// seem to pass it.
     bool stops() {
         if (goal_ == end_)
             return true;
@@ -104,16 +104,18 @@ private:
         if (spent() || whole.high - whole.low < k_narrowest * std::max(1.0, std::abs(whole.high)))
             return false;
         const auto left = step(whole.low, middle), right = step(middle, whole.high);
-        const Interval none{whole.step.low, whole.step.low}; // where the loop is left anyway
+        // step for a half in which the loop is left anyway
+        const Interval none{whole.step.low, whole.step.low};
         pieces_[i] = {whole.low, middle, left ? intersection(*left, whole.step) : none};
         pieces_.insert(pieces_.begin() + std::ptrdiff_t(i) + 1,
                        {middle, whole.high, right ? intersection(*right, whole.step) : none});
         return true;
     }
 
-    /// Turn after turn, how far the slowest march has come at least.
+    /// Counts iterations by the least place that the slowest march has reached after each.
     std::optional<uint32_t> turns_to_goal() const {
-        std::vector<double> least(pieces_.size() + 1, k_infinity); // of where steps from there and beyond end
+        // least end of a step from this piece or a later one
+        std::vector<double> least(pieces_.size() + 1, k_infinity);
         for (size_t i = pieces_.size(); i-- > 0;)
             least[i] = std::min(least[i + 1], pieces_[i].low + pieces_[i].shortest());
         double at = slice_.start();
@@ -129,7 +131,7 @@ private:
             while (here + 1 < pieces_.size() && pieces_[here].high <= at)
                 ++here;
         }
-        return turns + 1; // the one that finds it
+        return turns + 1; // plus the iteration that finds it
     }
 
     MarchSlice& slice_;

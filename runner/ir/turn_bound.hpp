@@ -1,4 +1,4 @@
-// How many turns a march can need at most: by how far each of its steps goes at least.
+// Bounds the number of iterations of a march from above, by the least length of each of its steps.
 #pragma once
 
 #include "ir/march_slice.hpp"
@@ -8,8 +8,9 @@
 
 namespace tidemark::ir {
 
-/// Turns after which the march has surely come to a hit or to `end`, in real arithmetic; nothing where that
-/// is not known, or is more than `enough`. `slice` is of SliceOf::step; of many rays the turns of each.
+/// Returns a number of iterations after which the march has certainly reached a hit or `end`, in real
+/// arithmetic; nullopt if that is not known, or is more than `enough`. `slice` must use SliceOf::step; for
+/// several rays the bound holds for each.
 std::optional<uint32_t> most_turns(MarchSlice& slice, double end, uint32_t enough, uint64_t most_evaluations);
 
 } // namespace tidemark::ir

@@ -13,14 +13,14 @@ namespace {
 
 constexpr int k_most_sweeps = 100;
 constexpr int k_narrowings = 12;
-/// What grows more often is widened.
+/// Values that grow more often than this are widened.
 constexpr int k_patience = 3;
-/// Bounds that are tried before a value is unbounded.
+/// Bounds that are tried before a value becomes unbounded.
 constexpr std::array k_steps{-1e6, -1e3, -1.0, 0.0, 1.0, 1e3, 1e6};
-/// How far back a value is computed anew under a condition.
+/// How many operations back a value is computed again under a condition.
 constexpr int k_depth = 2;
 
-/// A condition that holds, or does not, wherever a block is.
+/// A condition that holds, or does not hold, throughout a block.
 struct Fact {
     Value condition = k_no_value;
     bool holds = false;
@@ -29,7 +29,7 @@ struct Fact {
 };
 using Facts = std::vector<Fact>; ///< sorted
 
-/// Outwards to a bound that few values have, so that a loop comes to an end.
+/// Widens outwards to one of a few fixed bounds, so the analysis of a loop terminates.
 Interval widened_to_steps(const Interval& before, Interval now) {
     if (now.low < before.low) {
         const auto step = std::ranges::find_if(k_steps.rbegin(), k_steps.rend(),
@@ -43,11 +43,11 @@ Interval widened_to_steps(const Interval& before, Interval now) {
     return now;
 }
 
-/// Of a result that is rounded: twice what rounding to nearest takes away from a float.
+/// Relative error of a rounded result: twice that of rounding to nearest in float.
 constexpr double k_float_rounding = 0x1p-23;
-/// Of functions, and of what is put together of several operations: some units in the last place.
+/// Relative error of functions and of composite operations: some units in the last place.
 constexpr double k_function_rounding = 1e-6;
-/// Below that, a float may be flushed to 0.
+/// Smaller floats may be flushed to 0.
 constexpr double k_least_float = 0x1p-126;
 constexpr double k_largest_float = std::numeric_limits<float>::max();
 
@@ -65,8 +65,8 @@ bool is_rest(Op op) {
     return op == Op::modulo || op == Op::remainder || op == Op::nearest_rest || op == Op::whole_multiple;
 }
 
-/// What floats make of a result in real arithmetic. Rounding changes no sign, but of a rest; sines stay
-/// within 1.
+/// Returns the range of a float result from that in real arithmetic. Rounding does not change signs, except
+/// of remainders; sines and cosines stay within 1.
 Interval in_floats(Op op, Interval range, double largest_operand) {
     const bool once = is_rounded_once(op), wave = op == Op::sin || op == Op::cos;
     const double part = once ? k_float_rounding : k_function_rounding;
@@ -83,10 +83,10 @@ bool is_same(const Interval& a, const Interval& b) {
     return a.low == b.low && a.high == b.high && a.partial == b.partial;
 }
 
-/// Of the memory.
+/// A memory cell.
 struct Cell {
     Interval range{};
-    Value origin = k_no_value; ///< of what may be no number
+    Value origin = k_no_value; ///< operation that may have made it NaN or infinite
 };
 
 class Analysis {
@@ -118,13 +118,13 @@ public:
         }
         phase_ = Phase::doubting;
         forget_doubts();
-        sweep(); // phis look at what the sweep before has left
+        sweep(); // phis read the values of the previous sweep
         return settles() ? result() : ValueRanges{};
     }
 
 private:
-    /// Bounds grow until they hold; then they shrink as far as they still do. A doubt that a loop hands on to
-    /// itself would stay: so in the end doubts are found anew, within those bounds.
+    /// Bounds grow until they hold, then shrink as far as they still do. A doubt (NaN or infinity) that a
+    /// loop passes on to itself would stay, so the last phase finds doubts again, within those bounds.
     enum class Phase { growing, narrowing, doubting };
 
     bool settles() {
@@ -176,7 +176,7 @@ private:
         }
     }
 
-    /// Marks where it may go on from there.
+    /// Marks the successors that may be reached.
     void leave(uint32_t block) {
         const Block& here = function_.blocks[block];
         std::optional<bool> way;
@@ -190,7 +190,7 @@ private:
         }
     }
 
-    /// What holds on the way from one block to another.
+    /// Returns the conditions that hold on the edge between two blocks.
     Facts facts_on(uint32_t from, uint32_t to) const {
         Facts facts = facts_[from];
         const Block& block = function_.blocks[from];
@@ -201,7 +201,8 @@ private:
         return facts;
     }
 
-    /// What holds on all ways into a block; one that leads back has come through it.
+    /// Returns the conditions that hold on all edges into a block, except for back edges, whose paths have
+    /// passed through it.
     Facts facts_of(uint32_t block) const {
         std::optional<Facts> common;
         for (const uint32_t from : function_.blocks[block].predecessors) {
@@ -217,7 +218,7 @@ private:
 
     // ---- Values ------------------------------------------------------------------------------------------
 
-    /// A value where those facts hold.
+    /// Returns the range of a value if `facts` hold.
     Interval under(Value value, const Facts& facts, int depth = 0) const {
         Interval range = values_[value];
         for (const Fact& fact : facts)
@@ -230,7 +231,7 @@ private:
         return intersection(range, computed(instruction, facts, depth - 1));
     }
 
-    /// By one condition that holds, or does not.
+    /// Narrows a range by one condition that holds, or does not hold.
     void confine(Interval& range, Value value, Value condition, bool holds) const {
         if (value == condition)
             range = {double(holds), double(holds)};
@@ -264,7 +265,8 @@ private:
         default: return;
         }
     }
-    /// A comparison that holds is one of numbers; one that does not may be of NaN, and says nothing then.
+    /// If a comparison holds, both operands are numbers; if it does not, one of them may be NaN, which gives
+    /// no bound.
     void confine_below(Interval& range, Value value, Value bound, bool holds, bool strict) const {
         if (values_[bound].partial && !holds)
             return;
@@ -279,7 +281,7 @@ private:
         const double least = values_[bound].low;
         range.low = std::min(std::max(range.low, strict ? next(value, least, 1) : least), range.high);
     }
-    /// The next number of that value's type, up or down.
+    /// Returns the next number of that value's type, up or down.
     double next(Value value, double number, int way) const {
         return function_.instructions[value].type == Scalar::real ? std::nextafter(number, way * k_infinity)
                                                                   : number + way;
@@ -300,7 +302,7 @@ private:
             numbers[i] = under(operands[i], facts, depth);
         if (instruction.op == Op::select)
             return selected(operands, numbers, facts);
-        if (instruction.op == Op::narrowed) // in real arithmetic, that is
+        if (instruction.op == Op::narrowed) // exact in real arithmetic only
             return numbers[0];
         if (const auto kept = bits_kept(instruction, facts))
             return *kept;
@@ -317,7 +319,7 @@ private:
         return in_floats(instruction.op, range, largest);
     }
 
-    /// A float whose bits are taken, some perhaps masked out, and put back.
+    /// Matches a float whose bits are read, perhaps masked, and converted back.
     std::optional<Interval> bits_kept(const Instruction& instruction, const Facts& facts) const {
         if (instruction.op != Op::bits_as || instruction.type != Scalar::real)
             return std::nullopt;
@@ -334,7 +336,7 @@ private:
         return masked ? hull(range, {0, std::max(most, 0.0)}) : range;
     }
 
-    /// Each side where its condition holds: that is what keeps the other away from what it cannot take.
+    /// Evaluates each side under its condition, which is what keeps a value from its undefined operands.
     Interval selected(std::span<const Value> operands, const std::array<Interval, 3>& numbers,
                       const Facts& facts) const {
         if (const auto way = IntervalSystem::decide(numbers[0]))
@@ -360,7 +362,8 @@ private:
         }
     }
 
-    /// `from`: a doubt about them goes on in the value; one that arises is its own.
+    /// A doubt about the operands `from` is passed on to the value; a new doubt has the value itself as its
+    /// origin.
     void set(Value value, const Interval& range, std::span<const Value> from, uint32_t block) {
         values_[value] = range;
         origins_[value] = k_no_value;
@@ -383,7 +386,7 @@ private:
         return textures_(function_.lookups[instruction.immediate], places);
     }
 
-    /// A phi takes what each way in brings.
+    /// Joins the ranges that a phi receives on each edge.
     void merge(uint32_t block, Value phi) {
         const Block& here = function_.blocks[block];
         const auto operands = function_.operands_of(function_.instructions[phi]);
@@ -412,7 +415,7 @@ private:
             range.partial = range.partial || now.partial;
         }
     }
-    /// What was known stays.
+    /// Bounds only grow.
     void grow(Interval& range, Interval now, int& times) {
         if (times > 0)
             now = hull(range, now);
@@ -423,7 +426,7 @@ private:
         changed_ = true;
     }
 
-    // ---- Memory, of which is known what was ever in it ---------------------------------------------------
+    // ---- Memory: the range of everything that was ever stored in a cell -----------------------------------
 
     std::pair<uint32_t, uint32_t> cells(const Instruction& instruction, std::span<const Value> operands,
                                         size_t offset) const {
@@ -457,9 +460,10 @@ private:
     const Function& function_;
     const Textures<Interval>& textures_;
     std::vector<Interval> values_;
-    std::vector<Value> origins_; ///< of each value that may be no number: the operation that made it so
-    std::vector<int> grown_;     ///< how often
-    std::vector<bool> reached_;  ///< of the blocks
+    /// for each value that may be NaN or infinite: the operation that made it so
+    std::vector<Value> origins_;
+    std::vector<int> grown_; ///< how often each value has grown
+    std::vector<bool> reached_; ///< by block
     std::vector<Facts> facts_;
     std::vector<Cell> initial_, memory_;
     std::vector<Cell> written_; ///< in this sweep

@@ -1,5 +1,5 @@
-// GLSL's operations on whole numbers and their bits. What the language leaves undefined is what drivers on a
-// CPU do: shifts take the lowest five bits, a division by zero gives all bits set.
+// GLSL's operations on whole numbers and their bits. Results that the language leaves undefined are those of
+// drivers on a CPU: shifts use the lowest five bits, a division by zero gives all bits set.
 #pragma once
 
 #include "ir/function.hpp"
@@ -18,7 +18,7 @@ inline uint32_t divided(uint32_t a, uint32_t b, bool is_signed) {
     return b == ~0u ? 0u - a : uint32_t(int32_t(a) / int32_t(b));
 }
 
-/// With the sign of a.
+/// The result has the sign of a.
 inline uint32_t remainder_of(uint32_t a, uint32_t b, bool is_signed) {
     return b == 0 ? ~0u : a - b * divided(a, b, is_signed);
 }
@@ -38,10 +38,10 @@ inline uint32_t reversed(uint32_t a) {
 
 inline uint32_t highest_bit(uint32_t a, bool is_signed) {
     const uint32_t seen = is_signed && int32_t(a) < 0 ? ~a : a;
-    return uint32_t(31 - std::countl_zero(seen)); // -1 of none
+    return uint32_t(31 - std::countl_zero(seen)); // -1 if there is none
 }
 
-/// `type` is that of the operands. Of booleans, 1 is true.
+/// `type` is that of the operands. For booleans, 1 is true.
 inline uint32_t whole_number(Op op, Scalar type, uint32_t a, uint32_t b, uint32_t c) {
     const bool is_signed = type == Scalar::signed_int;
     const bool less = is_signed ? int32_t(a) < int32_t(b) : a < b;

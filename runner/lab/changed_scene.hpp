@@ -1,4 +1,4 @@
-// A scene with its texts changed.
+// Applies text changes to a scene: a scene and changes in, a changed copy out. It writes no files.
 #pragma once
 
 #include "glsl/cure/cure.hpp"
@@ -9,7 +9,8 @@
 
 namespace tidemark::lab {
 
-/// Nothing where a text has not the words, or where two changes overlap.
+/// Returns the scene with all changes applied, or nothing if a text does not contain the tokens to change or
+/// two changes overlap.
 std::optional<scene::Scene> changed(scene::Scene scene, std::span<const glsl::Cure> changes);
 
 } // namespace tidemark::lab

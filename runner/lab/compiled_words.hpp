@@ -1,4 +1,5 @@
-// What a driver's preprocessor leaves of a scene: whether two texts are one program. Pure.
+// The tokens of a scene's passes after preprocessing, used to check whether two texts compile to the same
+// program. Pure; needs no driver.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -9,8 +10,9 @@
 
 namespace tidemark::lab {
 
-/// The words of all passes, blanks, comments and what #if takes out aside; nothing where that cannot be told
-/// without the driver. Values of knobs are in none of them.
+/// Returns the tokens of all passes in order, without white space, comments and text that #if removes, or
+/// nothing if the text cannot be preprocessed without the driver. Knob values are uniforms, so the tokens do
+/// not contain them.
 std::optional<std::vector<std::string>> compiled_words(const scene::Scene& scene);
 
 } // namespace tidemark::lab

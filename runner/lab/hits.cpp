@@ -26,7 +26,8 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
     all.insert(all.end(), more.begin(), more.end());
 }
 
-/// Off by more than `tolerance`, in whatever way.
+/// Returns whether the test is invalid, hits where the reference misses or the reverse, or is off by more
+/// than `tolerance`.
 bool wrong(double reference, double test, double tolerance) {
     if (std::isnan(test) || met(reference) != met(test))
         return true;

@@ -22,10 +22,10 @@ bool on_all_cores(size_t count, const KeepGoing& keep_going, const std::function
     try {
         for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i)
             helpers.emplace_back(run, [] { return true; });
-    } catch (const std::system_error&) { // the system's limit: fewer do it
+    } catch (const std::system_error&) { // thread limit reached: go on with fewer threads
     }
     run(keep_going);
-    helpers.clear(); // waits
+    helpers.clear(); // joins the threads
     return going;
 }
 

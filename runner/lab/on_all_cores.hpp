@@ -1,4 +1,4 @@
-// Work that falls into pieces, on all cores.
+// Runs independent pieces of work on all cores.
 #pragma once
 
 #include "lab/watch.hpp"
@@ -8,8 +8,9 @@
 
 namespace tidemark::lab {
 
-/// `work` on 0 to count - 1, in any order, several at once. `keep_going` is asked on the calling thread;
-/// false: it ended the work before all was done.
+/// Calls `work` with 0 to count - 1, in any order and concurrently. Calls `keep_going` on the calling thread
+/// only, before each piece that this thread takes. Once it returns false, no more pieces start and the result
+/// is false.
 bool on_all_cores(size_t count, const KeepGoing& keep_going, const std::function<void(size_t)>& work);
 
 } // namespace tidemark::lab

@@ -1,4 +1,4 @@
-// The numbers that a person can turn by name in a scene's own files.
+// The named numbers of a scene that its user may change.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -8,7 +8,8 @@
 
 namespace tidemark::lab {
 
-/// Definitions, but for those of files that the scene includes, then knobs.
+/// Returns the definitions whose value is one number, then the knobs. Of a scene that is a single file
+/// (bare_file), definitions of included files are left out.
 std::vector<scene::Setting> own_numbers(const scene::Scene& scene);
 
 } // namespace tidemark::lab

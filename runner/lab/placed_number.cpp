@@ -9,7 +9,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// Takes `:N` off the end; 0: there is none.
+/// Removes a trailing `:N` from `text` and returns N, or returns 0 if there is none.
 int take_number(std::string_view& text) {
     const size_t colon = text.rfind(':');
     if (colon == text.npos)

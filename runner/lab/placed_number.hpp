@@ -1,4 +1,4 @@
-// Numbers that have no name in a scene's text: called by the place where they stand, FILE:LINE:COLUMN.
+// Unnamed number literals of a scene's text, addressed by place: FILE:LINE:COLUMN.
 #pragma once
 
 #include "glsl/cure/cure.hpp"
@@ -11,13 +11,13 @@
 
 namespace tidemark::lab {
 
-/// As compilers name a place.
+/// Returns the place as FILE:LINE:COLUMN, as compilers write it.
 std::string place_name(const SourceLocation& where);
 
-/// The number that stands at that place; nothing where `place` is none, or no number stands there.
+/// Returns the number literal at that place, or nothing if `place` is malformed or no number starts there.
 std::optional<glsl::WrittenWord> number_at(const scene::Scene& scene, std::string_view place);
 
-/// Another number in its stead.
+/// Returns the change that replaces the number by `value`.
 glsl::Cure replaced(const glsl::WrittenWord& number, const std::string& value);
 
 } // namespace tidemark::lab

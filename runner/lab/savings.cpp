@@ -13,7 +13,7 @@
 namespace tidemark::lab {
 namespace {
 
-constexpr int k_frame = 60; ///< the first that is drawn: everything moves by then
+constexpr int k_frame = 60; ///< first frame drawn: late enough for everything to move
 constexpr int k_frames_before = 10;
 constexpr size_t k_most_rounds = 60;
 
@@ -40,12 +40,12 @@ render::FrameInputs inputs_of(int frame) {
     return render::inputs_of_frame(frame, render::FrameInputs{}.frame_rate);
 }
 
-/// A frame as it is written.
+/// A frame's encoded file and the time for encoding it.
 struct Encoded {
     std::vector<unsigned char> file;
     Elapsed time;
 
-    /// What is in it, without alpha; the encoder's own files have no errors.
+    /// Decodes the file and drops alpha. Files of our own encoder always decode.
     image::Image colours() const {
         const auto picture = image::decode_png(std::as_bytes(std::span(file)));
         return picture->has_alpha() ? image::without_alpha(*picture) : *picture;
@@ -67,12 +67,12 @@ Result<Encoded> encode(const image::Image& picture, bool opaque_alpha_too) {
     return Encoded{*std::move(file), watch.elapsed()};
 }
 
-/// A way of drawing a scene that is drawn and timed.
+/// One of the two ways to draw the scene, drawn and timed.
 class Contender {
 public:
     Contender(scene::Scene scene, Way way) : scene_(std::move(scene)), way_(std::move(way)) {}
 
-    /// From the scene to its first frame.
+    /// Creates the renderer and draws the first frame; returns the time for both.
     Result<Elapsed> start() {
         renderer_.reset();
         const Stopwatch watch;
@@ -110,7 +110,7 @@ private:
     std::optional<render::Renderer> renderer_;
 };
 
-/// Rounds of both ways; which of them comes first changes with the round.
+/// Times of both ways, one entry per round. Callers alternate which way is drawn first.
 class Rounds {
 public:
     void add(const Elapsed& without, const Elapsed& with_it) {
@@ -135,14 +135,14 @@ private:
     Clock cpu_;
 };
 
-/// Time that is spent once. All in milliseconds on the wall.
+/// A time budget that starts at construction; wall-clock milliseconds.
 class Allowance {
 public:
     explicit Allowance(double milliseconds) : whole_(milliseconds) {}
     double left() const { return whole_ - watch_.elapsed().wall; }
 
-    /// Whether another round is to be begun, of which the last one took so long: until five are there as long
-    /// as all of the time lasts, then as long as `share` of it does.
+    /// Returns whether to start another round, which should take as long as the last one. The first five
+    /// rounds may use the whole budget, later ones only `share` milliseconds since the start.
     bool another(const Rounds& rounds, double last, double share) const {
         if (rounds.count() >= k_most_rounds || left() < last)
             return false;
@@ -159,20 +159,21 @@ std::string too_few(const char* what, const Rounds& rounds) {
                        k_fewest_runs);
 }
 
-/// Milliseconds of a round, before one is done.
+/// Estimated milliseconds per round, before the first one is measured.
 struct Costs {
     double starts;
     double frames;
 };
 
-/// The two ways, and what is measured of them.
+/// The two ways, and the measurements that are filled in.
 struct Measuring {
     Contender& without;
     Contender& with_it;
     const Allowance& allowance;
     Saving& saving;
 
-    /// `round(number, rounds)` adds to the rounds; the result is empty where there were too few.
+    /// Calls `round(number, rounds)`, which adds to the rounds, while the budget allows. Returns zeros and
+    /// sets `saving.cut` if there were too few rounds.
     template <class Round>
     Result<SavedTime> repeat(const char* what, double share, double first, Round round) {
         Rounds rounds;
@@ -188,7 +189,7 @@ struct Measuring {
         return SavedTime{};
     }
 
-    /// One round to warm the driver's cache, then those that count.
+    /// Times starts; the first round only warms the driver's cache.
     Result<SavedTime> starts(double share, double first) {
         return repeat("starting:", share, first, [&](int number, Rounds& rounds) -> Result<void> {
             const bool swapped = number % 2 != 0;
@@ -214,7 +215,7 @@ struct Measuring {
         });
     }
 
-    /// Encoding alone: the drawing between is nobody's.
+    /// Times encoding alone; drawing is not counted.
     Result<SavedTime> files(double share, double cost) {
         return repeat("encoding:", share, cost, [&](int number, Rounds& rounds) -> Result<void> {
             const int frame = k_frame + 2 + number;
@@ -266,7 +267,7 @@ std::span<const Omission> omissions() {
 struct SavingsBench::Parts {
     scene::Scene scene;
     Way way;
-    double start = 0; ///< milliseconds that one takes
+    double start = 0; ///< milliseconds of one start; the least so far
 };
 
 SavingsBench::SavingsBench(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -298,9 +299,9 @@ Result<Saving> SavingsBench::measure(std::span<const Omission> things, double se
     if (!one || !other)
         return fail(one ? other.error() : one.error());
     parts_->start = std::min(parts_->start, other->wall); // the driver's cache is warm now
-    if (without.steps())                                  // a frame needs those before it: none is left out
+    if (without.steps()) // a frame depends on those before it, so none is skipped
         with_it.leave_no_frames_before();
-    const double frame = without.draw(k_frame + 1).wall; // that another one precedes
+    const double frame = without.draw(k_frame + 1).wall; // a frame drawn right after another one
     const double frames = frame * (1 + with_it.frames_before());
     if (allowance.left() < frames)
         return cut("a frame with it takes", frames);

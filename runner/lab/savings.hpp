@@ -1,5 +1,5 @@
-// What leaving a thing out of a scene, or of the file that a frame goes into, saves: without it and with it,
-// interleaved in one run, and whether the pixels are the same bytes. A context must be current.
+// Measures what it saves to leave something out of a scene or of a written file: with and without it,
+// interleaved in one run, and whether the pixels are byte-identical. A context must be current.
 #pragma once
 
 #include "base/result.hpp"
@@ -13,27 +13,27 @@
 
 namespace tidemark::lab {
 
-/// A way of drawing a frame.
+/// How a frame is drawn and encoded.
 struct Way {
     render::RenderOptions options{};
-    int frames_before = 0; ///< drawn on the way to the one that is wanted
-    bool alpha = false;    ///< goes into the file even where it is 1 all over
+    int frames_before = 0; ///< frames drawn before the wanted one
+    bool alpha = false;    ///< encode alpha even where it is 1 everywhere
 };
 
-/// A thing that is left out where a scene does not need it.
+/// One optimisation that leaves something out, and how to undo it.
 struct Omission {
     std::string_view name;
-    std::string_view what; ///< for people
+    std::string_view what; ///< description of the undone optimisation, for the report
     void (*put_back)(Way&);
 };
 
 std::span<const Omission> omissions();
 
-/// Milliseconds.
+/// A time with and without the thing, milliseconds over all rounds.
 struct Saved {
     double without = 0;  ///< median
-    double more = 0;     ///< median of what the thing costs in the same round
-    Interval interval{}; ///< of `more`
+    double more = 0;     ///< median of (with - without) of the same round
+    Interval interval{}; ///< 95 % interval of `more`
 };
 
 struct SavedTime {
@@ -41,38 +41,38 @@ struct SavedTime {
     Saved cpu;
 };
 
-/// What a frame takes on its way into a file.
+/// Work for one frame and its file.
 struct Work {
     render::FrameWork frame{};
-    size_t file_bytes = 0; ///< of a PNG of it; 0: its file is not in question
+    size_t file_bytes = 0; ///< size of the frame's PNG; 0: not measured
 };
 
 struct Saving {
     Work without{};
     Work with_it{};
-    SavedTime start{}; ///< from the scene to its first frame, the driver's cache warm
+    SavedTime start{}; ///< from the scene to its first frame, with the driver's cache warm
     SavedTime frame{};
-    SavedTime file{}; ///< encoding it
+    SavedTime file{}; ///< encoding the frame
     bool same_pixels = true;
-    /// Why times are missing, or all of it; empty: nothing is.
+    /// The reason why times, or all measurements, are missing; empty if complete.
     std::string cut{};
 
     bool in_frame() const { return without.frame != with_it.frame; }
     bool in_file() const { return without.file_bytes != with_it.file_bytes; }
-    /// Putting it back made a difference to measure.
+    /// Returns whether putting the thing back changed the measured work.
     bool left_out() const { return in_frame() || in_file(); }
 };
 
-/// Measures one thing after the other against the same scene without any. What the driver does cannot be
-/// interrupted: what is begun is what, by the steps before, will be done in time.
+/// Measures one set of optimisations after the other against the same scene with all of them on. Driver calls
+/// cannot be interrupted, so a step only starts if it should end in time, judged by the steps before.
 class SavingsBench {
 public:
-    /// Draws the scene's first frame, in whatever time that takes. Fails like Renderer::create.
+    /// Draws the scene's first frame, without a time limit. Fails like Renderer::create.
     static Result<SavingsBench> create(const scene::Scene& scene, const render::RenderOptions& options);
     SavingsBench(SavingsBench&&) noexcept;
     ~SavingsBench();
 
-    /// Puts all of `things` back at once. Takes at most about some `seconds`.
+    /// Undoes all of `things` at once and measures the difference, in at most about `seconds`.
     Result<Saving> measure(std::span<const Omission> things, double seconds);
 
 private:

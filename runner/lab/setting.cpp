@@ -15,7 +15,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// The parts between commas that are not inside parentheses.
+/// Splits at commas outside parentheses and trims the parts.
 std::vector<std::string> split(std::string_view text) {
     std::vector<std::string> parts;
     int depth = 0;
@@ -41,7 +41,7 @@ Error no_such_name(const scene::Scene& scene, std::string_view name) {
             {}};
 }
 
-/// False: none of the texts holds it any more.
+/// Applies the change to all texts; returns false if one of them no longer contains the number.
 bool replace(scene::Scene& scene, const glsl::Cure& number) {
     bool whole = glsl::apply(scene.common, std::span(&number, 1));
     for (scene::Pass& pass : scene.passes)

@@ -1,12 +1,12 @@
-// Which pixels to look at where not all can be.
+// Chooses pixels to sample if not all can be.
 #pragma once
 
 #include <cstddef>
 
 namespace tidemark::lab {
 
-/// The i-th of a walk through 0 to count - 1 that comes to each once and is evenly spread at any time: steps
-/// of the golden section.
+/// Returns the i-th element of a permutation of 0 to count - 1 whose every prefix is evenly spread (steps of
+/// the golden section).
 size_t spread(size_t i, size_t count);
 
 } // namespace tidemark::lab

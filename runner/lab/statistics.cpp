@@ -10,7 +10,7 @@ namespace {
 
 constexpr int k_resamples = 1000;
 
-/// std::uniform_int_distribution gives other numbers with every library.
+/// Returns a random number below `count`. std::uniform_int_distribution differs between standard libraries.
 size_t below(std::mt19937& random, size_t count) {
     return size_t((uint64_t(random()) * count) >> 32);
 }

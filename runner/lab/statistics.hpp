@@ -1,4 +1,4 @@
-// Statistics of repeated measurements, as a report needs them. Pure; the same numbers give the same answer.
+// Statistics of repeated measurements for reports. Pure and deterministic.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,15 @@
 
 namespace tidemark::lab {
 
-/// The value below which that part (0..1) of the values lies, linear between neighbours; NaN of none.
+/// Returns the value below which the fraction `part` (0..1) of the values lies, with linear interpolation;
+/// NaN if `values` is empty.
 double quantile(std::vector<double> values, double part);
 double quantile_of_sorted(std::span<const double> values, double part);
 inline double median(std::vector<double> values) {
     return quantile(std::move(values), 0.5);
 }
 
-/// Where the truth lies in 95 of 100 cases.
+/// A 95 % confidence interval.
 struct Interval {
     double low = 0;
     double high = 0;
@@ -24,36 +25,37 @@ struct Interval {
     bool overlaps(const Interval& other) const { return low <= other.high && other.low <= high; }
 };
 
-/// What a statistic of the whole says of its own uncertainty: the middle 95 % of its values on samples drawn
-/// from `count` rows with replacement (percentile bootstrap, 1,000 samples, fixed seed). `of` gets the rows
-/// drawn.
+/// Returns the percentile bootstrap interval of a statistic: the middle 95 % of its values over 1,000
+/// resamples of `count` rows with replacement, with a fixed seed. `of` computes the statistic of the rows
+/// drawn. NaN if `count` is below k_fewest_runs.
 Interval bootstrap(size_t count, const std::function<double(const std::vector<size_t>& rows)>& of);
 Interval bootstrap_median(const std::vector<double>& values);
 
-/// Of a share that is known by a sample: in 95 of 100 cases no more than that (E. B. Wilson: Probable
-/// inference, JASA 22, 1927).
+/// Returns the one-sided 95 % upper bound of a proportion (0..1) estimated from a sample (E. B. Wilson:
+/// Probable inference, JASA 22, 1927).
 double most_of_share(size_t some, size_t sampled);
 
-/// Of fewer values there is no interval worth the name: it is NaN, and contains and overlaps nothing.
+/// Fewest values for an interval. With fewer it is NaN, and contains and overlaps nothing.
 inline constexpr size_t k_fewest_runs = 5;
 
-/// A time as a report gives it, milliseconds.
+/// Summary of run times, milliseconds.
 struct TimeSummary {
     size_t runs = 0;
     double median = 0;
     double smallest = 0;
-    Interval confidence{}; ///< of the median
+    Interval confidence{}; ///< 95 % interval of the median
     double first_quartile = 0;
     double third_quartile = 0;
-    /// Median of the last third over that of the first: a machine that warms up or gets company.
+    /// Median of the last third of the runs over that of the first; 1 with fewer than 15 runs. It differs
+    /// from 1 on a machine that warms up or gets other load.
     double drift = 1;
-    bool drifted = false; ///< by more than the spread of the values explains
+    bool drifted = false; ///< the intervals of both medians do not overlap
 };
 
-/// `values` in the order of measurement.
+/// Summarises run times, which must be in the order of measurement.
 TimeSummary summary_of(const std::vector<double>& values);
 
-/// 0, 1, …, count - 1 shuffled; the same for the same seed, on every machine.
+/// Returns 0 to count - 1 shuffled; the same for the same seed on every machine.
 std::vector<size_t> shuffled(size_t count, unsigned seed);
 
 } // namespace tidemark::lab

@@ -1,17 +1,17 @@
-// Clocks for a piece of work.
+// Measures the wall-clock and CPU time of a piece of work.
 #pragma once
 
 #include <chrono>
 
 namespace tidemark::lab {
 
-/// Milliseconds on the wall, and of CPU in all threads of this process.
+/// Milliseconds of wall-clock time, and of CPU time of all threads of this process.
 struct Elapsed {
     double wall = 0;
     double cpu = 0;
 };
 
-/// Runs from its making.
+/// A clock that starts at construction.
 class Stopwatch {
 public:
     Stopwatch();

@@ -1,4 +1,4 @@
-// Who watches long work: told of its parts, asked whether it may go on.
+// Progress and cancellation callbacks for long jobs.
 #pragma once
 
 #include <cstddef>
@@ -7,13 +7,13 @@
 
 namespace tidemark::lab {
 
-/// Asked between two pieces of work; false: stop here.
+/// Called between two pieces of work; returns false to stop.
 using KeepGoing = std::function<bool()>;
 
 struct Watch {
-    std::function<void(const std::string& what, size_t total)> begin; ///< a part of so many pieces
+    std::function<void(const std::string& what, size_t total)> begin; ///< starts a part of `total` pieces
     std::function<void()> advance;                                    ///< one piece is done
-    KeepGoing keep_going;                                             ///< false: end with what there is
+    KeepGoing keep_going; ///< false: stop, and return the results so far
 };
 
 } // namespace tidemark::lab

@@ -1,4 +1,4 @@
-// What people ask for in the overlay, as plain values: whoever owns the window carries them out.
+// Requests made in the overlay, as plain values. The owner of the window carries them out.
 #pragma once
 
 #include "live/look_field.hpp"
@@ -19,7 +19,7 @@ struct ResetKnob {
     std::string name;
 };
 struct ResetKnobs {};
-/// The next controller of a MIDI device that moves turns that component.
+/// Binds the next MIDI controller that moves to that component.
 struct LearnController {
     std::string knob;
     size_t component = 0;
@@ -28,17 +28,17 @@ struct ForgetController {
     std::string knob;
     size_t component = 0;
 };
-/// Into the clipboard, as options.
+/// Copies the changed knobs to the clipboard, as options.
 struct CopyKnobs {};
-/// Into the file that declares them.
+/// Writes the changed knobs into the files that declare them.
 struct WriteKnobs {};
 
-/// At that place.
+/// Opens the user's editor at that place.
 struct OpenEditor {
     SourceLocation where;
 };
 
-/// As `--define` does.
+/// Replaces a definition, as `--define` does.
 struct Define {
     std::string name;
     std::string value;
@@ -47,19 +47,19 @@ struct Undefine {
     std::string name;
 };
 
-/// Of Model::pictures; none: the scene's own.
+/// Shows one of Model::pictures large; none: the scene's own picture.
 struct ShowPicture {
     std::optional<size_t> index{};
 };
 
-/// At the one that is large.
+/// Sets how the large picture is viewed.
 struct LookAtPicture {
     LookField look{};
 };
 
-/// The moment on show into the list of views.
+/// Adds the moment on show to the list of views.
 struct KeepView {};
-/// Of Model::views.
+/// Goes to one of Model::views.
 struct GoToView {
     size_t index = 0;
 };
@@ -75,12 +75,12 @@ struct Restart {};
 struct Seek {
     double seconds = 0;
 };
-/// Stays at the frame that was reached.
+/// Cancels a seek and stays at the frame that was reached.
 struct GiveUpSeek {};
 struct SetSpeed {
     double speed = 1;
 };
-/// With both ends time goes round between them.
+/// Repeats the time between the two ends; a missing end turns the loop off.
 struct SetLoop {
     std::optional<double> from{};
     std::optional<double> to{};

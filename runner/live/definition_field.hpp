@@ -1,4 +1,4 @@
-// A `#define` or `const` that is one number, as a field that a hand changes.
+// A `#define` or `const` that is one number, as a field that can be edited.
 #pragma once
 
 #include <optional>
@@ -11,20 +11,20 @@ namespace tidemark::live {
 struct DefinitionField {
     std::string name;
     double value = 0;
-    bool whole = false;    ///< written without a point: it may size an array or count turns
-    bool held = false;     ///< replaced: not as the file has it
-    bool changing = false; ///< under somebody's hand
+    bool whole = false;    ///< written without a decimal point: it may be an array size or a loop count
+    bool held = false;     ///< replaced by --define or an edit, so it differs from the file
+    bool changing = false; ///< being edited
 
     bool operator==(const DefinitionField&) const = default;
 };
 
-/// Nothing where the text is no decimal number that GLSL reads without a suffix.
+/// Returns a field, or nothing where the text is not a finite decimal number in GLSL without a suffix.
 std::optional<DefinitionField> definition_field(std::string_view name, std::string_view text, bool held);
 
-/// What is under somebody's hand stays as it is there.
+/// Copies the values that are being edited from `before` to `now`.
 void keep_changing(const std::vector<DefinitionField>& before, std::vector<DefinitionField>& now);
 
-/// The value as GLSL takes it, with a point where the file has one.
+/// Returns the value as GLSL text, with a decimal point where the file has one.
 std::string text_of(const DefinitionField& field);
 
 } // namespace tidemark::live

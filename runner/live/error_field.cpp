@@ -10,7 +10,7 @@ bool begins_character(char byte) {
     return (static_cast<unsigned char>(byte) & 0xC0) != 0x80;
 }
 
-/// Where the character of that number begins in UTF-8.
+/// Returns the byte offset of the character with that index (from 0) in UTF-8.
 size_t byte_of(std::string_view text, size_t character) {
     size_t i = 0;
     for (; i < text.size(); ++i)

@@ -1,4 +1,4 @@
-// An error with the line that it is about, as the overlay shows it. Reads no file.
+// An error with the source line it refers to, as the overlay shows it. Reads no file.
 #pragma once
 
 #include "base/error.hpp"
@@ -10,16 +10,17 @@ namespace tidemark::live {
 
 struct ErrorField {
     Diagnostic diagnostic;
-    std::string line{}; ///< the author's; empty: not known
+    std::string line{}; ///< the author's source line; empty: not known
 };
 
-/// A piece of a line with the place in it that is meant.
+/// A part of a line that contains the place of an error.
 struct Excerpt {
-    std::string text; ///< no tabs
-    std::string mark; ///< blanks and a caret for the line below; empty: no place
+    std::string text; ///< without tabs
+    std::string mark; ///< blanks and a caret for the line below; empty: no column is known
 };
 
-/// At most so many characters of the line, with those round `column` (in bytes, from 1; 0: none) among them.
+/// Returns at most `most` characters of the line, including those around `column` (in bytes, from 1; 0:
+/// none).
 Excerpt excerpt_of(std::string_view line, int column, size_t most);
 
 } // namespace tidemark::live

@@ -1,5 +1,5 @@
-// Whose an event is, the panels' or the scene's: what begins in one of them ends there, wherever the pointer
-// has gone meanwhile.
+// Decides whether an event belongs to the panels or to the scene. A press and its release have the same
+// owner, wherever the pointer has moved in between.
 #pragma once
 
 #include "platform/input.hpp"
@@ -10,19 +10,19 @@ namespace tidemark::live {
 
 class EventOwner {
 public:
-    /// What the panels would take at this moment.
+    /// The kinds of events that the panels would take at the moment.
     struct Wishes {
-        bool pointer = false; ///< it is over a panel
-        bool text = false;    ///< somebody types into a field
+        bool pointer = false; ///< the pointer is over a panel
+        bool text = false;    ///< a text field has the keyboard
     };
 
-    /// Whether the event is the panels'. Once for each, in order.
+    /// Returns whether the event belongs to the panels. Call it once for each event, in order.
     bool take(const platform::InputEvent& event, const Wishes& wishes);
     void release_all();
 
 private:
-    std::set<platform::Button> buttons_; ///< that went down on a panel and are still down
-    std::set<platform::Key> keys_;       ///< likewise, in a field
+    std::set<platform::Button> buttons_; ///< pressed on a panel and still down
+    std::set<platform::Key> keys_;       ///< pressed in a text field and still down
 };
 
 } // namespace tidemark::live

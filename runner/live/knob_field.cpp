@@ -38,7 +38,7 @@ double in_steps(const Knob& knob, size_t component, double number) {
         return number;
     const double origin = knob.range ? knob.range->low[component] : 0;
     const double stepped = origin + std::round((number - origin) / step) * step;
-    // The sum of an origin and steps like 0.1 has digits that nobody wrote.
+    // Remove the extra digits that the sum of an origin and steps like 0.1 has.
     constexpr double k_digits = 1e9;
     const double per_unit = k_digits / std::pow(10, std::ceil(std::log10(step)));
     return std::round(stepped * per_unit) / per_unit;

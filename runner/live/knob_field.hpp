@@ -1,4 +1,4 @@
-// A knob as a field that a hand turns: which widget fits it, and which values that gives. Draws nothing.
+// A knob as a field that can be edited: its widget and the values it allows. Draws nothing.
 #pragma once
 
 #include "scene/knob.hpp"
@@ -8,34 +8,34 @@
 
 namespace tidemark::live {
 
-/// What a MIDI device has to do with one component of a knob.
+/// The MIDI binding of one component of a knob.
 struct ControllerField {
-    std::string part;         ///< `height`, `tint.g`
-    std::string controller{}; ///< that turns it; empty: none
-    bool learning = false;    ///< the next one that moves will
+    std::string part;
+    std::string controller{}; ///< bound to it; empty: none
+    bool learning = false;    ///< the next controller that moves will be bound
 };
 
 struct KnobField {
-    scene::Knob knob; ///< what the scene says of it
+    scene::Knob knob; ///< as the scene declares it
     scene::KnobValue value{};
-    std::vector<ControllerField> controllers{}; ///< one a component where there is a MIDI device
+    std::vector<ControllerField> controllers{}; ///< MIDI bindings, one a component; empty: no device
 
     bool is_turned() const { return value != knob.initial; }
 };
 
 enum class Widget { check_box, colour, slider, drag };
 
-/// A range that holds two values alone is a check box; without a range, or with one that has no length in
-/// doubles, there is no slider.
+/// Returns the widget for a knob: a check box for a range of only two values, a slider for other ranges, a
+/// drag field without a range or where its length overflows a double.
 Widget widget_of(const scene::Knob& knob);
 
-/// Whether the knob can have that component: people type what they like.
+/// Returns whether the knob's type can hold the number, which may be typed by hand.
 bool takes(const scene::Knob& knob, double number);
 
-/// The value of a component nearest to `number` that the knob's step allows, counted from its low end.
+/// Returns the value nearest to `number` that the knob's step allows, counted from the low end of its range.
 double in_steps(const scene::Knob& knob, size_t component, double number);
 
-/// So much a field without a range changes with each pixel that it is dragged.
+/// Returns the change for each pixel of dragging, for a field without a range.
 double drag_speed(const scene::Knob& knob, size_t component);
 
 } // namespace tidemark::live

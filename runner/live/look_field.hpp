@@ -1,4 +1,4 @@
-// How the picture that is seen large is looked at: channels, exposure, the slice of a volume. Draws nothing.
+// How the large picture is viewed: channels, exposure, the slice of a volume. Draws nothing.
 #pragma once
 
 #include <array>
@@ -8,11 +8,11 @@
 
 namespace tidemark::live {
 
-/// What of a pixel's four numbers is seen.
+/// A choice of the channels to show.
 struct ChannelChoice {
     std::string_view name;
     std::optional<int> channel{}; ///< none: red, green and blue
-    std::optional<int> less{};    ///< the difference of the two
+    std::optional<int> less{};    ///< subtracted from `channel`
 };
 
 inline constexpr std::array<ChannelChoice, 11> k_channel_choices{{{"RGB"},
@@ -30,9 +30,9 @@ inline constexpr std::array<ChannelChoice, 11> k_channel_choices{{{"RGB"},
 inline constexpr double k_most_stops = 16;
 
 struct LookField {
-    size_t channels = 0;        ///< of k_channel_choices
-    double stops = 0;           ///< of exposure; where it is automatic, what that comes to
-    bool automatic = false;     ///< the brightest value is just not cut off
+    size_t channels = 0;        ///< index into k_channel_choices
+    double stops = 0;           ///< exposure; in automatic mode the resulting value
+    bool automatic = false;     ///< the brightest value is just not clipped
     std::optional<int> slice{}; ///< of a volume; none: the middle one
 
     bool operator==(const LookField&) const = default;

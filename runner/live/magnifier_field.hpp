@@ -11,29 +11,29 @@
 
 namespace tidemark::live {
 
-/// What a pass wrote into a pixel.
+/// The value that a pass wrote into a pixel.
 struct PixelValue {
     std::string pass;
-    std::vector<float> channels; ///< three of Image, whose alpha nobody sees; else four
+    std::vector<float> channels; ///< three for Image, whose alpha is not shown; else four
 };
 
 struct MagnifierField {
     using Colour = std::array<unsigned char, 3>;
 
-    platform::PointerPosition pointer{};          ///< on the window
-    int x = 0;                                    ///< of the picture, from the left
+    platform::PointerPosition pointer{};          ///< in the window
+    int x = 0;                                    ///< in the picture, from the left
     int y = 0;                                    ///< from the bottom
-    Extent cells{};                               ///< odd: that pixel is in the middle
+    Extent cells{};                               ///< odd sizes: pixel x,y is in the middle
     std::vector<std::optional<Colour>> colours{}; ///< bottom row first; none beyond the picture's edge
-    std::vector<PixelValue> values{};             ///< the pass that is looked at in front
+    std::vector<PixelValue> values{};             ///< the shown pass first
 };
 
-/// Seven digits at most, so that columns stay where they are; `NaN`, `Inf`, `-Inf`.
+/// Formats a value with at most seven digits, so that columns stay aligned; `NaN`, `Inf`, `-Inf`.
 std::string number_text(float value);
-/// All of its bits, as in `0x3f800000`.
+/// Formats all bits of a value, as in `0x3f800000`.
 std::string bits_text(float value);
 
-/// As a screen shows it, which has no more than bytes.
+/// Converts a colour to bytes: clamped to 0..1, NaN as 0.
 MagnifierField::Colour colour_of(const float* rgb);
 
 } // namespace tidemark::live

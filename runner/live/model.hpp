@@ -1,4 +1,4 @@
-// All that the overlay shows, as plain values: made anew for every frame by whoever owns the window.
+// Everything that the overlay shows, as plain values. The owner of the window makes a new one for each frame.
 #pragma once
 
 #include "live/definition_field.hpp"
@@ -16,32 +16,32 @@
 
 namespace tidemark::live {
 
-/// What people do, and what comes of it.
+/// An input and its effect.
 struct HelpRow {
     std::string keys;
     std::string meaning;
 };
 
 struct Model {
-    bool controls = false; ///< open: then all down to `extent` is shown
+    bool controls = false; ///< the controls are open; only then everything down to `extent` is shown
     std::vector<KnobField> knobs{};
     std::vector<DefinitionField> definitions{};
     std::vector<PictureField> pictures{};
-    std::optional<size_t> large{}; ///< of them
-    LookField look{};              ///< at that one
+    std::optional<size_t> large{}; ///< index of the picture that is shown large
+    LookField look{};              ///< how that one is viewed
     std::vector<std::string> views{};
     TimeField time{};
-    Extent extent{}; ///< of what the scene draws
+    Extent extent{}; ///< of the scene's picture
 
     std::vector<ErrorField>
-        errors{};                ///< the one to mend first in front; the panel is open while there are any
-    std::vector<HelpRow> help{}; ///< likewise
+        errors{};                ///< most important first; the panel is open while there are any
+    std::vector<HelpRow> help{}; ///< the panel is open while there are any
     std::string help_footer{};
 
     std::optional<MagnifierField> magnifier{};
-    std::string clock{}; ///< of a frame that is drawn for long; empty: none is
+    std::string clock{}; ///< progress of a slow frame; empty: none is being drawn
 
-    /// Which panels are open.
+    /// The open panels.
     using Panels = std::array<bool, 5>;
     Panels panels() const {
         return {controls, !errors.empty(), !help.empty(), magnifier.has_value(), !clock.empty()};

@@ -8,7 +8,7 @@
 namespace tidemark::live {
 namespace {
 
-/// Widgets settle (sizes, what lies under the pointer) a frame or two after what moved them.
+/// Frames until the layout is final: sizes and hit tests lag one or two frames after a change.
 constexpr int k_frames_to_settle = 3;
 
 Result<std::unique_ptr<Panels>> load_panels() {

@@ -1,5 +1,5 @@
-// The overlay over a window's picture: a Model goes in, events that are meant for a panel are kept, Commands
-// come out. Hidden it does nothing; Dear ImGui, which draws it, is loaded when it is shown first.
+// The overlay over a window's picture. Input: a Model and events, of which it keeps those for panels. Output:
+// Commands. While hidden it does nothing; the Dear ImGui plug-in is loaded when it is first shown.
 #pragma once
 
 #include "base/extent.hpp"
@@ -15,23 +15,23 @@ namespace tidemark::live {
 
 class Overlay {
 public:
-    /// From now on it shows that; a model of nothing hides it. A context of the window is current, as it is
-    /// whenever the others are called. Fails where the plug-in cannot be loaded, once: then it stays hidden.
+    /// Shows a model from now on; an empty model hides the overlay. All calls need the window's context to be
+    /// current. Fails once if the plug-in cannot be loaded; from then on the overlay stays hidden.
     Result<void> show(Model model, const Surface& surface);
 
     bool visible() const { return visible_; }
-    /// Whether the event is the overlay's: nobody else should learn of it.
+    /// Returns whether the event belongs to the overlay; it must not be handled further then.
     bool take(const platform::InputEvent& event);
-    /// Into the window's own framebuffer, over what is there.
+    /// Draws into the window's own framebuffer, over its contents.
     void draw();
-    /// It would look otherwise if it were drawn again.
+    /// Returns whether the layout is not final yet, so that it must be drawn again.
     bool wants_frame() const { return visible_ && frames_wanted_ > 0; }
 
-    /// What was asked for since the last call.
+    /// Returns the commands since the last call.
     Commands take_commands();
 
 private:
-    std::unique_ptr<Panels> panels_; ///< none before the plug-in is loaded
+    std::unique_ptr<Panels> panels_; ///< null until the plug-in is loaded
     Model::Panels open_{};
     bool visible_ = false;
     bool failed_ = false;

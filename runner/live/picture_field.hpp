@@ -10,11 +10,11 @@ namespace tidemark::live {
 
 struct PictureField {
     std::string name;                     ///< "Buffer A", "Image iChannel0"
-    unsigned texture = 0;                 ///< OpenGL's, of two dimensions
-    Extent extent;                        ///< of that
-    std::string size{};                   ///< of what it shows: `64x32`, `6 of 1024x1024`, `32x32x32`
-    int slices = 1;                       ///< of a volume
-    std::optional<double> milliseconds{}; ///< of drawing it
+    unsigned texture = 0;                 ///< name of a two-dimensional OpenGL texture
+    Extent extent;                        ///< of that texture
+    std::string size{};                   ///< of the source: `64x32`, `6 of 1024x1024`, `32x32x32`
+    int slices = 1;                       ///< of a volume; else 1
+    std::optional<double> milliseconds{}; ///< time to draw it
 };
 
 } // namespace tidemark::live

@@ -1,11 +1,11 @@
-// Where a scene is in time, as the time bar shows it.
+// The time of a scene, as the time bar shows it.
 #pragma once
 
 #include <optional>
 
 namespace tidemark::live {
 
-/// On the way to a frame of a scene with feedback, which every frame before it leads to.
+/// Progress towards a frame of a scene with feedback, for which all earlier frames must be drawn.
 struct Stepping {
     int frame = 0;
     int last = 0;
@@ -16,14 +16,14 @@ struct TimeField {
     int frame = 0;
     bool paused = false;
     double speed = 1;
-    bool turns_back = false; ///< frames do not depend on those before them: time may run backwards
-    bool has_speed = true;   ///< the wall clock's: where frames are counted there is none
+    bool turns_back = false; ///< no feedback: time may run backwards
+    bool has_speed = true;   ///< false while recording or replaying, where frames are counted instead of time
     std::optional<double> loop_from{};
     std::optional<double> loop_to{};
     std::optional<Stepping> stepping{};
 };
 
-/// Where the bar ends: it doubles as time comes near.
+/// Returns the end of the bar, in seconds: 10, doubled until the time and the loop's end fit.
 double bar_end(const TimeField& time);
 
 } // namespace tidemark::live

@@ -6,7 +6,8 @@
 namespace tidemark::lsp {
 namespace {
 
-/// What stands behind the `=` of a knob's line, up to its range: offsets; none where it has no default.
+/// Returns begin and end (offsets) of the default in a knob's line: after the `=`, through the first `)` or
+/// the last token. Returns nothing without a default.
 std::optional<std::pair<size_t, size_t>> default_of(const Symbol& symbol, std::string_view text) {
     const std::string_view line = text.substr(symbol.begin, symbol.end - symbol.begin);
     const auto tokens = text::tokenize(line);
@@ -24,7 +25,7 @@ Json colour_of(const scene::KnobValue& value) {
     return {{"red", part(value[0])}, {"green", part(value[1])}, {"blue", part(value[2])}, {"alpha", 1}};
 }
 
-/// As fine as a picker of bytes can tell apart.
+/// Rounds to three decimals, which is finer than a byte's 255 steps.
 double rounded(const Json& number) {
     return std::round(number.get<double>() * 1000) / 1000;
 }

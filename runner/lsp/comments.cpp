@@ -9,7 +9,7 @@
 namespace tidemark::lsp {
 namespace {
 
-/// Without `//`, `/**`, `*` and their kind; `///<` too.
+/// Returns the line without its comment marks: `//`, `/**`, `*`, `///<` and the like.
 std::string_view without_marks(std::string_view line) {
     line = trimmed(line);
     if (line.ends_with("*/"))
@@ -35,7 +35,7 @@ std::string joined(const Range& lines) {
 
 std::string comment_above(std::string_view text, size_t offset) {
     size_t begin = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;
-    std::vector<std::string_view> lines; // upwards, no farther than the comment reaches
+    std::vector<std::string_view> lines; // from bottom to top, only as far as the comment reaches
     const auto take_line = [&] {
         const size_t end = begin - 1;
         begin = end == 0 ? 0 : text.rfind('\n', end - 1) + 1;
@@ -47,7 +47,7 @@ std::string comment_above(std::string_view text, size_t offset) {
     if (trimmed(take_line()).ends_with("*/")) {
         while (begin > 0 && lines.back().find("/*") == lines.back().npos)
             take_line();
-        if (!trimmed(lines.back()).starts_with("/*")) // it stands behind code
+        if (!trimmed(lines.back()).starts_with("/*")) // a comment after code
             return {};
     } else {
         while (is_line_comment(lines.back()) && begin > 0)

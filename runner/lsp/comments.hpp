@@ -1,4 +1,4 @@
-// What an author says of something, in the comment above it.
+// The comments that document a declaration or a file.
 #pragma once
 
 #include <string>
@@ -6,10 +6,11 @@
 
 namespace tidemark::lsp {
 
-/// The comment that ends on the line before that of `offset`, without its marks; empty where there is none.
+/// Returns the comment that ends on the line before that of `offset`, without its marks; empty if there is
+/// none.
 std::string comment_above(std::string_view text, size_t offset);
 
-/// The comment that the text begins with.
+/// Returns the comment at the beginning of the text.
 std::string leading_comment(std::string_view text);
 
 } // namespace tidemark::lsp

@@ -18,7 +18,7 @@ Level level_of(Severity severity) {
                                            : Level::information;
 }
 
-/// The token at the place; the whole line where no column is known.
+/// Returns the range of the token at the place; of the whole line where no column is known.
 Json range_of(const SourceLocation& where, std::string_view text, Encoding encoding) {
     const Lines lines(text, encoding);
     const size_t begin = lines.begin_of(where.line), end = lines.end_of(where.line);
@@ -49,7 +49,7 @@ public:
                 {"message", diagnostic.message}};
     }
 
-    /// A note belongs to what it stands behind.
+    /// Returns a note as related information of the diagnostic before it.
     Json related(const Diagnostic& note) {
         return {{"location", {{"uri", documents_.uri_of(file_of(note.where))}, {"range", range(note.where)}}},
                 {"message", note.message}};
@@ -87,7 +87,7 @@ private:
 
 std::map<fs::path, Json> by_file(const Verdict& verdict, Translator translator) {
     std::map<fs::path, Json> files;
-    Json* last = nullptr; // of what a note may stand behind
+    Json* last = nullptr; // the diagnostic that the next notes belong to
     for (const Diagnostic& problem : verdict.problems) {
         if (problem.severity == Severity::note && last)
             (*last)["relatedInformation"].push_back(translator.related(problem));
@@ -105,7 +105,7 @@ std::map<fs::path, Json> by_file(const Verdict& verdict, Translator translator) 
 std::vector<Json> DiagnosticBoard::show(const fs::path& scene, const fs::path& main, const Verdict& verdict,
                                         const Documents& documents, Encoding encoding) {
     Files files = by_file(verdict, Translator(documents, main, encoding));
-    std::set<fs::path> touched{main}; // an empty list says that all is well
+    std::set<fs::path> touched{main}; // an empty list clears the file
     for (const auto* each : {&scenes_[scene], &files})
         for (const auto& [file, list] : *each)
             touched.insert(file);

@@ -1,4 +1,4 @@
-// What is wrong with each scene, on its way to the editor, which wants it by file.
+// The diagnostics of all open scenes, as notifications to the editor, which needs them by file.
 #pragma once
 
 #include "lsp/documents.hpp"
@@ -10,7 +10,7 @@
 
 namespace tidemark::lsp {
 
-/// Hints are what is no error and no warning of a compiler.
+/// The diagnostics of a scene. `hints` are neither errors nor warnings of a compiler.
 struct Verdict {
     std::vector<Diagnostic> problems{};
     std::vector<Diagnostic> hints{};
@@ -18,11 +18,11 @@ struct Verdict {
 
 class DiagnosticBoard {
 public:
-    /// One notification for each file that has something, and for each that had something before. What has no
-    /// place in a file stands in `main`.
+    /// Replaces the scene's diagnostics. Returns a notification for `main` and for each other file that has
+    /// diagnostics now or had some before. Diagnostics without a file are listed in `main`.
     std::vector<Json> show(const std::filesystem::path& scene, const std::filesystem::path& main,
                            const Verdict& verdict, const Documents& documents, Encoding encoding);
-    /// The scene is not looked at any more.
+    /// Removes a scene that is no longer open; returns notifications for its files.
     std::vector<Json> forget(const std::filesystem::path& scene, const Documents& documents);
 
 private:

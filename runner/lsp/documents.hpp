@@ -1,4 +1,4 @@
-// The texts that the editor holds, and all others as their files have them.
+// The texts that the editor holds; all other texts come from their files.
 #pragma once
 
 #include "base/result.hpp"
@@ -21,9 +21,9 @@ public:
     void hold(const std::filesystem::path& file, Document document, std::string text);
     void release(const std::filesystem::path& file);
 
-    /// nullptr: the editor does not hold it.
+    /// Returns nullptr if the editor does not hold the file.
     const Document* find(const std::filesystem::path& file) const;
-    /// Line ends are plain, whatever the editor's are: they count as one character each.
+    /// Returns the text with every line end as one `\n`, so that offsets do not depend on the editor.
     Result<std::string> text_of(const std::filesystem::path& file) const;
     std::string uri_of(const std::filesystem::path& file) const;
 
@@ -35,7 +35,7 @@ private:
     scene::UnsavedTexts texts_;
 };
 
-/// The one name of a file, by which it is known here.
+/// Returns the one path under which a file is stored here.
 std::filesystem::path canonical_name(const std::filesystem::path& file);
 
 } // namespace tidemark::lsp

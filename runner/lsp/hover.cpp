@@ -35,7 +35,7 @@ std::string signature(const glsl::BuiltinFunction& function, const glsl::Builtin
     return fmt::format("{} {}({})", overload.result, function.name, parameters);
 }
 
-/// A function of any vector has a signature for each size: more than people read.
+/// Signatures in one hover text; functions of vectors have one for each vector size.
 constexpr size_t k_most_signatures = 8;
 
 std::string of_builtin(const glsl::BuiltinFunction& function) {
@@ -64,7 +64,7 @@ std::string of_symbol(const SourceFile& file, const Symbol& symbol, bool elsewhe
     return text;
 }
 
-/// The sampler's kind is its input's: the pass that reads it decides.
+/// Describes a channel. Leaves out the sampler type, which depends on the input that the pass reads.
 std::string of_channel(std::string_view name) {
     return fmt::format(
         "Input {} of the pass: a texture, a video, the keyboard, a cubemap or another pass, as "
@@ -72,7 +72,7 @@ std::string of_channel(std::string_view name) {
         name.back(), name);
 }
 
-/// What a scene may declare to be given it, beside what the site has.
+/// A uniform that a scene may declare to get a value from this host, in addition to ShaderToy's.
 struct OwnUniform {
     std::string_view name, meaning;
 };

@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view k_end_of_header = "\r\n\r\n";
 constexpr std::string_view k_length = "content-length:";
 constexpr size_t k_longest_header = 4096;
-constexpr size_t k_longest_message = size_t{256} << 20; // a client holds texts of 16 MiB at most for us
+constexpr size_t k_longest_message = size_t{256} << 20; // bytes; scene texts have 16 MiB at most
 
 bool starts_without_case(std::string_view text, std::string_view lower) {
     for (size_t i = 0; i < lower.size(); ++i)
@@ -20,7 +20,7 @@ bool starts_without_case(std::string_view text, std::string_view lower) {
     return true;
 }
 
-/// The number behind `Content-Length:`.
+/// Returns the value of `Content-Length:`; nothing where it is missing, not valid or above k_longest_message.
 std::optional<size_t> length_in(std::string_view header) {
     while (!header.empty()) {
         const size_t end = std::min(header.find("\r\n"), header.size());

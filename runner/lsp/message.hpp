@@ -1,4 +1,4 @@
-// Messages of the language server protocol on their way: JSON-RPC 2.0, each behind a header with its length.
+// Messages of the language server protocol: JSON-RPC 2.0, each with a header that gives its length.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@ namespace tidemark::lsp {
 
 using Json = nlohmann::json;
 
-/// JSON-RPC's codes, and the protocol's own.
+/// Error codes of JSON-RPC and of the language server protocol.
 enum class ErrorNumber {
     parse_error = -32700,
     invalid_request = -32600,
@@ -21,20 +21,20 @@ enum class ErrorNumber {
     request_failed = -32803,
 };
 
-/// With its header. What is no UTF-8 is replaced.
+/// Returns the message with its header. Replaces bytes that are not valid UTF-8.
 std::string framed(const Json& message);
 
 Json response(const Json& id, Json result);
 Json error_response(const Json& id, ErrorNumber number, std::string_view message);
 Json notification(std::string_view method, Json params);
 
-/// Cuts what comes in into the texts of messages.
+/// Splits the input stream into messages.
 class MessageReader {
 public:
     void feed(std::string_view bytes) { bytes_ += bytes; }
-    /// The next whole one, which need not be JSON; nothing: more has to come.
+    /// Returns the next whole message, which need not be valid JSON; nothing until more bytes arrive.
     std::optional<std::string> next();
-    /// The stream lost its frame: there is no way to find the next message.
+    /// Returns whether a header was not valid: the next message cannot be found then.
     bool broken() const { return broken_; }
 
 private:

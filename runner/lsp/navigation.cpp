@@ -3,7 +3,7 @@
 namespace tidemark::lsp {
 namespace {
 
-/// The protocol's numbers.
+/// Returns the protocol's SymbolKind.
 int number_of(Symbol::Kind kind) {
     switch (kind) {
     case Symbol::Kind::function: return 12;
@@ -11,7 +11,7 @@ int number_of(Symbol::Kind kind) {
     case Symbol::Kind::constant: return 14;
     case Symbol::Kind::structure: return 23;
     case Symbol::Kind::macro: return 14;
-    case Symbol::Kind::knob: return 7; // a property
+    case Symbol::Kind::knob: return 7; // Property
     }
     return 13;
 }

@@ -15,7 +15,7 @@ using Kind = Symbol::Kind;
 
 constexpr std::string_view k_knob = "iUniform";
 
-/// With each run of blanks, line ends and comments as one blank.
+/// Joins tokens, with one blank for each run of blanks, line ends and comments.
 std::string on_one_line(const std::vector<Token>& tokens, size_t begin, size_t end) {
     std::string line;
     for (size_t i = begin; i < end; ++i) {
@@ -47,7 +47,7 @@ public:
 private:
     const std::vector<Token>& tokens() const { return reading_.tokens; }
 
-    /// The tokens [first, last), of which those up to `shown` make the signature.
+    /// Adds a symbol for the tokens [first, last); those before `shown` are its signature.
     void add(Kind kind, size_t first, size_t name, size_t shown, size_t last) {
         if (name >= tokens().size() || last <= first || last > tokens().size())
             return;
@@ -61,14 +61,14 @@ private:
             function.body_end + 1);
     }
 
-    /// `#iUniform float speed = 1.0 in { 0.0, 2.0 }`
+    /// Adds a knob's line: `#iUniform float speed = 1.0 in { 0.0, 2.0 }`.
     void add_knob(size_t hash) {
         const size_t end = text::end_of_directive(tokens(), hash);
         if (hash + 3 < end && tokens()[hash + 1].is(k_knob))
             add(Kind::knob, hash, hash + 3, end, end);
     }
 
-    /// Everything between two semicolons outside of braces, functions left out.
+    /// Adds the declarations between semicolons outside of braces and functions.
     void add_globals() {
         size_t first = 0;
         bool begun = false;
@@ -94,7 +94,8 @@ private:
         }
     }
 
-    /// `const float a = 1.0, b[2];`, `struct Ray { … } ray;`: the tokens [first, end).
+    /// Adds the names declared by the tokens [first, end): `const float a = 1.0, b[2];`, `struct Ray { … }
+    /// ray;`.
     void add_declaration(size_t first, size_t end) {
         size_t at = first;
         bool constant = false;
@@ -106,12 +107,12 @@ private:
             add(Kind::structure, first, at + 1, at + 2, end);
             return;
         }
-        // Behind the type stand names, each up to a comma outside of brackets.
+        // The names follow the type, separated by commas outside of brackets.
         bool expects_name = true;
         for (size_t i = at + 1; i < end; ++i) {
             if (tokens()[i].is("(") || tokens()[i].is("[") || tokens()[i].is("{")) {
                 if (expects_name && tokens()[i].is("("))
-                    return; // a function that is only announced
+                    return; // a function prototype
                 i = reading_.closing(i, end);
             } else if (tokens()[i].is(",")) {
                 expects_name = true;

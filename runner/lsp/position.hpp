@@ -1,4 +1,4 @@
-// Places in a text as the protocol has them: lines from 0, characters in the encoding that was agreed on.
+// Positions in the protocol's form: lines from 0, characters in the encoding that was agreed on.
 #pragma once
 
 #include "lsp/message.hpp"
@@ -10,17 +10,17 @@ namespace tidemark::lsp {
 
 enum class Encoding { utf8, utf16 };
 
-/// A text cut into its lines once, for any number of places in it, which must live as long.
+/// The line starts of a text, for any number of conversions. The text must outlive it.
 class Lines {
 public:
     Lines(std::string_view text, Encoding encoding);
 
-    /// Of an offset; the end of the text for one behind it.
+    /// Returns the position of an offset, which is clamped to the text.
     Json position(size_t offset) const;
     Json range(size_t begin, size_t end) const;
-    /// The nearest place that there is.
+    /// Returns the offset of a position, clamped to the text.
     size_t offset(const Json& position) const;
-    /// Where a line, from 1, begins, and where its last character ends.
+    /// Return the offsets where a line (from 1) begins and where it ends, without its line end.
     size_t begin_of(int line) const;
     size_t end_of(int line) const;
 

@@ -1,4 +1,4 @@
-// What an editor asks about a place in a document, by the names of the protocol's methods.
+// Requests of an editor about a place in a document, by the protocol's method names.
 #pragma once
 
 #include "lsp/workspace.hpp"
@@ -11,7 +11,7 @@
 
 namespace tidemark::lsp {
 
-/// Why a request is refused.
+/// The reason why a request fails.
 struct Refusal {
     ErrorNumber number;
     std::string message;
@@ -20,19 +20,20 @@ using Answer = tl::expected<Json, Refusal>;
 
 tl::unexpected<Refusal> refuse(ErrorNumber number, std::string message);
 
-/// `workspace` is that of the document. All must live as long.
+/// A request. `workspace` is that of the document. All references must outlive it.
 struct Question {
     const Workspace& workspace;
     const Json& params;
     const Documents& documents;
     Encoding encoding;
 
-    /// Of the position that is asked about.
+    /// Returns the offset of the position in the request.
     size_t offset() const;
 };
 
 using AnswerTo = Answer (*)(const Question&);
-/// nullptr: there is no such question. Answers throw Json::exception where a parameter is missing.
+/// Returns nullptr for an unknown method. The returned function throws Json::exception where a parameter is
+/// missing.
 AnswerTo find_question(std::string_view method);
 
 } // namespace tidemark::lsp

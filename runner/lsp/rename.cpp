@@ -19,7 +19,7 @@ std::optional<Token> knob_at(const Workspace& workspace, const std::vector<Token
     return word && workspace.knob(word->text) ? word : std::nullopt;
 }
 
-/// The places of a name in a text; behind a dot it is a member's.
+/// Returns the tokens that use the name; after a dot it is a member and does not count.
 std::vector<const Token*> uses_of(const std::vector<Token>& tokens, std::string_view name) {
     std::vector<const Token*> uses;
     for (size_t i = 0; i < tokens.size(); ++i)
@@ -32,7 +32,7 @@ std::vector<const Token*> uses_of(const std::vector<Token>& tokens, std::string_
 constexpr std::string_view k_entry_points[] = {"main",        "mainImage", "mainSound",
                                                "mainCubemap", "mainHit",   "mainVR"};
 
-/// Why a knob cannot be called so; empty: it can.
+/// Returns the reason why a knob cannot have that name; empty: it can.
 std::string why_not(const Workspace& workspace, const std::string& name) {
     const auto tokens = text::tokenize(name);
     if (tokens.size() != 1 || tokens.front().kind != text::TokenKind::identifier ||

@@ -1,4 +1,4 @@
-// Another name for a knob, wherever the scene's files have it.
+// Renames a knob in all files of the scene.
 #pragma once
 
 #include "base/result.hpp"
@@ -6,10 +6,11 @@
 
 namespace tidemark::lsp {
 
-/// The range of the knob's name at an offset; null where no knob stands there.
+/// Returns the range of the knob's name at an offset; null without a knob there.
 Json renamed_range(const Workspace& workspace, size_t offset, Encoding encoding);
 
-/// A WorkspaceEdit. Fails where no knob stands there, or the name is none or is used in the scene already.
+/// Returns a WorkspaceEdit. Fails without a knob there, or where the name is not valid or is used in the
+/// scene already.
 Result<Json> rename_knob(const Workspace& workspace, size_t offset, const std::string& name,
                          const Documents& documents, Encoding encoding);
 

@@ -13,7 +13,7 @@ namespace tidemark::lsp {
 namespace fs = std::filesystem;
 namespace {
 
-/// Looked through for a scene that includes a file.
+/// Files in one folder that are searched for a scene that includes a file.
 constexpr size_t k_most_neighbours = 100;
 
 bool is_folder_scene(const fs::path& folder, const fs::path& file) {
@@ -30,7 +30,8 @@ bool names_one_of(const std::vector<text::Token>& tokens, std::initializer_list<
     });
 }
 
-/// A `main` of its own counts, but for what only shaders of other stages name.
+/// Returns whether the file has a ShaderToy entry point, or a `main` without names that belong to other
+/// shader stages.
 bool has_entry_point(const fs::path& file, const Documents& documents) {
     const auto text = documents.text_of(file);
     if (!text)
@@ -55,7 +56,7 @@ bool is_project(const fs::path& file, const Documents& documents) {
     return text && text->find("\"renderpass\"") != text->npos;
 }
 
-/// By its own text alone.
+/// Returns the scene that the file itself belongs to, without looking for files that include it.
 std::optional<fs::path> own_scene(const fs::path& file, const Documents& documents) {
     if (is_folder_scene(file.parent_path(), file))
         return file.parent_path();

@@ -1,4 +1,4 @@
-// Which scene a file belongs to, as the command line would name it.
+// Finds the scene that a file belongs to, in the form that the command line takes.
 #pragma once
 
 #include "lsp/documents.hpp"
@@ -7,9 +7,8 @@
 
 namespace tidemark::lsp {
 
-/// The folder of a pass that stands in a scene folder; a file with an entry point of its own; of any other
-/// file, which is included, a file or folder beside it or above that includes it. Nothing where none is
-/// found.
+/// Returns the folder for a pass in a scene folder, or the file itself if it has an entry point. For other
+/// files, returns a scene in the same or the parent folder that includes it; nothing if none does.
 std::optional<std::filesystem::path> scene_of(const std::filesystem::path& file, const Documents& documents);
 
 } // namespace tidemark::lsp

@@ -19,7 +19,7 @@ std::string joined(const std::vector<Json>& messages) {
     return text;
 }
 
-/// Nothing for what is no file of this machine.
+/// Returns nothing for a URI that is not a file of this machine.
 std::optional<fs::path> file_of(const Json& params) {
     const auto file = path_of_uri(params.at("textDocument").at("uri").get<std::string>());
     return file ? std::optional(canonical_name(*file)) : std::nullopt;
@@ -30,7 +30,7 @@ bool offers_utf8(const Json& params) {
     return std::ranges::find(offered, Json("utf-8")) != offered.end();
 }
 
-/// Where an object lacks it: nothing.
+/// Returns the member, or null if the object does not have it.
 Json member(const Json& object, const char* name) {
     return object.is_object() && object.contains(name) ? object[name] : Json();
 }
@@ -43,7 +43,7 @@ std::string Session::receive(std::string_view text) {
         return framed(error_response(nullptr, ErrorNumber::parse_error, "the message is no JSON"));
     if (!message.is_object() || !member(message, "method").is_string())
         return message.is_object() && message.contains("result")
-                   ? "" // an answer to something that we did not ask
+                   ? "" // a response, although no request was sent
                    : framed(error_response(nullptr, ErrorNumber::invalid_request,
                                            "a message is an object with a method"));
     return answer(message);
@@ -54,7 +54,7 @@ std::string Session::answer(const Json& message) {
     const Json params = member(message, "params");
     const bool asks = message.contains("id");
     const Json id = member(message, "id");
-    try { // a member that a message lacks, or of another type
+    try { // a member is missing or has another type
         if (!asks)
             return notified(method, params);
         Answer result = request(method, params);
@@ -80,7 +80,7 @@ Answer Session::request(const std::string& method, const Json& params) {
     return Json();
 }
 
-/// What is asked about a document.
+/// Answers a request about a document.
 Answer Session::ask(const std::string& method, const Json& params) const {
     const AnswerTo question = find_question(method);
     if (!question)
@@ -179,8 +179,8 @@ void Session::saved() {
         stale_.insert(scene);
 }
 
-/// A file that lost its entry point for a moment stays with the scene that it had. Other open scenes may
-/// include it.
+/// Assigns the file to its scene. A file that has lost its entry point while being edited stays with its
+/// scene. Other open scenes may include it and are marked, too.
 std::string Session::take_up(const fs::path& file) {
     const auto scene = scene_of(file, documents_);
     const fs::path before = std::exchange(scenes_[file], scene.value_or(scenes_[file]));
@@ -190,7 +190,7 @@ std::string Session::take_up(const fs::path& file) {
     return before.empty() || !scene || *scene == before ? "" : leave(before);
 }
 
-/// Scenes that read the file, or may now: only those are loaded again, for hundreds may be open.
+/// Marks the scenes that read the file, or may now. Loads only those again, since hundreds may be open.
 void Session::note_files(const fs::path& file) {
     for (const auto& [open, scene] : scenes_) {
         std::set<fs::path>& files = files_of_[scene];
@@ -201,7 +201,8 @@ void Session::note_files(const fs::path& file) {
     }
 }
 
-/// A file of that scene is not open any more: where others are, its text on disk counts again.
+/// Handles that a file of the scene was closed: if others are open, the scene is checked again with the text
+/// on disk; else its diagnostics are removed.
 std::string Session::leave(const fs::path& scene) {
     if (std::ranges::any_of(scenes_, [&](const auto& each) { return each.second == scene; })) {
         stale_.insert(scene);
@@ -215,7 +216,7 @@ std::string Session::leave(const fs::path& scene) {
 std::string Session::conclude(const fs::path& scene, const Verdict& verdict) {
     const auto open = std::ranges::find_if(scenes_, [&](const auto& each) { return each.second == scene; });
     if (open == scenes_.end())
-        return ""; // closed meanwhile
+        return ""; // closed in the meantime
     return joined(board_.show(scene, open->first, verdict, documents_, encoding_));
 }
 

@@ -1,5 +1,5 @@
-// The language server as a state machine: messages of the editor go in, messages for it come out, and the
-// scenes whose diagnostics are wanted. Compiles nothing, waits for nothing.
+// The language server as a state machine: the editor's messages go in, messages for the editor and the scenes
+// that need to be checked come out. Compiles nothing and waits for nothing.
 #pragma once
 
 #include "lsp/diagnostic_board.hpp"
@@ -18,20 +18,20 @@ class Session {
 public:
     explicit Session(std::string version) : version_(std::move(version)) {}
 
-    /// The text of one message; gives the answers, framed.
+    /// Handles the text of one message; returns the responses, framed.
     std::string receive(std::string_view text);
 
-    /// Scenes that changed since their verdict was taken.
+    /// Returns the scenes that changed since their last check began.
     const std::set<std::filesystem::path>& stale() const { return stale_; }
-    /// How often a text has changed under the editor's hands.
+    /// Returns the number of text changes so far.
     int edits() const { return edits_; }
-    /// Somebody takes this one on, with the texts as they are now.
+    /// Marks the scene as being checked with its current texts.
     void begin(const std::filesystem::path& scene) { stale_.erase(scene); }
-    /// What was found; framed notifications.
+    /// Takes the result of a check; returns framed notifications, or an empty text if the scene was closed.
     std::string conclude(const std::filesystem::path& scene, const Verdict& verdict);
 
     const Documents& documents() const { return documents_; }
-    /// Set by `exit`: the code that the process ends with.
+    /// Returns the exit code of the process once `exit` was received.
     std::optional<int> exit_code() const { return exit_code_; }
 
 private:
@@ -56,8 +56,8 @@ private:
     Encoding encoding_ = Encoding::utf16;
     Documents documents_;
     DiagnosticBoard board_;
-    std::map<std::filesystem::path, std::filesystem::path> scenes_; ///< of open files, where there is one
-    /// Of each scene that is open: its files as they were loaded last; none: it does not load.
+    std::map<std::filesystem::path, std::filesystem::path> scenes_; ///< scene of each open file that has one
+    /// Files of each open scene as it was last loaded; empty: it does not load.
     std::map<std::filesystem::path, std::set<std::filesystem::path>> files_of_;
     std::set<std::filesystem::path> stale_;
     int edits_ = 0;

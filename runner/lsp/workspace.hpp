@@ -1,4 +1,4 @@
-// A scene as questions about a place in it are answered: its files' texts, what they declare, its knobs.
+// The data for requests about a place in a scene: its files' texts, their declarations, its knobs.
 #pragma once
 
 #include "lsp/documents.hpp"
@@ -14,7 +14,7 @@
 
 namespace tidemark::lsp {
 
-/// One file of shader text.
+/// A file of shader text.
 struct SourceFile {
     std::filesystem::path path;
     std::string text;
@@ -22,26 +22,26 @@ struct SourceFile {
 };
 
 struct Workspace {
-    std::vector<SourceFile> files; ///< the one that was asked about first
+    std::vector<SourceFile> files; ///< the file of the request first
     std::vector<scene::Knob> knobs;
     std::filesystem::path library; ///< of `#include <tidemark/…>`
 
     const scene::Knob* knob(std::string_view name) const;
-    /// A file of the scene, of its folder, or of the library: what lies elsewhere is not shown.
+    /// Returns whether a file may be shown: one of the scene, its folder, or the library.
     bool may_read(const std::filesystem::path& file) const;
 };
 
-/// Around `file`. Where its scene does not load, the file alone.
+/// Returns the workspace of `file`; with the file alone where its scene is not known or does not load.
 Workspace look_around(const std::filesystem::path& file, const std::optional<std::filesystem::path>& scene,
                       const Documents& documents);
 
-/// All that the scene is made of; nothing where it does not load.
+/// Returns the canonical names of all files of the scene; empty where it does not load.
 std::set<std::filesystem::path> files_of(const std::filesystem::path& scene, const Documents& documents);
 
-/// The word at an offset, or that ends there; nothing between words.
+/// Returns the identifier that contains the offset or ends there; nothing if there is none.
 std::optional<text::Token> word_at(const std::vector<text::Token>& tokens, size_t offset);
 
-/// The file that the `#include` on an offset's line names; empty: none does.
+/// Returns the file that is named by the `#include` at an offset; empty if there is none.
 std::filesystem::path included_at(const Workspace& workspace, size_t offset);
 
 } // namespace tidemark::lsp

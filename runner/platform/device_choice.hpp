@@ -1,4 +1,4 @@
-// Where to draw, as people say it: what `--device` and `--require-gpu` give.
+// The user's choice of a device, from `--device` and `--require-gpu`.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@ namespace tidemark::platform {
 
 struct DeviceChoice {
     std::string name = "auto";
-    bool gpu_only = false; ///< no context rather than one that draws on the CPU
+    bool gpu_only = false; ///< fail rather than draw on the CPU
 };
 
 } // namespace tidemark::platform

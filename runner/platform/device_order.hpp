@@ -1,5 +1,5 @@
-// In which order "auto" tries the places where a context may be made, from what EGL says about each.
-// Values in, names out; asks EGL nothing itself.
+// The order in which "auto" tries the places where a context may be made. Values in, names out; does not call
+// EGL.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace tidemark::platform {
 
-/// Surfaceless first: it starts fastest. But when it would draw on the CPU and there is a graphics card
-/// (a vendor's driver beside Mesa: surfaceless is Mesa's alone), the card goes before it. Then the
-/// remaining devices, hardware before software, and the default display last.
-/// `device_is_software[n]` speaks of "device:n".
+/// Surfaceless comes first, since it starts fastest. If it would draw on the CPU and there is a graphics
+/// card, the card comes first: that is a vendor's driver next to Mesa, and surfaceless is only Mesa's. Then
+/// the other devices, hardware before software; the default display is last. `device_is_software[n]`
+/// describes "device:n".
 std::vector<std::string> order_to_try(const std::vector<bool>& device_is_software,
                                       bool surfaceless_is_software);
 

@@ -15,10 +15,11 @@ namespace tidemark::platform {
 namespace fs = std::filesystem;
 namespace {
 
-/// Mesa's index takes 1.3 MiB; programs lie in files beside it.
+/// Mesa's index takes 1.3 MiB; programs are in other files of that folder.
 constexpr off_t k_room = off_t{4} << 20;
 
-/// Where Mesa looks, in its order; of the last two, versions differ in which they ask.
+/// Returns the folders in which Mesa looks, in its order; Mesa's versions differ in which of the last two
+/// they use.
 std::vector<fs::path> folders() {
     for (const char* name : {"MESA_SHADER_CACHE_DIR", "MESA_GLSL_CACHE_DIR", "XDG_CACHE_HOME"})
         if (const char* value = std::getenv(name); value && *value)
@@ -31,7 +32,7 @@ std::vector<fs::path> folders() {
     return found;
 }
 
-/// The folder, or the one in which it would be made.
+/// Returns the folder, or the nearest existing one above it.
 fs::path existing(fs::path folder) {
     std::error_code ignored;
     while (!fs::is_directory(folder, ignored) && folder.has_relative_path())
@@ -39,7 +40,8 @@ fs::path existing(fs::path folder) {
     return folder.empty() ? "." : folder;
 }
 
-/// Tried with a file without a name where the file system has such, for quotas and limits count too.
+/// Returns whether the folder has room for Mesa's index. Tries it with a nameless file if the file system has
+/// such, since quotas and limits count too.
 bool has_room(const fs::path& folder) {
     const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (file >= 0) {

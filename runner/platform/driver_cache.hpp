@@ -1,11 +1,11 @@
-// Mesa keeps compiled shaders in files that it maps into memory: on a disk that is full a write to one of
-// them ends the process (SIGBUS). Asked for before a driver is loaded.
+// Turns Mesa's shader cache off if its disk is full. Mesa maps its cache files into memory, and on a full
+// disk a write to one of them ends the process (SIGBUS). Must be called before a driver is loaded.
 #pragma once
 
 namespace tidemark::platform {
 
-/// Has Mesa do without its cache, in this process and those that it starts, where the folder that the
-/// environment leads it to has no room for what it maps. Leaves nothing in that folder.
+/// Disables Mesa's cache, for this process and its children, if the cache folder that the environment selects
+/// has no room for the index that Mesa maps. Leaves no file there.
 void do_without_full_driver_cache();
 
 } // namespace tidemark::platform

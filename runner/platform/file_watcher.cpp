@@ -19,7 +19,7 @@ namespace tidemark::platform {
 namespace fs = std::filesystem;
 namespace {
 
-/// Which folder it is, whatever its path: one that was deleted and made again is another.
+/// A folder's device and inode: a folder that was deleted and made again is another one.
 struct Identity {
     dev_t device = 0;
     ino_t number = 0;
@@ -33,20 +33,20 @@ Identity identity_of(const fs::path& path) {
     return {status.st_dev, status.st_ino};
 }
 
-/// There, and not just emptied to be written anew.
+/// Returns whether the file exists and has not just been emptied to be rewritten.
 bool looks_saved(const fs::path& file) {
     struct stat status {};
     return ::stat(file.c_str(), &status) == 0 && (!S_ISREG(status.st_mode) || status.st_size > 0);
 }
 
-/// One folder under watch, for as long as libuv's handle lives.
+/// One watched folder; lives as long as libuv's handle.
 struct Folder {
     uv_fs_event_t handle{};
     fs::path path;
     Identity identity;
 };
 
-/// libuv frees a handle in a later turn of its loop: the folder lives until then.
+/// Keeps the folder alive until libuv frees its handle, in a later iteration of its loop.
 void close_folder(std::unique_ptr<Folder> folder) {
     uv_close(reinterpret_cast<uv_handle_t*>(&folder.release()->handle),
              [](uv_handle_t* handle) { std::unique_ptr<Folder>(static_cast<Folder*>(handle->data)); });
@@ -64,8 +64,8 @@ Error cannot_watch(std::string_view what, int uv_error) {
 
 } // namespace
 
-/// libuv's loop and its thread. Once the thread runs, what has no lock beside it is touched there only:
-/// `on_thread` is the way in, `ready_` the way out.
+/// libuv's loop and its thread. Once the thread runs, only it accesses the members without a lock:
+/// `on_thread` passes work to it, `ready_` returns results.
 class FileWatcher::Loop {
 public:
     explicit Loop(std::function<void()> wake) : wake_(std::move(wake)) {}
@@ -106,12 +106,12 @@ private:
     uv_loop_t loop_{};
     uv_async_t task_signal_{};
     uv_timer_t timer_{};
-    std::map<fs::path, Tracked> files_; ///< by the caller's spelling
+    std::map<fs::path, Tracked> files_; ///< by the spelling that the caller used
     std::map<fs::path, std::unique_ptr<Folder>> folders_;
 
-    std::mutex mutex_; ///< of the next two
+    std::mutex mutex_; ///< guards the next two
     std::vector<Task> tasks_;
-    std::map<fs::path, std::chrono::steady_clock::time_point> ready_; ///< and when they changed
+    std::map<fs::path, std::chrono::steady_clock::time_point> ready_; ///< with the time of the change
 
     std::thread thread_;
 };
@@ -183,7 +183,7 @@ Result<void> FileWatcher::Loop::watch(std::vector<fs::path> files) {
     asked_for_ = std::move(files);
     Result<void> watched = on_thread(Task([this] { return replace_files(asked_for_); }));
     if (!watched)
-        asked_for_.clear(); // so that asking again tries again
+        asked_for_.clear(); // so that the next call tries again
     return watched;
 }
 
@@ -211,10 +211,10 @@ Result<void> FileWatcher::Loop::replace_files(const std::vector<fs::path>& files
     return follow_trails();
 }
 
-/// Watches the folders that the files lead through now, and no others.
+/// Watches the folders on the files' current paths, and no others.
 Result<void> FileWatcher::Loop::follow_trails() {
-    // Looked at again after each new watch: a folder may have come or gone between the look and the watch.
-    // The bound is for a file system that never comes to rest.
+    // Repeats after each new watch, since a folder may come or go between the search and the watch. The bound
+    // is for a file system that never comes to rest.
     constexpr int k_most_rounds = 8;
     for (int round = 0; round < k_most_rounds; ++round) {
         const std::set<fs::path> wanted = find_trails();
@@ -261,7 +261,7 @@ void FileWatcher::Loop::drop_folders_not_in(const std::set<fs::path>& wanted) {
 int FileWatcher::Loop::add_folder(const fs::path& path) {
     auto folder = std::make_unique<Folder>();
     folder->path = path;
-    // Before the watch: should the folder be replaced in between, the next look sees another identity.
+    // Before the watch: if the folder is replaced in between, the next search finds another identity.
     folder->identity = identity_of(path);
     uv_fs_event_init(&loop_, &folder->handle);
     folder->handle.data = folder.get();
@@ -277,7 +277,7 @@ int FileWatcher::Loop::add_folder(const fs::path& path) {
 }
 
 void FileWatcher::Loop::on_event(Folder& folder, const char* name, int events) {
-    // libuv names the folder itself when it is deleted or moved: its watch is no good any more.
+    // libuv reports the folder's own name when it is deleted or moved: its watch is useless then.
     const bool is_folder = !name || ((events & UV_RENAME) && folder.path.filename() == name);
     bool leads_elsewhere = is_folder;
     for (auto& [spelling, file] : files_)
@@ -291,7 +291,7 @@ void FileWatcher::Loop::on_event(Folder& folder, const char* name, int events) {
     if (is_folder)
         folder.identity = {};
     if (leads_elsewhere)
-        (void)follow_trails(); // what cannot be watched now is tried again at the next event
+        (void)follow_trails(); // a folder that cannot be watched is tried again at the next event
 }
 
 void FileWatcher::Loop::touch(Tracked& file) {
@@ -307,9 +307,9 @@ void FileWatcher::Loop::settle_in(uint64_t milliseconds) {
     uv_timer_start(&timer_, ring, milliseconds, 0);
 }
 
-/// Reports the files that have come to rest, and looks again soon when one has not.
+/// Reports the files that have been quiet for long enough; sets the timer again if others have not.
 void FileWatcher::Loop::settle() {
-    // A folder that is deleted while somebody has it open sends no event: only looking tells.
+    // A folder that is deleted while another program has it open sends no event: it must be looked at.
     (void)follow_trails();
     const auto now = std::chrono::steady_clock::now();
     const auto quiet = uint64_t(k_quiet.count());

@@ -1,5 +1,5 @@
-// Tells when files were saved. In come the files that a scene read, out go those that have changed and
-// are quiet again. Sees names and times only: it does not read the files, and does not know what for.
+// Reports when files were saved: takes the files that a scene read, returns those that have changed and are
+// quiet again. Looks at names and times only; does not read the files.
 #pragma once
 
 #include "base/result.hpp"
@@ -13,40 +13,40 @@
 
 namespace tidemark::platform {
 
-/// Watches the *folders* of its files, so a file may be overwritten, replaced by renaming another one
-/// over it, be gone for a moment, be a symbolic link or lie behind one, and its folder may be deleted and
-/// made again. (Not seen: a folder further up that is renamed away, and changes that another machine
-/// makes on a network file system.) A thread of its own sleeps until something happens.
+/// Watches the *folders* of its files, so a file may be overwritten, replaced by renaming another one over
+/// it, missing for a moment, or reached through symbolic links, and its folder may be deleted and made again.
+/// Not detected: a renamed folder further up, and changes by another machine on a network file system. A
+/// thread of its own sleeps until something happens.
 class FileWatcher {
 public:
-    /// A file, in the spelling `watch` was given, and when it was last written to or got its name: not its
-    /// own time, which one that is moved into place brings along.
+    /// A file, spelled as in `watch`, and the time of the event in which it was written to or got its name.
+    /// This is not the file's own time, which a file that is moved into place keeps from before.
     struct Change {
         std::filesystem::path file;
         std::chrono::steady_clock::time_point at;
     };
 
-    /// How long a file must have been left alone before it is reported: the time a save takes.
+    /// Time without changes before a file is reported; a save takes less.
     static constexpr std::chrono::milliseconds k_quiet{6};
-    /// How long a file that is missing or empty may stay so before it is reported all the same. In the
-    /// middle of a save it is one or the other.
+    /// Time after which a file that is missing or empty is reported all the same. It may be either in the
+    /// middle of a save.
     static constexpr std::chrono::milliseconds k_patience{500};
 
-    /// `wake` is called on the watcher's thread when `changed` has something new to say; it must be quick,
-    /// and must not call the watcher. Fails (ErrorCode::load) when the system has no more watchers to give.
+    /// `wake` is called on the watcher's thread when `changed` has something new to return; it must be quick
+    /// and must not call the watcher. Fails (ErrorCode::load) if the system has no more watchers.
     static Result<FileWatcher> create(std::function<void()> wake = {});
     FileWatcher(FileWatcher&&) noexcept;
     FileWatcher& operator=(FileWatcher&&) noexcept;
     ~FileWatcher();
 
-    /// Replaces the files; they need not exist. When it returns, every later change is seen: call it
-    /// before the files are used for something slow, such as compiling. A path with a slash at its end is a
-    /// folder: it changes when something in it gets a name or loses one. What is known of files that stay
-    /// in the set is kept, and an unchanged set costs nothing. Relative paths are relative to the current
-    /// folder now. Fails (ErrorCode::load) naming a folder that cannot be watched; the others are.
+    /// Replaces the set of files; they need not exist. Once this returns, every later change is detected:
+    /// call it before anything slow, such as compiling. A path that ends with a slash is a folder, which
+    /// changes when an entry in it is added, removed or renamed. Files that stay in the set keep their state,
+    /// and an unchanged set costs nothing. Relative paths are resolved now. Fails (ErrorCode::load), naming a
+    /// folder that cannot be watched; the others are watched.
     Result<void> watch(std::span<const std::filesystem::path> files);
 
-    /// The files that were saved since the last call, sorted. Never waits.
+    /// Returns the files saved since the last call, sorted. Never waits.
     std::vector<Change> changed();
 
 private:

@@ -11,8 +11,7 @@ void DestroyWindow::operator()(GLFWwindow* window) const {
 void hint_window() {
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
-    // It starts faster than GLX, it is the driver that headless drawing uses, and it has contexts apart from
-    // windows.
+    // EGL starts faster than GLX, headless drawing uses the same driver, and it has contexts without windows.
     glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);

@@ -1,4 +1,4 @@
-// GLFW's windows as the program's two kinds of them are made. Included by these only.
+// Creates GLFW windows for the program's two window classes; only they include it.
 #pragma once
 
 #include <memory>
@@ -13,10 +13,11 @@ struct DestroyWindow {
 };
 using GlfwWindow = std::unique_ptr<GLFWwindow, DestroyWindow>;
 
-/// What the next one has: a context of OpenGL 4.5 by EGL, and no more than a picture needs.
+/// Sets GLFW's hints for the next window: an OpenGL 4.5 core context through EGL, without depth, stencil or
+/// alpha.
 void hint_window();
 
-/// Why GLFW did not do what it was asked for last.
+/// Returns GLFW's last error.
 std::string last_glfw_error();
 
 } // namespace tidemark::platform

@@ -17,7 +17,7 @@
 namespace tidemark::platform {
 namespace {
 
-/// EGL's word for the last call that failed on this thread.
+/// Returns EGL's name for the last error on this thread.
 std::string_view last_egl_error() {
     constexpr std::array<std::string_view, 15> k_names{
         "EGL_SUCCESS",       "EGL_NOT_INITIALIZED", "EGL_BAD_ACCESS",        "EGL_BAD_ALLOC",
@@ -59,7 +59,7 @@ DeviceKind kind_of(EGLDeviceEXT device) {
     return software ? DeviceKind::software : DeviceKind::hardware;
 }
 
-/// Of a display that has been initialised.
+/// The display must have been initialised.
 DeviceKind kind_of_display(EGLDisplay display) {
     const auto query = egl_function<PFNEGLQUERYDISPLAYATTRIBEXTPROC>("eglQueryDisplayAttribEXT");
     EGLAttrib device = 0;
@@ -69,7 +69,7 @@ DeviceKind kind_of_display(EGLDisplay display) {
     return kind_of(reinterpret_cast<EGLDeviceEXT>(device));
 }
 
-/// See HeadlessDevice::lasting_names.
+/// Returns the names for HeadlessDevice::lasting_names.
 std::vector<std::string> lasting_names(EGLDeviceEXT device) {
     std::vector<std::string> names;
     const auto query = egl_function<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
@@ -101,7 +101,7 @@ std::vector<std::string> lasting_names(EGLDeviceEXT device) {
     return names;
 }
 
-/// Where a context may be made: a name that users type, and EGL's way there.
+/// A place where a context may be made: the name that users type, and its EGL platform and device.
 struct Place {
     std::string name;
     EGLenum platform = EGL_NONE; ///< EGL_NONE: the default display
@@ -109,7 +109,7 @@ struct Place {
     DeviceKind kind = DeviceKind::unknown;
 };
 
-/// Every place, in EGL's order.
+/// Returns every place, in EGL's order.
 std::vector<Place> list_places() {
     std::vector<Place> places{{"surfaceless", EGL_PLATFORM_SURFACELESS_MESA}};
     for (EGLDeviceEXT device : egl_devices()) {
@@ -120,8 +120,8 @@ std::vector<Place> list_places() {
     return places;
 }
 
-/// The place's display, ready for use, or why there is none. A display belongs to the process, not to us:
-/// EGL gives the same one to everybody who asks, and eglTerminate would take their contexts with it.
+/// Returns the place's initialised display, or the reason why there is none. The display is never terminated:
+/// EGL returns the same one to every caller in the process, and eglTerminate would end their contexts too.
 tl::expected<EGLDisplay, std::string> open_display(const Place& place) {
     const Doing starting(fmt::format("starting OpenGL on '{}'", place.name), Doing::Kind::start);
     EGLDisplay display = place.platform == EGL_NONE
@@ -134,7 +134,7 @@ tl::expected<EGLDisplay, std::string> open_display(const Place& place) {
     return display;
 }
 
-/// A context that is current on this thread; destroyed with this object.
+/// A context that was made current on this thread; the destructor destroys it.
 struct CurrentContext {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;
@@ -171,7 +171,7 @@ EGLContext create_context(EGLDisplay display, DebugContext debug, ResetNotice no
     return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
 }
 
-/// One that tells when the driver was reset, where there is such a one.
+/// Makes a context that reports driver resets, if the driver has such contexts.
 ContextOrReason make_context(const Place& place, DebugContext debug) {
     const Doing starting(fmt::format("starting OpenGL on '{}'", place.name), Doing::Kind::start);
     const auto display = open_display(place);
@@ -199,7 +199,7 @@ bool is_called(const Place& place, std::string_view name) {
     return may_last && std::ranges::count(lasting_names(place.device), name) > 0;
 }
 
-/// The places that `device` names, in the order in which they are to be tried; empty for an unknown name.
+/// Returns the places that `device` names, in the order to try them; empty for an unknown name.
 std::vector<Place> places_to_try(const std::vector<Place>& places, std::string_view device) {
     std::vector<std::string> names{std::string(device)};
     if (device == "auto") {
@@ -208,7 +208,7 @@ std::vector<Place> places_to_try(const std::vector<Place>& places, std::string_v
             if (place.platform == EGL_PLATFORM_DEVICE_EXT)
                 is_software.push_back(place.kind == DeviceKind::software);
         const bool any_hardware = std::ranges::count(is_software, false) > 0;
-        // Asked only where the answer matters: it starts a driver.
+        // Only if the answer matters: it starts a driver.
         const auto surfaceless = any_hardware ? open_display(places.front()) : tl::unexpected(std::string());
         names =
             order_to_try(is_software, surfaceless && kind_of_display(*surfaceless) == DeviceKind::software);
@@ -265,7 +265,7 @@ HeadlessDevice describe(const Place& place) {
         device.kind = kind_of_display((*context)->display);
     device.renderer = gl_string(GL_RENDERER);
     device.version = gl_string(GL_VERSION);
-    // The renderer's name decides: with a display, Mesa 25 calls llvmpipe's surfaceless device hardware.
+    // The renderer's name decides: with a display, Mesa 25 reports llvmpipe's surfaceless device as hardware.
     if (is_software_renderer(device.renderer))
         device.kind = DeviceKind::software;
     return device;
@@ -291,7 +291,7 @@ Result<HeadlessContext> HeadlessContext::create(const DeviceChoice& choice, Debu
     std::vector<std::string> tried;
     for (const Place& place : chosen) {
         ContextOrReason context = make_context(place, debug);
-        // What EGL calls a card may still hand out the CPU: the renderer's own name decides.
+        // EGL may list a card and still give a CPU renderer: the renderer's own name decides.
         if (context && choice.gpu_only && is_software_renderer(gl_string(GL_RENDERER)))
             context = tl::unexpected(fmt::format("draws on the CPU ({})", gl_string(GL_RENDERER)));
         if (context)

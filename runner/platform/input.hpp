@@ -1,5 +1,5 @@
-// What people do to a window, as data. Positions are in framebuffer pixels with the origin at the bottom
-// left, as GLSL's gl_FragCoord has it; what a key or a drag means is for others to say.
+// Input events of a window, as data. Positions are in framebuffer pixels from the bottom left, like GLSL's
+// gl_FragCoord. The meaning of keys and drags is not defined here.
 #pragma once
 
 #include "base/extent.hpp"
@@ -10,8 +10,8 @@ namespace tidemark::platform {
 
 enum class Button { left, right, middle };
 
-/// A key; the value of each is its JavaScript `keyCode`, which is what ShaderToy's keyboard texture is
-/// indexed by. Left and right modifiers share one, as they do there. Punctuation is Chrome's.
+/// A key; its value is its JavaScript `keyCode`, the index into ShaderToy's keyboard texture. Left and right
+/// modifiers share a value, as there. Punctuation has Chrome's values.
 enum class Key : int {
     unknown = 0,
     backspace = 8,
@@ -72,16 +72,16 @@ enum class Key : int {
     backslash = 220,
     right_bracket = 221,
     apostrophe = 222,
-    world = 226, ///< the key that only non-American keyboards have
+    world = 226, ///< the extra key of non-American keyboards
 };
 
-/// ShaderToy's column for the key in its keyboard texture, 0 to 255; 0 is no key of JavaScript's.
+/// Returns the key's column in ShaderToy's keyboard texture, 0 to 255; 0 is not a JavaScript key.
 constexpr int js_key_code(Key key) {
     return int(key);
 }
 
-/// Pixels from the bottom-left corner of the framebuffer; a pixel's centre is at .5, and a drag may leave
-/// the window, so any value is possible.
+/// Pixels from the bottom-left corner of the framebuffer; pixel centres are at .5. A drag may leave the
+/// window, so any value is possible.
 struct PointerPosition {
     double x = 0;
     double y = 0;
@@ -105,7 +105,7 @@ struct ButtonReleased {
     bool operator==(const ButtonReleased&) const = default;
 };
 
-/// In notches; `up` is positive when the wheel turns away from the person.
+/// In notches; `up` is positive when the wheel turns away from the user.
 struct WheelTurned {
     double right = 0;
     double up = 0;
@@ -114,7 +114,7 @@ struct WheelTurned {
 
 struct KeyPressed {
     Key key = Key::unknown;
-    bool repeat = false; ///< the key was down already; ShaderToy ignores these
+    bool repeat = false; ///< the key was already down; ShaderToy ignores these
     bool operator==(const KeyPressed&) const = default;
 };
 
@@ -123,8 +123,7 @@ struct KeyReleased {
     bool operator==(const KeyReleased&) const = default;
 };
 
-/// What a key typed, by the person's keyboard layout; after the KeyPressed that it belongs to, if there is
-/// one.
+/// A character typed, by the user's keyboard layout; it follows its KeyPressed, if there is one.
 struct TextTyped {
     char32_t character = 0;
     bool operator==(const TextTyped&) const = default;
@@ -136,7 +135,7 @@ struct FramebufferResized {
     bool operator==(const FramebufferResized&) const = default;
 };
 
-/// The window has lost what it showed (it was covered, say) and must be drawn again.
+/// The window's contents were lost (it was covered, for example) and must be drawn again.
 struct RedrawNeeded {
     bool operator==(const RedrawNeeded&) const = default;
 };
@@ -145,7 +144,7 @@ struct CloseRequested {
     bool operator==(const CloseRequested&) const = default;
 };
 
-/// Releases of the keys and buttons that were down follow at once.
+/// Releases of all keys and buttons that were down follow at once.
 struct FocusLost {
     bool operator==(const FocusLost&) const = default;
 };

@@ -44,7 +44,7 @@ ScreenArea centred(ScreenArea window, const ScreenArea& monitor) {
     return window;
 }
 
-/// `monitor 1 is 1280x800 at 0,0`
+/// Lists the monitors: `monitor 1 is 1280x800 at 0,0`.
 std::string words_on_monitors() {
     std::vector<std::string> words;
     for (const Monitor& monitor : all_monitors()) {
@@ -94,7 +94,7 @@ Result<void> move_to_wished(GLFWwindow* window, const WindowWishes& wishes) {
     }
     if (wishes.monitor || wishes.position) {
         move();
-    } else if (wishes.left_at) { // a monitor that was there last time may be gone
+    } else if (wishes.left_at) { // the monitor of last time may be gone
         place.x = wishes.left_at->x;
         place.y = wishes.left_at->y;
         if (is_shown(place))

@@ -1,4 +1,4 @@
-// The monitors that a window can be on, as GLFW lists them while it runs. Included by the windows only.
+// Finds the monitors on which a window can be, through GLFW, which must run. Only the windows include it.
 #pragma once
 
 #include "base/result.hpp"
@@ -9,7 +9,7 @@ struct GLFWwindow;
 
 namespace tidemark::platform {
 
-/// In GLFW's screen coordinates, origin at the top left.
+/// A rectangle in GLFW's screen coordinates, origin at the top left.
 struct ScreenArea {
     int x = 0;
     int y = 0;
@@ -18,21 +18,21 @@ struct ScreenArea {
 };
 
 struct Monitor {
-    GLFWmonitor* handle = nullptr; ///< null: there is none
+    GLFWmonitor* handle = nullptr; ///< null: no monitor
     ScreenArea place;
     int refresh_rate = 0;
 };
 
 ScreenArea place_of(GLFWwindow* window);
 
-/// The one that shows most of it.
+/// Returns the monitor that shows most of the window.
 Monitor monitor_under(const ScreenArea& window);
 
-/// 1 is the first. ErrorCode::usage, with `option`'s name, where there are not so many.
+/// Returns a monitor by number; 1 is the first. ErrorCode::usage, with the option's name, if there are fewer.
 Result<Monitor> monitor_numbered(int number, const char* option);
 
-/// Moves a window that is hidden yet to where it is wished, as far as a monitor shows that. What is typed and
-/// cannot be is an ErrorCode::usage.
+/// Moves a window that is still hidden to the requested place, if a monitor shows it. ErrorCode::usage if a
+/// place that the user gave is not shown.
 Result<void> move_to_wished(GLFWwindow* window, const WindowWishes& wishes);
 
 } // namespace tidemark::platform

@@ -16,7 +16,7 @@
 
 namespace tidemark::platform {
 
-/// Stays where it is when the OutputWindow moves, so that GLFW's user pointer may point to it.
+/// Keeps its address when the OutputWindow moves, since GLFW's user pointer points to it.
 struct OutputWindow::State {
     GlfwWindow window;
     std::vector<InputEvent> events{};
@@ -60,7 +60,7 @@ Result<OutputWindow> OutputWindow::create(const Window&, Extent logical_size, co
     auto state = std::make_unique<State>();
     const Extent size = monitor ? Extent{screen.place.width, screen.place.height} : logical_size;
     hint_window();
-    glfwWindowHint(GLFW_FOCUSED, GLFW_FALSE); // keys stay with the window where the hands are
+    glfwWindowHint(GLFW_FOCUSED, GLFW_FALSE); // keys stay with the window that the user works in
     glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_FALSE);
     glfwWindowHint(GLFW_VISIBLE, GLFW_TRUE);
     if (monitor)

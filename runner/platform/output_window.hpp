@@ -1,5 +1,5 @@
-// A second window beside a Window, for a picture alone: on a projector, say. What is drawn in it is drawn by
-// a context of the other one's.
+// A second window next to a Window that shows only the picture, on a projector for example. One of the first
+// window's contexts draws into it.
 #pragma once
 
 #include "base/extent.hpp"
@@ -17,23 +17,23 @@ class Window;
 
 class OutputWindow {
 public:
-    /// Beside `first`, which must outlive it, on the main thread. On a monitor (1 is the first;
-    /// ErrorCode::usage where there are not so many) it is full screen, else of that size. The current
-    /// context stays so.
+    /// Opens it next to `first`, which must outlive it; main thread only. With a monitor (1 is the first;
+    /// ErrorCode::usage if there are fewer) it is full screen, otherwise it has the given size. The current
+    /// context stays current.
     static Result<OutputWindow> create(const Window& first, Extent logical_size, const std::string& title,
                                        std::optional<int> monitor);
     OutputWindow(OutputWindow&&) noexcept;
     OutputWindow& operator=(OutputWindow&&) noexcept;
     ~OutputWindow();
 
-    /// Keys, RedrawNeeded, FramebufferResized and CloseRequested since the last call, as of the last events
-    /// that the first window took.
+    /// Returns keys, RedrawNeeded, FramebufferResized and CloseRequested since the last call, as of the first
+    /// window's last poll or wait.
     std::vector<InputEvent> take_events();
     Extent framebuffer_extent() const;
 
-    /// What is drawn from now on by the context that is current, one of the first window's, is for this one.
+    /// Makes the current context, one of the first window's, draw into this window from now on.
     Result<void> make_current();
-    /// Shows what has been drawn by it, and does not wait for the screen: the first window does.
+    /// Shows what the context has drawn; does not wait for vertical sync, since the first window does.
     void swap();
 
 private:

@@ -14,7 +14,7 @@ int reset_strategy(ResetNotice notice) {
 
 Result<SharedContext> SharedContext::create(void* display, void* first, void* surface, ResetNotice notice) {
     EGLint wanted[] = {EGL_CONFIG_ID, 0, EGL_NONE};
-    EGLConfig config = EGL_NO_CONFIG_KHR; // as a context without surfaces has it
+    EGLConfig config = EGL_NO_CONFIG_KHR; // the value of a context without surfaces
     EGLint count = 0;
     eglQueryContext(display, first, EGL_CONFIG_ID, &wanted[1]);
     if (wanted[1] != 0)
@@ -28,7 +28,7 @@ Result<SharedContext> SharedContext::create(void* display, void* first, void* su
                                  EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
                                  reset_strategy(notice),
                                  EGL_NONE};
-    eglBindAPI(EGL_OPENGL_API); // each thread has its own
+    eglBindAPI(EGL_OPENGL_API); // each thread has its own setting
     SharedContext made;
     made.display_ = display;
     made.window_ = surface;
@@ -66,7 +66,7 @@ Result<void> SharedContext::make_current_in_window() {
 }
 
 Result<void> SharedContext::make_current_with(void* surface) {
-    eglBindAPI(EGL_OPENGL_API); // each thread has its own
+    eglBindAPI(EGL_OPENGL_API); // each thread has its own setting
     if (eglMakeCurrent(display_, surface, surface, context_))
         return {};
     return fail(ErrorCode::no_context,

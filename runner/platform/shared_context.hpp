@@ -1,46 +1,48 @@
-// A context of its own beside a first one, a window's or a headless one, so that a thread can prepare what is
-// shown later. Shares textures and programs with it.
+// A second OpenGL context that shares textures and programs with a first one, a window's or a headless one,
+// so that a thread can prepare what is shown later.
 #pragma once
 
 #include "base/result.hpp"
 
 namespace tidemark::platform {
 
-/// Must not outlive the one that it was made beside. Current on one thread at a time.
-/// Whether a context is made so that it tells when the driver was reset. Those that share are alike in that.
+/// Whether a context reports that the driver was reset. Contexts that share must be alike in that.
 enum class ResetNotice { no, yes };
 
 /// The value of EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY.
 int reset_strategy(ResetNotice notice);
 
+/// A context that shares with another one, which must outlive it. Current on one thread at a time.
 class SharedContext {
 public:
-    /// Beside `first`, which belongs to `display`; `surface`: of its window, null where it has none. All are
-    /// EGL's; `notice` is that of `first`. ErrorCode::no_context, with the reason, when the driver gives
-    /// none.
+    /// Makes a context that shares with `first`, a context of `display`; `surface` is its window's, null
+    /// without a window. All are EGL's; `notice` is that of `first`. ErrorCode::no_context, with the reason,
+    /// if the driver makes none.
     static Result<SharedContext> create(void* display, void* first, void* surface, ResetNotice notice);
     SharedContext(SharedContext&& other) noexcept;
     SharedContext& operator=(SharedContext&& other) noexcept;
-    /// Must be current on no other thread.
+    /// Must not be current on another thread.
     ~SharedContext();
 
-    /// On the calling thread. What is drawn into the window's own framebuffer is lost.
+    /// Makes it current on the calling thread, without a surface: drawing into the default framebuffer is
+    /// lost.
     Result<void> make_current();
-    /// On the window's thread: its framebuffer is drawn into, Window::swap shows it.
+    /// Makes it current on the window's thread and draws into the window's framebuffer, which Window::swap
+    /// shows.
     Result<void> make_current_in_window();
-    /// Current nowhere, so that another thread may take it.
+    /// Releases it, so that another thread may make it current.
     void leave();
 
 private:
     SharedContext() = default;
     Result<void> make_current_with(void* surface);
 
-    void* display_ = nullptr; ///< EGL's, as are the others
+    void* display_ = nullptr; ///< an EGL handle, like the next two
     void* window_ = nullptr;
     void* context_ = nullptr; ///< null: moved from
 };
 
-/// What is current on this thread when it is made is current again when it goes.
+/// Restores, when destroyed, the context and surfaces that were current on this thread when it was made.
 class KeepCurrent {
 public:
     KeepCurrent();

@@ -6,7 +6,7 @@ namespace tidemark::platform {
 namespace fs = std::filesystem;
 namespace {
 
-/// As the kernel's: a path with more links is taken to be a circle.
+/// The kernel's limit: a path with more links is taken to be circular.
 constexpr int k_most_links = 40;
 
 void prepend(std::deque<fs::path>& names, const fs::path& path) {

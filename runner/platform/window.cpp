@@ -21,7 +21,7 @@
 namespace tidemark::platform {
 namespace {
 
-/// Ends GLFW when it goes.
+/// Starts nothing; its destructor terminates GLFW.
 struct Library {
     Library() = default;
     Library(const Library&) = delete;
@@ -39,14 +39,14 @@ bool is_set(const char* variable) {
     return value && *value;
 }
 
-/// GLFW has no question for it, but this call fails on a library that was not started.
+/// Returns whether GLFW runs. GLFW has no function for that, but glfwGetTime fails if it does not.
 bool library_runs() {
     glfwGetError(nullptr);
     glfwGetTime();
     return glfwGetError(nullptr) != GLFW_NOT_INITIALIZED;
 }
 
-/// Hidden: it is moved first.
+/// Opens it hidden, because it is moved first.
 GLFWwindow* open_window(Extent size, const char* title, bool on_top, ResetNotice notice) {
     hint_window();
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS,
@@ -56,8 +56,8 @@ GLFWwindow* open_window(Extent size, const char* title, bool on_top, ResetNotice
     return glfwCreateWindow(size.width, size.height, title, nullptr, nullptr);
 }
 
-/// On Wayland a swap that waits, waits for a hidden window to be shown, and events and Ctrl-C with it. A
-/// compositor there tears no picture, and frames go by our own clock in any case.
+/// Returns 0 on Wayland: there a swap that waits would wait for a hidden window to be shown and block events
+/// and Ctrl-C. Wayland compositors do not tear, and frames follow our own clock in any case.
 int swap_interval() {
     const bool wayland = is_set("WAYLAND_DISPLAY") &&
                          std::string_view(glfwGetVersionString()).find("Wayland") != std::string_view::npos;
@@ -72,7 +72,7 @@ Button button_from_glfw(int button) {
 
 } // namespace
 
-/// Stays where it is when the Window moves, so that GLFW's user pointer may point to it.
+/// Keeps its address when the Window moves, since GLFW's user pointer points to it.
 struct Window::State {
     Library library;
     GlfwWindow window;
@@ -84,7 +84,7 @@ struct Window::State {
     double cursor_y = 0;
     ScreenArea before_full_screen{};
 
-    /// The sizes as of the events delivered so far: GLFW's own answers may be ahead of them.
+    /// Uses the sizes as of the events delivered so far: GLFW's own answers may be newer.
     PointerPosition pointer() const {
         const double scale_x = screen.width > 0 ? double(framebuffer.width) / screen.width : 1.0;
         const double scale_y = screen.height > 0 ? double(framebuffer.height) / screen.height : 1.0;
@@ -164,7 +164,7 @@ Result<Window> Window::create(Extent logical_size, const std::string& title, con
         return cannot_open("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set)");
     if (library_runs())
         return cannot_open("this process has one already");
-#ifdef GLFW_PLATFORM // GLFW 3.4 tries Wayland first, whose library complains on standard error
+#ifdef GLFW_PLATFORM // GLFW 3.4 tries Wayland first, whose library writes to standard error
     glfwInitHint(GLFW_PLATFORM, is_set("WAYLAND_DISPLAY") ? GLFW_ANY_PLATFORM : GLFW_PLATFORM_X11);
 #endif
     if (!glfwInit())
@@ -208,7 +208,7 @@ std::vector<InputEvent> Window::wait(double seconds) {
     else
         glfwWaitEvents();
     if (seconds >
-        0) { // a window that sleeps has nothing to do with the display: whether there still is one is asked
+        0) { // a sleeping window does not use the display, so this checks that it still exists
         int width = 0, height = 0;
         glfwGetFramebufferSize(state_->window.get(), &width, &height);
     }
@@ -250,7 +250,8 @@ void Window::swap() {
 }
 
 void Window::set_title(const std::string& title) {
-    constexpr size_t k_most_bytes = 1000; // more than any bar shows, and less than what X11 takes at once
+    // more than any title bar shows, less than X11's limit for one request
+    constexpr size_t k_most_bytes = 1000;
     glfwSetWindowTitle(state_->window.get(), cut_text(printable_line(title), k_most_bytes).c_str());
 }
 

@@ -1,5 +1,5 @@
-// A window with an OpenGL 4.5 core context. In comes a size and a title, out goes what people do to it,
-// as InputEvents. Does not know what is drawn in it, nor when.
+// A window with an OpenGL 4.5 core context. Takes a size and a title, returns the user's input as
+// InputEvents. Draws nothing itself.
 #pragma once
 
 #include "base/extent.hpp"
@@ -15,13 +15,13 @@
 
 namespace tidemark::platform {
 
-/// One at a time in a process, on the main thread: the window system is started with it and ended with it.
+/// One at a time in a process, on the main thread: it starts and ends the window system.
 class Window {
 public:
     /// Opens it and makes its context current. `logical_size` is in pixels of an ordinary display; a dense
-    /// one gives more (framebuffer_extent). Waits for vertical sync where the system has one, so a caller
-    /// must not rely on `swap` to set its pace. ErrorCode::no_context, with the reason, when there is none.
-    /// ErrorCode::usage for a place that no monitor has.
+    /// one has more (framebuffer_extent). Vertical sync is used if the system has it, so do not rely on
+    /// `swap` to set the pace. ErrorCode::no_context, with the reason, if there is none; ErrorCode::usage for
+    /// a place that no monitor shows.
     static Result<Window> create(Extent logical_size, const std::string& title,
                                  const WindowWishes& wishes = {});
     Window(Window&&) noexcept;
@@ -29,29 +29,29 @@ public:
     ~Window();
 
     void make_current();
-    /// Another context for the same window, current nowhere. All of them know each other's textures.
+    /// Makes another context for the same window, not current on any thread. All of them share textures.
     Result<SharedContext> create_context();
 
-    /// What happened since the last call, in order; never waits.
+    /// Returns the events since the last call, in order; never waits.
     std::vector<InputEvent> poll();
-    /// The same, but sleeps until something happens, `wake` is called or `seconds` have passed. Infinity
-    /// is allowed. May return early with nothing.
+    /// The same, but sleeps until an event comes, `wake` is called or `seconds` have passed. Infinity is
+    /// allowed. May return early without events.
     std::vector<InputEvent> wait(double seconds);
-    /// Ends the `wait` under way, or else the next one. Callable from every thread while a Window lives.
+    /// Ends the current `wait`, or else the next one. May be called from any thread while a Window exists.
     static void wake();
 
-    /// As of the last event returned.
+    /// Size as of the last event returned.
     Extent framebuffer_extent() const;
-    /// Pixels of this display for one of an ordinary display's: 2 on a dense one.
+    /// Returns pixels of this display per pixel of an ordinary one: 2 on a dense one.
     double content_scale() const;
-    /// Where it is; full screen: where it was.
+    /// Returns its place; in full screen, its place before.
     WindowPlace place() const;
-    /// What other programs paste from now on, as long as this one runs.
+    /// Sets the clipboard; other programs can paste the text while this one runs.
     void set_clipboard(const std::string& text);
     /// Shows what has been drawn.
     void swap();
     void set_title(const std::string& title);
-    /// On the monitor that holds most of the window; and back to where it was.
+    /// Fills the monitor that shows most of the window, or returns to the place before.
     void toggle_full_screen();
 
 private:

@@ -64,7 +64,7 @@ constexpr KeyPair k_single_keys[] = {
     {GLFW_KEY_MENU, Key::menu},
 };
 
-/// Runs of keys that count upwards in both systems.
+/// Consecutive keys in both numberings.
 struct KeyRun {
     int glfw_first;
     int glfw_last;
@@ -82,7 +82,7 @@ bool is_keypad(int glfw_key) {
     return glfw_key >= GLFW_KEY_KP_0 && glfw_key <= GLFW_KEY_KP_EQUAL;
 }
 
-/// The key that the layout's own letter or digit stands for; unknown for all other names.
+/// Returns the key of a single letter or digit; Key::unknown for all other names.
 Key key_from_name(const char* name) {
     if (!name || name[0] == '\0' || name[1] != '\0')
         return Key::unknown;

@@ -1,4 +1,4 @@
-// From GLFW's keys to ours. Included by the window only.
+// Converts GLFW's keys. Only the windows include it.
 #pragma once
 
 #include "platform/input.hpp"
@@ -7,12 +7,12 @@
 
 namespace tidemark::platform {
 
-/// The key's JavaScript code by what the person's keyboard layout prints on it (Z is where a German
-/// looks for it), and by its place on an American keyboard where that is no plain letter or digit.
-/// `key_name` is what glfwGetKeyName says of the key; it may be null.
+/// Returns the key's JavaScript code: by the letter or digit that the user's keyboard layout prints on it (so
+/// Z is where German keyboards have it), else by its place on an American keyboard. `key_name` is
+/// glfwGetKeyName's result; it may be null.
 Key key_from_glfw(int glfw_key, const char* key_name);
 
-/// What GLFW's key callback tells of; nothing for a key that has no code.
+/// Converts the arguments of GLFW's key callback; nullopt for a key without a code.
 std::optional<InputEvent> key_event(int glfw_key, int scancode, int action);
 
 } // namespace tidemark::platform

@@ -9,18 +9,18 @@
 namespace tidemark::platform {
 namespace {
 
-std::function<void(std::string_view)> at_the_end; // Xlib hands its handlers nothing of ours
+std::function<void(std::string_view)> at_the_end; // global, because Xlib passes no user data to its handlers
 
-/// Ends the process where `act` does not.
+/// Calls the action once; if that returns, Xlib or the caller ends the process.
 void lose(std::string_view what) {
     static std::atomic<bool> begun = false;
     if (begun.exchange(true))
-        ::pause(); // another thread is at it
+        ::pause(); // another thread is doing it
     if (at_the_end)
         at_the_end(what);
 }
 
-/// As Xlib declares it.
+/// Xlib's XErrorEvent.
 struct ErrorEvent {
     int type;
     void* display;
@@ -33,13 +33,13 @@ using LossHandler = int (*)(void* display);
 using ErrorHandler = int (*)(void* display, ErrorEvent* error);
 ErrorHandler handler_before = nullptr;
 
-/// Xlib ends the process when it returns.
+/// Xlib ends the process when this returns.
 int handle_loss(void*) {
     lose("the display is gone");
     return 0;
 }
 
-/// Another program has destroyed the window: what is drawn into it, or asked of it, is an error from then on.
+/// Handles errors that follow when another program has destroyed the window: all uses of it fail then.
 int handle_error(void* display, ErrorEvent* error) {
     constexpr unsigned char k_bad_window = 3, k_bad_drawable = 9, k_first_of_extensions = 128;
     if (error->code == k_bad_window || error->code == k_bad_drawable || error->code >= k_first_of_extensions)
@@ -50,7 +50,7 @@ int handle_error(void* display, ErrorEvent* error) {
 } // namespace
 
 WhenDisplayIsLost::WhenDisplayIsLost(std::function<void(std::string_view what)> act) {
-    // GLFW's copy, where it has one: the program itself does not need Xlib.
+    // The copy that GLFW has loaded, if any: the program itself does not need Xlib.
     void* const xlib = ::dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
     if (!xlib)
         return;
@@ -64,7 +64,7 @@ WhenDisplayIsLost::WhenDisplayIsLost(std::function<void(std::string_view what)> 
     if (set_error_handler)
         if (const ErrorHandler before = set_error_handler(handle_error); before != handle_error)
             handler_before = before;
-    ::dlclose(xlib); // GLFW keeps it
+    ::dlclose(xlib); // GLFW keeps it loaded
 }
 
 WhenDisplayIsLost::~WhenDisplayIsLost() {

@@ -1,5 +1,5 @@
-// The end of a window that nobody here has closed: an X server that dies, a connection that breaks, another
-// program that destroys it.
+// Handles the loss of the window: the X server dies, the connection breaks, or another program destroys the
+// window.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,8 @@
 
 namespace tidemark::platform {
 
-/// While it lives `act` is called when that happens, once, on whichever thread notices, with what has
-/// happened in words; the process ends when it returns. There must be a Window. Wayland asks the window to
+/// While this object exists, `act` is called once when the window is lost, on the thread that notices, with a
+/// description; the process ends when it returns. There must be a Window. On Wayland the window is asked to
 /// close instead.
 class WhenDisplayIsLost {
 public:

@@ -1,4 +1,4 @@
-// Where a window is to open, as values.
+// The requested place of a window, as values.
 #pragma once
 
 #include "base/extent.hpp"
@@ -7,26 +7,27 @@
 
 namespace tidemark::platform {
 
-/// Of a window on the screen: its left upper corner in the window system's coordinates, its size in pixels of
-/// an ordinary display.
+/// A window's place on the screen: its upper left corner in the window system's coordinates, its size in
+/// pixels of an ordinary display.
 struct WindowPlace {
     int x = 0;
     int y = 0;
     Extent size;
 };
 
-/// From the left upper corner of the screen or of a monitor, in the window system's coordinates.
+/// A point, from the upper left corner of the screen or of a monitor, in the window system's coordinates.
 struct ScreenPoint {
     int x = 0;
     int y = 0;
 };
 
-/// Where a window opens, and how it stands to the others. Not every system lets a program choose its place.
+/// Requested place and stacking of a window. Not every system lets a program choose the place.
 struct WindowWishes {
-    std::optional<WindowPlace> left_at{};  ///< the last one of its kind, if a monitor still shows that
-    std::optional<int> monitor{};          ///< 1 is the first; in its middle
-    std::optional<ScreenPoint> position{}; ///< the left upper corner, on that monitor if there is one
-    bool on_top = false;                   ///< stays above the others
+    /// place of the last window of its kind, used if a monitor still shows it
+    std::optional<WindowPlace> left_at{};
+    std::optional<int> monitor{};          ///< 1 is the first; the window is centred on it
+    std::optional<ScreenPoint> position{}; ///< the upper left corner, on `monitor` if that is set
+    bool on_top = false;                   ///< stays above other windows
 };
 
 } // namespace tidemark::platform

@@ -6,11 +6,11 @@
 namespace tidemark::render {
 namespace {
 
-/// Two slow frames of five do not move their median.
+/// The median of five frames ignores two slow ones.
 constexpr size_t k_frames_down = 5;
 constexpr size_t k_frames_up = 30;
-/// Parts of the budget. Between the two nothing changes: a scale whose frames take the whole budget measures
-/// up to a tenth more or a fifth less now and then.
+/// Fractions of the budget. Between the two the scale stays: frames that take the whole budget occasionally
+/// measure up to a tenth more or a fifth less.
 constexpr double k_too_slow = 1.1;
 constexpr double k_fast_enough = 0.8;
 
@@ -28,7 +28,7 @@ RenderScale AdaptiveScale::after_frame(RenderScale scale, double milliseconds) {
     if (recent_.size() > k_frames_up)
         recent_.pop_front();
     auto wanted = lower(scale);
-    if (wanted && before_step_up_) // a step that is taken back says what it costs
+    if (wanted && before_step_up_) // a step that is undone shows its cost
         growth_ = std::max(growth_, median_of_last(recent_, k_frames_down) / *before_step_up_);
     if (wanted || recent_.size() == k_frames_up)
         before_step_up_.reset();
@@ -46,8 +46,8 @@ void AdaptiveScale::forget() {
     growth_ = k_pixels;
 }
 
-/// The next one whose frames may be quick enough. The time falls with the pixels at most, so it is not too
-/// low.
+/// Returns the next scale whose frames may be quick enough. The time falls at most in proportion to the
+/// pixels, so the scale is not lower than necessary.
 std::optional<RenderScale> AdaptiveScale::lower(RenderScale scale) const {
     if (recent_.size() < k_frames_down)
         return std::nullopt;

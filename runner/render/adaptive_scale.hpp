@@ -1,5 +1,5 @@
-// The render scale that holds a frame rate. In goes what each frame took, out comes the scale of the next
-// one: down soon, up late, and never for a few slow frames.
+// Chooses the render scale that holds a frame rate, from the time of each frame. The scale falls soon, rises
+// late, and ignores a few slow frames.
 #pragma once
 
 #include "render/render_scale.hpp"
@@ -13,19 +13,19 @@ class AdaptiveScale {
 public:
     explicit AdaptiveScale(double fps) : budget_(1000 / fps) {}
 
-    /// After a frame in that scale.
+    /// Returns the scale of the next frame after a frame in `scale` took that long.
     RenderScale after_frame(RenderScale scale, double milliseconds);
-    /// What was measured says nothing of the frames to come.
+    /// Discards all measurements; for changes after which frames may take a different time.
     void forget();
 
 private:
     std::optional<RenderScale> lower(RenderScale scale) const;
     std::optional<RenderScale> higher(RenderScale scale);
 
-    double budget_;                        ///< milliseconds of a frame
-    std::deque<double> recent_;            ///< of frames in one scale, the last one at the back
-    double growth_ = k_pixels;             ///< of a frame's time, for twice as many pixels along a side
-    std::optional<double> before_step_up_; ///< milliseconds, while that step may turn out to be wrong
+    double budget_;                        ///< milliseconds per frame
+    std::deque<double> recent_;            ///< times of frames in the current scale, the newest last
+    double growth_ = k_pixels;             ///< factor of a frame's time for twice as many pixels along a side
+    std::optional<double> before_step_up_; ///< milliseconds; set while the last step up may still be undone
 
     static constexpr double k_pixels = 4;
 };

@@ -11,7 +11,7 @@ using image::Image;
 
 namespace {
 
-/// False: stopped.
+/// Returns false when it was stopped.
 bool draw_band(Renderer& renderer, const Sample& sample, int number, const BeforeTile& before_tile,
                Image& band) {
     const TileGrid grid = *renderer.tiles();

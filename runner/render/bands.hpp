@@ -1,5 +1,5 @@
-// A frame that is drawn tile by tile, as the bands that its tiles make: from the top, as files have their
-// rows.
+// Draws a frame tile by tile. Each row of tiles is a band; the bands come from the top, in the row order of
+// files.
 #pragma once
 
 #include "render/exposure.hpp"
@@ -9,19 +9,19 @@
 
 namespace tidemark::render {
 
-/// Is told before each tile, once for each sample; false stops there.
+/// Called before each tile, once per sample; returns false to stop.
 using BeforeTile = std::function<bool()>;
-/// Takes a band and gives one back, of whatever size, for the next to be drawn into: so one can be encoded
-/// while the next is drawn, and two are all that memory holds.
+/// Consumes a band and returns an image of any size whose memory the next band may use. One band can thus be
+/// encoded while the next is drawn, and memory holds two at most.
 using TakeBand = std::function<Result<image::Image>(image::Image band)>;
 
-/// After the `draw` of the same frame, of a renderer that has tiles; where it has several samples, those of
-/// floats. Where they have times of their own, what the shown pass reads is drawn anew for each. False:
-/// stopped.
+/// Draws all bands after the `draw` of the same frame. The renderer must have tiles; for several samples its
+/// samples must be floats. Redraws the inputs of the shown pass for each sample when the samples have
+/// different times. Returns false when it was stopped.
 Result<bool> draw_bands(Renderer& renderer, const ExposedFrame& frame, const BeforeTile& before_tile,
                         const TakeBand& take);
 
-/// The bands together; nothing where it was stopped.
+/// Returns all bands as one picture; nothing when it was stopped.
 std::optional<image::Image> draw_in_tiles(Renderer& renderer, const ExposedFrame& frame,
                                           const BeforeTile& before_tile);
 image::Image draw_in_tiles(Renderer& renderer, const FrameInputs& inputs);

@@ -39,7 +39,7 @@ void point_samplers(const gl::Program& program, int unit) {
 
 void bind(const BoundChannel& channel, const gl::Texture& texture) {
     if (texture.target == GL_TEXTURE_CUBE_MAP)
-        glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS); // the site's language filters across faces; OpenGL only then
+        glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS); // as WebGL 2 always does
     glBindTextureUnit(GLuint(channel.unit), texture.id());
     glBindSampler(GLuint(channel.unit), channel.sampler.id());
 }

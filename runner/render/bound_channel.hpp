@@ -1,4 +1,4 @@
-// A channel of a linked program: which texture stands at which unit, and how it is sampled there.
+// Connects a channel of a linked program to a texture unit and a sampler.
 #pragma once
 
 #include "base/result.hpp"
@@ -10,7 +10,7 @@
 
 namespace tidemark::render {
 
-/// Where the texture of `#iKeyboard` stands: behind iChannel0 to iChannel3.
+/// The texture unit of `#iKeyboard`: the first one after those of the channels.
 inline constexpr int k_keyboard_unit = scene::k_channel_count;
 
 struct BoundChannel {
@@ -19,16 +19,15 @@ struct BoundChannel {
     std::variant<ChannelTextures::Index, scene::PassOutput> source;
 };
 
-/// Makes what `channel` reads ready in `textures`, unless a pass draws it, and tells the program's samplers
-/// of that unit (`iChannelN`, `iChN.sampler`, `iKeyboard`) where to look. Fails like
-/// ChannelTextures::require.
+/// Loads the input of `channel` into `textures`, unless a pass draws it, and sets the program's samplers
+/// (`iChannelN`, `iChN.sampler`, `iKeyboard`) to that unit. Fails like ChannelTextures::require.
 Result<BoundChannel> make_channel(const gl::Program& program, int unit, const scene::Channel& channel,
                                   ChannelTextures& textures);
 
-/// The same for the samplers of another program alone.
+/// Sets only the samplers, in a program.
 void point_samplers(const gl::Program& program, int unit);
 
-/// For the next draws.
+/// Binds texture and sampler for the next draws.
 void bind(const BoundChannel& channel, const gl::Texture& texture);
 
 } // namespace tidemark::render

@@ -1,4 +1,5 @@
-// What a scene carries from one frame to the next: the pictures of the passes that the next frame reads.
+// The state that a scene carries from one frame to the next: the pictures of the passes that the next frame
+// reads.
 #pragma once
 
 #include <string>
@@ -6,12 +7,12 @@
 
 namespace tidemark::render {
 
-/// RGBA, row by row from the bottom, of a cube one face after the other.
+/// RGBA, row by row from the bottom; of a cube, one face after the other.
 using TextureFloats = std::vector<float>;
 
 struct PassState {
     std::string pass;
-    std::vector<TextureFloats> textures{}; ///< the latest first
+    std::vector<TextureFloats> textures{}; ///< newest first
 };
 
 using BufferState = std::vector<PassState>;

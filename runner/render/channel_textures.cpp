@@ -44,7 +44,7 @@ TextureFormat format_of(SampleType type, int channels) {
             GLenum(type == SampleType::u8 ? GL_UNSIGNED_BYTE : GL_FLOAT)};
 }
 
-/// A browser hands a grey picture to WebGL as red = green = blue.
+/// Repeats grey as red, green and blue, as a browser does when it passes a grey picture to WebGL.
 void spread_grey(const gl::Texture& texture, int channels) {
     if (channels > 2)
         return;
@@ -55,20 +55,20 @@ void spread_grey(const gl::Texture& texture, int channels) {
 /// iChannelTime of the site's silent input at iTime 0, in seconds.
 constexpr double k_silence_starts = 10;
 
-/// Where an input has no sound of its own.
+/// Returns the signal of an input without a sound file: the microphone, else silence.
 sound::SignalBytes heard(const FrameInputs& inputs) {
     return inputs.live && inputs.live->microphone ? *inputs.live->microphone
                                                   : sound::silent_signal(inputs.time);
 }
 
-/// What `load` makes of an input.
+/// A texture that `Loader` has made for an input.
 struct Loaded {
     gl::Texture texture;
     TextureUpdate update{};
     std::optional<Playback> playback{};
 };
 
-/// Fills a texture of one channel with `bytes`, unless they are those of last time.
+/// Fills a texture of one channel with `bytes`, unless they are those of the last call.
 class ByteUpload {
 public:
     bool operator()(const gl::Texture& texture, std::span<const std::byte> bytes) {
@@ -80,16 +80,16 @@ public:
     }
 
 private:
-    std::vector<std::byte> last_; ///< empty before the first time
+    std::vector<std::byte> last_; ///< empty before the first call
 };
 
-/// Makes the texture of each kind of input. One object a channel.
+/// Makes the texture of each kind of input; one object per channel.
 class Loader {
 public:
     explicit Loader(const scene::Sampling& sampling)
         : sampling_(sampling), levels_(sampling.mipmaps == scene::Mipmaps::none ? 1 : 0) {}
 
-    /// WebGL gives (0,0,0,1) for a texture that is not there.
+    /// A missing texture is (0,0,0,1), as in WebGL.
     Result<Loaded> operator()(const scene::Unbound&) const {
         Image black({1, 1}, 4, SampleType::u8);
         black.u8()[3] = 255;
@@ -199,7 +199,7 @@ public:
                           if (shown == index)
                               return false;
                           const auto frame = frames->at(inputs.time);
-                          if (!frame) // the last picture stays
+                          if (!frame) // keep the last picture
                               return false;
                           shown = index;
                           const Image image = vflip ? *frame : image::flipped(*frame);
@@ -220,7 +220,7 @@ private:
                                 extent.width, extent.height, limit));
     }
 
-    /// A stand-in until there is something to see.
+    /// Shows a stand-in until the camera delivers a picture.
     Loaded webcam() const {
         Loaded loaded = flat(image::make_stand_in_camera());
         loaded.update = [vflip = sampling_.vflip, shown = std::shared_ptr<const Image>()](
@@ -288,7 +288,7 @@ private:
 };
 
 tl::unexpected<Error> refuse(const gl::Texture& texture) {
-    while (glGetError() != GL_NO_ERROR) { // is told here
+    while (glGetError() != GL_NO_ERROR) { // reported below
     }
     return fail(ErrorCode::load,
                 fmt::format("this driver has no room for a texture of {}x{}x{}; give a smaller one",
@@ -308,7 +308,7 @@ Result<ChannelTextures::Index> ChannelTextures::require(const scene::Channel& ch
     auto loaded = std::visit(Loader(channel.sampling), channel.input);
     if (loaded && !gl::has_storage(loaded->texture))
         loaded = refuse(loaded->texture);
-    if (!loaded && !channel.where.file.empty()) // say which directive asked for it
+    if (!loaded && !channel.where.file.empty()) // name the directive
         return fail(error_at(channel.where, loaded.error().message));
     if (!loaded)
         return fail(std::move(loaded.error()));
@@ -340,7 +340,7 @@ ChannelFact ChannelTextures::fact(Index index, const FrameInputs& inputs) const 
         return {};
     ChannelFact fact{
         {double(texture.extent.width), double(texture.extent.height), double(texture.depth)}, 0, true};
-    if (texture.target == GL_TEXTURE_CUBE_MAP) // the site knows no size of a cubemap from files
+    if (texture.target == GL_TEXTURE_CUBE_MAP) // ShaderToy reports no size for cubemap files
         fact.resolution = {};
     if (entry.playback)
         fact.time = entry.playback->time_at(inputs.time);

@@ -1,5 +1,5 @@
-// The textures behind a scene's channels, other than what its passes draw: each distinct input is made or
-// loaded once, and only when a linked program reads it. Some change from frame to frame.
+// Textures of a scene's channels, except the outputs of passes. Each distinct input is loaded once, when a
+// linked program first reads it. Some inputs change from frame to frame.
 #pragma once
 
 #include "base/result.hpp"
@@ -15,7 +15,7 @@
 
 namespace tidemark::render {
 
-/// What the channel uniforms tell of one channel.
+/// Values of the channel uniforms for one channel.
 struct ChannelFact {
     std::array<double, 3> resolution{}; ///< iChannelResolution
     double time = 0;                    ///< iChannelTime
@@ -23,13 +23,13 @@ struct ChannelFact {
 };
 using ChannelFacts = std::array<ChannelFact, scene::k_channel_count>;
 
-/// Brings a texture up to date; true when its content is another now. Empty: it never is.
+/// Updates a texture; returns true when its content has changed. Empty for a constant texture.
 using TextureUpdate = std::function<bool(const gl::Texture&, const FrameInputs&)>;
 
-/// What plays again and again, as music and videos do on the site.
+/// Looped playback, as of music and videos on ShaderToy.
 struct Playback {
     double start = 0;    ///< iChannelTime at iTime 0
-    double duration = 0; ///< 0: it has no end
+    double duration = 0; ///< 0: endless
 
     double time_at(double now) const;
 };
@@ -38,16 +38,16 @@ class ChannelTextures {
 public:
     enum class Index : size_t {};
 
-    /// The texture that `channel` reads, made when it is the first to do so. Not for a PassOutput. Fails when
-    /// its file cannot be read or is larger than the driver takes.
+    /// Returns the texture that `channel` reads, and loads it at the first call. `channel` must not be a
+    /// PassOutput. Fails when the file cannot be read or is larger than the driver's limit.
     Result<Index> require(const scene::Channel& channel);
 
-    /// Brings the textures that change with the frame up to date.
+    /// Updates the textures that change with the frame.
     void update(const FrameInputs& inputs);
 
     const gl::Texture& texture(Index index) const { return entries_[size_t(index)].texture; }
     Generation generation(Index index) const { return entries_[size_t(index)].generation; }
-    /// Whether `update` may change something although nobody did anything: music and videos play.
+    /// Returns whether `update` may change a texture without user input: music and videos play.
     bool follow_clock() const;
     ChannelFact fact(Index index, const FrameInputs& inputs) const;
     size_t bytes() const;
@@ -66,7 +66,7 @@ private:
     std::vector<Entry> entries_;
 };
 
-/// The GL sampler of a channel.
+/// Returns the GL sampler of a channel.
 gl::SamplerHandle make_sampler(const scene::Sampling& sampling);
 
 } // namespace tidemark::render

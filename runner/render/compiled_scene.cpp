@@ -15,7 +15,7 @@ namespace {
 using image::SampleType;
 using scene::PassKind;
 
-/// A text that takes a channel for a cube or a volume, where the scene says nothing, gets one.
+/// Supplies a cube or a volume to channels that the text samples as such and the scene leaves unspecified.
 void supply_other_kinds(scene::Scene& scene, size_t pass, const glsl::ChannelKinds& kinds) {
     for (size_t i = 0; i < kinds.size(); ++i) {
         scene::Channel& channel = scene.passes[pass].channels[i];
@@ -63,7 +63,7 @@ Result<void> CompiledScene::choose_pass() {
     return fail(ErrorCode::usage, fmt::format("--pass {}: the scene has {}", name, fmt::join(names, ", ")));
 }
 
-/// The passes that the shown one may need, by what the scene says. What the others hold is not compiled.
+/// Finds the passes that the shown one may need according to the scene; only these are compiled.
 std::vector<bool> CompiledScene::reachable() const {
     std::vector<bool> found(scene_.passes.size(), false);
     std::vector<size_t> open{shown_};
@@ -83,7 +83,8 @@ std::vector<bool> CompiledScene::reachable() const {
     return found;
 }
 
-/// Its picture is for the eye alone, the last one that a frame makes, and keeps nothing for the next frame.
+/// A pass can be tiled if it is the last of a frame, no pass reads it, and it keeps nothing for the next
+/// frame.
 bool CompiledScene::can_be_tiled() const {
     const std::vector<bool> drawn = reachable();
     for (size_t i = 0; i < drawn.size(); ++i) {
@@ -122,7 +123,7 @@ Result<void> CompiledScene::compile() {
     return {};
 }
 
-/// A file of no project, or with a `main` of its own, may be another host's.
+/// Accepts the uniform names of other hosts for a file outside of a project or with its own `main`.
 UniformTable::Names CompiledScene::names_of(size_t pass, const glsl::Dialect& dialect) const {
     return {scene_.knobs, scene_.passes[pass].bare_file || dialect.main == glsl::MainPlace::author};
 }

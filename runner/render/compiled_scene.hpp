@@ -1,5 +1,4 @@
-// A scene whose texts the driver has compiled: its programs, and the plan of a frame. Draws nothing and owns
-// no picture.
+// A scene with compiled programs and the plan of a frame. Draws nothing and owns no picture.
 #pragma once
 
 #include "base/result.hpp"
@@ -21,22 +20,22 @@ namespace tidemark::render {
 
 struct RenderOptions {
     Extent extent{640, 360};
-    /// u8 draws Image into RGBA8, so that a picture holds what GL itself shows; f32 into RGBA32F. Buffers are
-    /// always RGBA32F, cubemap passes RGBA16F.
+    /// u8 draws Image into RGBA8, so that a picture holds what GL itself shows; f32 draws it into RGBA32F.
+    /// Buffers are always RGBA32F, cubemap passes RGBA16F.
     image::SampleType samples = image::SampleType::u8;
-    std::string pass{}; ///< the pass to show; empty: Image
-    /// Textures and targets hold what they always hold: in a promoted scene a pass reads floats and writes
-    /// floats, and computes in doubles between.
+    std::string pass{}; ///< pass to show; empty: Image
+    /// Does not change the formats of textures and targets: a promoted pass reads and writes floats and
+    /// computes in doubles in between.
     glsl::Precision precision = glsl::Precision::single;
-    /// Beyond `unreachable` its knobs cannot be turned.
+    /// Above `unreachable`, knobs are fixed at compile time.
     glsl::Specialise specialise = glsl::Specialise::nothing;
     Extras extras{};
-    /// Draws the shown pass tile by tile into a target of this size, where nobody reads its picture: then
-    /// `draw` leaves it out, and `draw_tile` draws it.
+    /// Tile size for drawing the shown pass in tiles, if no pass reads it: `draw` then skips it, and
+    /// `draw_tile` draws it.
     std::optional<Extent> tile{};
-    /// Bytes of Image tell which pixels were not finite: image::take_non_finite. Not where a pass reads it.
+    /// Marks non-finite pixels in the bytes of Image (image::take_non_finite). Ignored if a pass reads Image.
     bool marks_non_finite = false;
-    /// Image has the alpha that its text gives it, instead of 1, also where a pass reads it.
+    /// Keeps the alpha that the text of Image writes, instead of 1, also for passes that read Image.
     bool keeps_alpha = false;
 };
 
@@ -47,24 +46,23 @@ struct CompiledPass {
 
 class CompiledScene {
 public:
-    /// Compiles the passes that the shown one may need. The error of a scene that does not compile has the
-    /// authors' own files and lines.
+    /// Compiles the passes that the shown one may need. Compile errors have the authors' own files and lines.
     static Result<CompiledScene> create(scene::Scene scene, const RenderOptions& options);
 
     const scene::Scene& scene() const { return scene_; }
-    /// Other values for the scene's knobs, in their order.
+    /// Replaces the values of the scene's knobs, in their order.
     void turn(std::vector<scene::Knob> knobs) { scene_.knobs = std::move(knobs); }
 
-    /// As asked for; a tile where the shown pass is drawn in tiles, and nowhere else.
+    /// Options as given, but `tile` is set only if the shown pass is drawn in tiles.
     const RenderOptions& options() const { return options_; }
     const FramePlan& plan() const { return plan_; }
-    /// The index of the pass that is shown.
+    /// Returns the index of the shown pass.
     size_t shown() const { return shown_; }
-    /// One in the plan.
+    /// Returns a pass of the plan.
     const CompiledPass& operator[](size_t pass) const { return *passes_[pass]; }
 
     UniformTable::Names names_of(size_t pass, const glsl::Dialect& dialect) const;
-    /// Of the target that a pass is drawn into.
+    /// Returns the texture format of a pass that is not a cubemap pass.
     GLenum format_of(size_t pass) const;
     bool can_be_tiled() const;
 
@@ -78,7 +76,7 @@ private:
     scene::Scene scene_;
     RenderOptions options_;
     size_t shown_ = 0;
-    std::vector<std::optional<CompiledPass>> passes_; ///< one for each of the scene's; none: not needed
+    std::vector<std::optional<CompiledPass>> passes_; ///< one per pass of the scene; empty: not needed
     FramePlan plan_;
 };
 

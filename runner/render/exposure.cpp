@@ -3,7 +3,7 @@
 namespace tidemark::render {
 namespace {
 
-/// The digits of a number, mirrored at the point (J. G. van der Corput, 1935): in [0, 1).
+/// Mirrors the digits of a number at the point (J. G. van der Corput, 1935); in [0, 1).
 double radical_inverse(int number, int base) {
     double inverse = 0;
     for (double digit = 1.0 / base; number > 0; number /= base, digit /= base)
@@ -11,7 +11,7 @@ double radical_inverse(int number, int base) {
     return inverse;
 }
 
-/// Of the numbers below `count`.
+/// Returns the mean radical inverse of 0 to `count` - 1.
 double mean_inverse(int count, int base) {
     double sum = 0;
     for (int i = 0; i < count; ++i)

@@ -1,5 +1,5 @@
-// A fragment shader over a whole framebuffer that reads one texture: for what lies over a scene's picture or
-// shows it otherwise. Knows nothing of scenes.
+// Draws a fragment shader over a whole framebuffer, reading one texture: for overlays and other views of a
+// scene's picture. Independent of scenes.
 #pragma once
 
 #include "base/extent.hpp"
@@ -11,15 +11,15 @@
 
 namespace tidemark::render {
 
-/// Lives in the context that it was made in.
+/// Valid in the context that created it.
 class FilterProgram {
 public:
-    /// The text is complete, and has its texture, whose texels it gets as they are, at binding 0. `what`
-    /// names the shader where the driver refuses it.
+    /// `text` is a complete shader with its texture at binding 0, sampled without filtering. `what` names the
+    /// shader in the driver's error.
     static Result<FilterProgram> create(const char* what, const char* text);
 
     void set(const char* uniform, std::initializer_list<double> values) const;
-    /// Over the lower left corner, that large, of the framebuffer that is bound.
+    /// Draws over the bottom left corner, of that size, of the bound framebuffer.
     void draw(const gl::Texture& picture, Extent extent) const;
 
 private:

@@ -6,7 +6,7 @@
 namespace tidemark::render {
 namespace {
 
-/// Neighbours in the cross touch along an edge of the cube, as seen from its middle.
+/// Neighbours in the cross share an edge of the cube, seen from its centre.
 constexpr const char* k_cube_text = R"(#version 450 core
 layout(binding = 0) uniform samplerCube picture;
 uniform float side;

@@ -1,5 +1,5 @@
-// A cube or a volume as a flat picture: six faces unfolded, or one slice. Reads a texture, draws into one of
-// its own; values stay what they are.
+// Shows a cube or a volume as a flat picture: the six faces unfolded, or one slice. Reads a texture and draws
+// into one of its own; values stay unchanged.
 #pragma once
 
 #include "gl/render_target.hpp"
@@ -9,15 +9,15 @@
 
 namespace tidemark::render {
 
-/// Of one texture, in the context that it was made in.
+/// View of one texture, valid in the context that created it.
 class FlatView {
 public:
     static bool is_needed(const gl::Texture& picture) { return picture.target != GL_TEXTURE_2D; }
     static Result<FlatView> create(const gl::Texture& picture);
 
-    /// Of a volume that slice, pixel for pixel. Of a cube its faces in a cross of four by three, +z in the
-    /// middle between -x and +x, -z on the right, +y above; each in so many pixels a side at most; zero
-    /// beside them. Null where there is no memory for it.
+    /// Draws that slice of a volume, pixel for pixel; or the faces of a cube as a cross of four by three, +z
+    /// in the middle between -x and +x, -z on the right, +y above, each face with at most `most_of_a_side`
+    /// pixels a side, and zero outside the cross. Returns null when there is no memory for it.
     const gl::Texture* draw(const gl::Texture& picture, int slice, int most_of_a_side);
 
 private:

@@ -1,5 +1,5 @@
-// The table of a FrameState's fields, from which its JSON and its command line are made. A field that is
-// missing here does not compile.
+// Lists the fields of FrameState, from which its JSON and its command line are made. A missing field does not
+// compile.
 #pragma once
 
 #include "render/frame_state.hpp"
@@ -13,7 +13,7 @@ template <class T>
 struct FrameField {
     std::string_view name;
     T FrameState::*member;
-    std::string_view option{}; ///< of `tidemark capture`; empty: no option says it
+    std::string_view option{}; ///< of `tidemark capture`; empty: none
 };
 template <class T>
 FrameField(std::string_view, T FrameState::*, std::string_view = {}) -> FrameField<T>; // for clang 14
@@ -36,7 +36,7 @@ inline constexpr auto k_frame_fields = std::tuple{
     FrameField{"pass", &FrameState::pass, "--pass"},
 };
 
-/// All of a state's members: only as many names as it has fields compile.
+/// Ties all members of a state; compiles only if the number of names is the number of fields.
 constexpr auto tied(const FrameState& state) {
     const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = state;
     return std::tie(f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15);

@@ -37,7 +37,7 @@ Result<bool> FrameInParts::draw_for(double seconds) {
     if (renderer_->changes_ != changes_)
         begin();
     const double until = clock_() + seconds;
-    for (Apart& apart : whole_) // what is drawn next reads them
+    for (Apart& apart : whole_) // later passes read them
         exchange(apart, &PassTarget::take_over);
     auto complete = draw_until(until);
     if (complete && *complete) {
@@ -98,7 +98,7 @@ void FrameInParts::finish_part() {
     size_->drew(under_way_->part, drawing_->surface.extent(), took * 1000);
     seconds_.back().seconds += took;
     under_way_.reset();
-    if (cursor_.begins_pass()) // the next one
+    if (cursor_.begins_pass()) // the cursor has left the pass
         finish_pass();
 }
 
@@ -110,7 +110,7 @@ void FrameInParts::finish_pass() {
     whole_.push_back(*std::exchange(drawing_, std::nullopt));
 }
 
-/// What the pass has and what was drawn apart, with what it was drawn from.
+/// Exchanges the picture of the pass, and the inputs it was drawn from, with those drawn apart.
 void FrameInParts::exchange(Apart& apart, void (PassTarget::*surfaces)(gl::RenderTarget&)) {
     Renderer::DrawnPass& pass = renderer_->passes_[apart.pass];
     (pass.target.*surfaces)(apart.surface);

@@ -1,5 +1,5 @@
-// A frame that is drawn part by part, over as many calls as its caller likes, who is free between them. Until
-// all of it is drawn its Renderer has the pictures of before; where that is dropped, nothing has happened.
+// Draws a frame in parts over several calls, between which the caller can do other work. The Renderer keeps
+// the previous pictures until the whole frame is drawn; dropping the object leaves it unchanged.
 #pragma once
 
 #include "base/result.hpp"
@@ -21,43 +21,44 @@ class Renderer;
 
 class FrameInParts {
 public:
-    /// Seconds of a clock that never goes back.
+    /// Monotonic clock in seconds.
     using Clock = std::function<double()>;
 
-    /// Draws nothing yet. Both must outlive it; `size` learns of each part.
+    /// Draws nothing yet. `renderer` and `size` must outlive the object; `size` records the time of each
+    /// part.
     FrameInParts(Renderer& renderer, FrameInputs inputs, PartSize& size, Clock clock);
 
-    /// Goes on for so long, and waits no longer for the driver; whether the frame is whole, which is the
-    /// Renderer's last one from then on. Where the Renderer was drawn, resized or reset meanwhile, it begins
-    /// anew. Fails (ErrorCode::load) where there is no memory for a second picture of a pass.
+    /// Draws for `seconds`, including waits for the driver. Returns whether the frame is complete; it is then
+    /// the Renderer's last frame. Starts again when the Renderer was drawn, resized or reset in between.
+    /// Fails (ErrorCode::load) when there is no memory for a second picture of a pass.
     Result<bool> draw_for(double seconds);
 
-    /// Of its pixels, those that are drawn: 0 to 1.
+    /// Returns the drawn fraction of the frame's pixels, 0 to 1.
     double share() const { return cursor_.share(); }
-    /// What the passes took that had to be drawn, so far.
+    /// Time spent so far on a pass that had to be drawn.
     struct PassSeconds {
         size_t pass;
         double seconds;
     };
     const std::vector<PassSeconds>& seconds() const { return seconds_; }
 
-    /// What the driver is at.
+    /// The part that the driver is drawing.
     struct UnderWay {
         Part part;
-        double begun = 0; ///< by the clock
+        double begun = 0; ///< time of `clock`
         gl::Fence end{};
     };
     const std::optional<UnderWay>& under_way() const { return under_way_; }
-    /// The frame is not wanted; what the driver is at cannot be stopped.
+    /// Abandons the frame. Returns the part that the driver is still drawing, because that cannot be stopped.
     static std::optional<UnderWay> give_up(FrameInParts frame) { return std::move(frame.under_way_); }
 
 private:
-    /// A pass, drawn apart.
+    /// A pass that is drawn into a surface of its own.
     struct Apart {
         size_t pass;
-        gl::RenderTarget surface; ///< of the target, what it stands for
+        gl::RenderTarget surface; ///< exchanged with the pass's surface once complete
         PassInputs reads;
-        LastDrawing drawn{}; ///< of the pass, when all of it is
+        LastDrawing drawn{}; ///< exchanged with the pass's record once complete
     };
 
     void begin();
@@ -69,14 +70,14 @@ private:
     void exchange(Apart& apart, void (PassTarget::*surfaces)(gl::RenderTarget&));
     void keep_whole();
 
-    Renderer* renderer_; ///< somebody else's
+    Renderer* renderer_; ///< not owned
     FrameInputs inputs_;
-    PartSize* size_; ///< likewise
+    PartSize* size_; ///< not owned
     Clock clock_;
-    size_t changes_ = 0; ///< of the Renderer, when it was begun
+    size_t changes_ = 0; ///< the Renderer's count at the start of the frame
     PartCursor cursor_{{}};
-    std::vector<Apart> whole_;       ///< in the order of drawing
-    std::optional<Apart> drawing_{}; ///< the pass in front, once it was looked at
+    std::vector<Apart> whole_;       ///< in drawing order
+    std::optional<Apart> drawing_{}; ///< current pass, if it needs drawing
     std::optional<UnderWay> under_way_{};
     std::vector<PassSeconds> seconds_;
 };

@@ -47,7 +47,7 @@ Result<Date> parse_date(std::string_view iso) {
         rest.remove_prefix(1);
         good = take_time_of_day(rest, date.seconds);
     }
-    // Calendars keep a month in a byte: a month of 257 would look like January.
+    // std::chrono keeps a month in a byte: a month of 257 would look like January.
     good = good && date.year <= 9999 && date.month <= 12 && date.day <= 31;
     const std::chrono::year_month_day day{std::chrono::year(date.year),
                                           std::chrono::month(unsigned(date.month)),
@@ -73,7 +73,7 @@ Date local_date() {
 Date later(const Date& date, double seconds) {
     using namespace std::chrono;
     constexpr double k_day = 86400;
-    constexpr double k_most_days = 5e6; // years stay those of a calendar, which keeps them in two bytes
+    constexpr double k_most_days = 5e6; // years stay within the two bytes of std::chrono
     const double clock = date.seconds + seconds;
     const double days = std::clamp(std::floor(clock / k_day), -k_most_days, k_most_days);
     const year_month_day day{

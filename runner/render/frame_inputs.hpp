@@ -1,5 +1,5 @@
-// What a frame depends on: the values of ShaderToy's uniforms. Where they come from (a window, a command
-// line, a recording) is somebody else's business; the same inputs give the same picture.
+// The values of ShaderToy's uniforms, on which a frame depends. Equal inputs give equal pictures, whether
+// they come from a window, a command line or a recording.
 #pragma once
 
 #include "base/result.hpp"
@@ -29,14 +29,13 @@ struct Date {
     bool operator==(const Date&) const = default;
 };
 
-/// Reads `2024-12-31` or `2024-12-31T23:59:58.5` (months from 1, as people write them).
+/// Reads `2024-12-31` or `2024-12-31T23:59:58.5` (months from 1).
 Result<Date> parse_date(std::string_view iso);
 
-/// The clock on the wall.
+/// Returns the local wall clock time.
 Date local_date();
 
-/// What the calendar says that many seconds after `date`, or before it. No time zone: a day has 86,400
-/// seconds.
+/// Adds seconds, which may be negative, to a date. Ignores time zones: a day has 86,400 seconds.
 Date later(const Date& date, double seconds);
 
 struct FrameInputs {
@@ -47,25 +46,26 @@ struct FrameInputs {
     glm::vec4 mouse{0};           ///< iMouse, whole pixels, ShaderToy's signs
     Date date{};
     glm::mat4 camera{1}; ///< iCamera, camera to world
-    glm::mat4 view{1};   ///< iViewMatrix: the same camera, from where it stood at first
-    /// iOrbit: azimuth and elevation that the camera was turned by, its distance, 1 where people move it.
+    glm::mat4 view{1};   ///< iViewMatrix: the same camera, relative to its first position
+    /// iOrbit: rotation of the camera in azimuth and elevation, its distance, and 1 if the user moves it.
     glm::dvec4 orbit{0, 0, 1, 0};
     glm::dvec3 orbit_pan{0};   ///< iOrbitPan
     glm::vec2 mouse_button{0}; ///< iMouseButton: 1 while down; left, right
     KeyboardTexels keyboard{};
-    std::vector<scene::Setting> knobs{};     ///< set to something else than in the scene
-    std::shared_ptr<const LiveMedia> live{}; ///< null: nobody asked for any
+    std::vector<scene::Setting> knobs{};     ///< values that differ from the scene's
+    std::shared_ptr<const LiveMedia> live{}; ///< null: not requested
 };
 
 inline constexpr double k_sample_rate = 44100; ///< iSampleRate
 
-/// No recording is longer: iFrame is an int, and a day at 60 frames a second is five million.
+/// Limit of a recording's length: iFrame is an int, and a day at 60 frames a second is five million.
 inline constexpr int k_last_frame = 100'000'000;
 
-/// The frame that a time falls in.
+/// Returns the frame that contains a time, 0 to k_last_frame.
 int frame_at(double time, double fps);
 
-/// Frame N of a recording at `fps` frames a second: iTime = N / fps, computed in double; iDate goes with it.
+/// Returns the inputs of frame N of a recording at `fps` frames a second: iTime = N / fps, computed in
+/// double, and iDate advanced by it.
 FrameInputs inputs_of_frame(int frame, double fps);
 
 } // namespace tidemark::render

@@ -3,9 +3,9 @@
 namespace tidemark::render {
 namespace {
 
-/// Nobody notices that the window answers so late. A frame that waits for the screen at 24 Hz takes less.
+/// Too short a delay to be noticed. A frame that waits for the screen at 24 Hz takes less.
 constexpr double k_whole_seconds = 0.05;
-/// Between the two it stays as it was.
+/// Between the two limits the way stays the same.
 constexpr double k_whole_again_seconds = 0.03;
 
 } // namespace

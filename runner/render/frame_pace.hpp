@@ -1,5 +1,5 @@
-// Whether a frame can be drawn in one go without anybody waiting for the window, or is better drawn in parts.
-// Pure: told what frames took.
+// Decides whether a frame is drawn in one go without a noticeable delay of the window, or in parts. Pure: the
+// input is the time of earlier frames.
 #pragma once
 
 #include "base/extent.hpp"
@@ -12,17 +12,17 @@ class FramePace {
 public:
     enum class Way { whole, in_parts };
 
-    /// What the next frame of that size should take, in seconds; nothing: not known.
+    /// Returns the expected seconds of the next frame of that size; nothing when unknown.
     std::optional<double> expected(Extent extent) const;
-    /// For the next frame, of that size. In parts where nothing is known.
+    /// Returns the way to draw the next frame of that size: in parts when its time is unknown.
     Way way(Extent extent) const;
-    /// A frame of that size was drawn, in that way, in so many seconds.
+    /// Records the seconds of a frame of that size, drawn in that way.
     void took(Extent extent, Way way, double seconds);
-    /// What is known need not be true of the next frame.
+    /// Discards the measurement; for changes after which frames may take a different time.
     void doubt() { seconds_of_pixel_.reset(); }
 
 private:
-    std::optional<double> seconds_of_pixel_; ///< none: not known
+    std::optional<double> seconds_of_pixel_; ///< empty: unknown
     Way last_ = Way::in_parts;
 };
 

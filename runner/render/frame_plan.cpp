@@ -7,7 +7,7 @@
 namespace tidemark::render {
 namespace {
 
-/// The array of that name has an element `number` that the program kept.
+/// Returns whether the array of that name has an element `number` that the program uses.
 bool has_element(const gl::Reflection& reflection, std::string_view name, int number) {
     const gl::Uniform* uniform = reflection.find(name);
     return uniform && number < uniform->length;
@@ -18,7 +18,7 @@ bool samples(const gl::Reflection& reflection, int number) {
            reflection.has(fmt::format("iCh{}.sampler", number));
 }
 
-/// For its size, its time or whether it is there.
+/// Returns whether the program reads the channel's size, its time or whether it is loaded.
 bool asks_about(const gl::Reflection& reflection, int number) {
     const auto begins = [&](const std::string& prefix) {
         return std::ranges::any_of(reflection.uniforms, [&](const gl::Uniform& uniform) {
@@ -84,8 +84,8 @@ private:
             return;
         TargetPlan& target = plan_.targets[*source];
         target.mipmaps = target.mipmaps || channel.sampling.mipmaps != scene::Mipmaps::none;
-        // Whoever stands before the source reads last frame's texture before it is drawn over: only a pass
-        // that reads itself needs a second one.
+        // An earlier pass reads last frame's texture before it is overwritten. Only a pass that reads itself
+        // needs a second texture.
         target.two_textures = target.two_textures || reader == *source;
         if (frame_ref(reader, *source) == FrameRef::previous) {
             plan_.feedback = true;

@@ -1,5 +1,5 @@
-// Which passes are drawn in which order, what each of them reads, and what their targets must be. Pure: what
-// the scene says and what the driver kept decide.
+// Plans which passes are drawn, in which order, what each reads, and what their targets need. Pure: the
+// inputs are the scene and the active uniforms.
 #pragma once
 
 #include "gl/program.hpp"
@@ -10,17 +10,17 @@
 
 namespace tidemark::render {
 
-/// What a scene does not need and gets all the same, to measure what leaving it out saves. The picture stays.
+/// Superfluous work, to measure what leaving it out saves. The picture stays the same.
 struct Extras {
-    bool passes = false;          ///< are drawn although nobody reads them
-    bool channels = false;        ///< are loaded although the program reads nothing of them
-    bool mipmaps = false;         ///< of buffers, although nobody filters between them
+    bool passes = false;          ///< draws passes that are never read
+    bool channels = false;        ///< loads channels that the program does not read
+    bool mipmaps = false;         ///< of buffers that are sampled without mipmaps
     bool second_textures = false; ///< of buffers that do not read themselves
-    bool uniforms = false;        ///< are handed over although the program has none of that name
-    bool unchanged = false;       ///< passes are drawn although they read what they read the last time
+    bool uniforms = false;        ///< sets uniforms that the program does not have
+    bool unchanged = false;       ///< draws passes whose inputs are unchanged
 };
 
-/// Whether a read of a pass sees what was drawn in this frame or in the last one.
+/// The frame that a read of a pass's output refers to.
 enum class FrameRef { current, previous };
 
 struct PlannedPass {
@@ -29,36 +29,36 @@ struct PlannedPass {
     bool keyboard_helpers = false; ///< reads the texture of `#iKeyboard`
 };
 
-/// What the output of a pass is kept in.
+/// Requirements of the textures that a pass draws into.
 struct TargetPlan {
-    bool two_textures = false; ///< the pass reads its own last frame while it draws, or keeps pixels of it
+    bool two_textures = false; ///< the pass reads its own last frame, or keeps pixels of it
     bool mipmaps = false;      ///< some reader filters between mipmaps
-    int carried = 0;           ///< of its textures, the latest first, so many does the next frame see
+    int carried = 0;           ///< number of textures, newest first, that the next frame reads
 };
 
 struct FramePlan {
-    std::vector<PlannedPass> passes; ///< in the order of drawing; none that nobody needs
+    std::vector<PlannedPass> passes; ///< in drawing order; needed ones only
     std::vector<TargetPlan> targets; ///< one for each pass of the scene
-    bool feedback = false;           ///< a frame depends on the one before it
+    bool feedback = false;           ///< a frame depends on the previous one
 
     const PlannedPass* find(size_t pass) const;
 };
 
-/// Whether a program of that pass needs the texture of channel `number`: it samples it, or asks for its size
-/// or its time, which only the texture knows. Nobody needs the picture of a pass to know how large it is.
+/// Returns whether a program of that pass needs the texture of channel `number`: it samples it, or reads its
+/// size or time, which only the texture provides. The size of a pass's picture is known without its texture.
 bool needs_texture(const scene::ChannelInput& input, int number, const gl::Reflection& reflection);
 
-/// ShaderToy's order: a pass reads what stands before it in this frame's state, itself and what stands behind
-/// it in the last frame's.
+/// Applies ShaderToy's order: a pass reads earlier passes as of this frame, itself and later passes as of the
+/// last frame.
 FrameRef frame_ref(size_t reader, size_t source);
 
-/// Whether a frame may depend on the one before it, as far as the channels tell without the texts.
+/// Returns whether a frame may depend on the previous one, judging by the channels without the texts.
 bool may_have_feedback(const scene::Scene& scene);
 
-/// The passes that `shown` needs, itself included. `reflections` has one entry for each pass of the scene;
-/// those without (not linked) are not drawn. `discarding`: the passes whose texts say `discard`, which leaves
-/// what the target held: of a buffer, as on the site, the frame before the last, because its two textures
-/// take turns; of Image the last one.
+/// Plans the passes that `shown` needs, itself included. `reflections` has one entry per pass of the scene;
+/// those without (not linked) are not drawn. `discarding` lists the passes whose texts contain `discard`,
+/// which keeps the target's content: in a buffer that is the frame before the last, as on ShaderToy, because
+/// its two textures alternate; in Image the last frame.
 FramePlan plan_frame(const scene::Scene& scene, const std::vector<std::optional<gl::Reflection>>& reflections,
                      size_t shown, const Extras& extras = {}, const std::vector<size_t>& discarding = {});
 

@@ -1,6 +1,6 @@
-// One moment of a scene: all that decides what a frame shows, beside the scene's own files. The values of
-// ShaderToy's uniforms are made of it in one place; whoever draws a frame, a window, a recording or a probe,
-// says it with this value. A new field goes into render/frame_fields.hpp, too.
+// One moment of a scene: all that determines a frame apart from the scene's files. Windows, recordings and
+// probes describe a frame by this value, and `inputs_of` computes ShaderToy's uniforms from it. A new field
+// must also be added to `k_frame_fields`.
 #pragma once
 
 #include "base/extent.hpp"
@@ -23,37 +23,38 @@ struct FrameState {
     Extent extent{640, 360};
     double fps = 60;                             ///< iFrameRate
     std::optional<double> time_delta{};          ///< iTimeDelta, seconds; none: 1 / fps
-    Mouse mouse{};                               ///< iMouse, and the left one of iMouseButton
-    bool right_button = false;                   ///< the right one: down
-    KeyboardTexels keys{};                       ///< of the keyboard's texture
+    Mouse mouse{};                               ///< iMouse, and the left button of iMouseButton
+    bool right_button = false;                   ///< down; of iMouseButton
+    KeyboardTexels keys{};                       ///< texels of the keyboard texture
     Date date{};                                 ///< iDate at iTime 0
     OrbitCamera camera{};                        ///< iCamera
-    std::optional<OrbitCamera> initial_camera{}; ///< where it stood at first, for iViewMatrix; none: here
-    std::vector<scene::Setting> knobs{};         ///< set to something else than in the scene
-    std::vector<scene::Setting> definitions{};   ///< of `#define NAME` and `const … NAME`, likewise
-    std::vector<std::string> channels{};         ///< `0=none`, as --channel has them
-    std::string pass{};                          ///< that is shown; empty: Image
+    std::optional<OrbitCamera> initial_camera{}; ///< first position, for iViewMatrix; none: `camera`
+    std::vector<scene::Setting> knobs{};         ///< values that differ from the scene's
+    /// Values of `#define NAME` and `const … NAME` that differ from the scene's.
+    std::vector<scene::Setting> definitions{};
+    std::vector<std::string> channels{};         ///< in the form of --channel: `0=none`
+    std::string pass{};                          ///< pass to show; empty: Image
 
     bool operator==(const FrameState&) const = default;
 
-    /// iTime.
+    /// Returns iTime.
     double seconds() const { return time.value_or(double(frame) / fps); }
-    /// Whether the mouse and the camera are moved by one hand, as in a window: the mouse is then no place
-    /// that an option of its own says.
+    /// Returns whether the mouse moves the camera, as in a window. If so, the mouse position was not set by
+    /// an option of its own.
     bool moves_camera() const { return camera != OrbitCamera{} || (initial_camera && mouse != Mouse{}); }
-    /// Another frame of the same run: its time is as far from this one's as the frames are apart.
+    /// Returns another frame of the same run; its time differs by the number of frames between them.
     FrameState at_frame(int number) const;
-    /// Whether the other is a frame of this run, but for roundings of its time.
+    /// Returns whether `other` is a frame of the same run, apart from rounding of its time.
     bool is_in_run_of(const FrameState& other) const;
 };
 
-/// The state at a time, in the frame that the time falls in; before the start that is frame 0.
+/// Returns the state at a time, in the frame that contains it; times before 0 are in frame 0.
 FrameState at_time(double seconds, FrameState state = {});
 
-/// The uniforms' values.
+/// Computes the uniforms' values.
 FrameInputs inputs_of(const FrameState& state);
 
-/// What each frame of a run sees.
+/// Returns the state of each frame of a run.
 using FrameStates = std::function<FrameState(int frame)>;
 
 } // namespace tidemark::render

@@ -18,7 +18,7 @@ PassPreview FrameStepper::preview(int frame, size_t pass, const MayDraw& may_dra
     return {renderer_, pass, inputs_of(states_(frame))};
 }
 
-/// Draws the frames before `end`, of which `last` is wanted.
+/// Draws the frames before `end`; `last` is the frame that the caller needs.
 FrameSteps FrameStepper::step(int end, int last, const MayDraw& may_draw) {
     if (!renderer_.plan().feedback) {
         next_ = last;

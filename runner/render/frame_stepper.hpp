@@ -1,5 +1,5 @@
-// Draws any frame of a run, whatever was drawn before: where a frame depends on the one before it, those that
-// lead to it are drawn first; otherwise it jumps.
+// Draws any frame of a run. If frames depend on the previous one, the frames that lead to it are drawn first;
+// otherwise it jumps.
 #pragma once
 
 #include "render/frame_state.hpp"
@@ -11,37 +11,39 @@
 
 namespace tidemark::render {
 
-/// What was drawn on the way to a frame, the frame included.
+/// Work done for a frame, the frame itself included.
 struct FrameSteps {
     int frames = 0;
-    size_t passes = 0;    ///< 0: every pass had its picture already
-    bool complete = true; ///< false: it was stopped before the end
+    size_t passes = 0;    ///< 0: all pictures were up to date
+    bool complete = true; ///< false: stopped early
 };
 
 class FrameStepper {
 public:
-    /// Asked before each frame that is drawn on the way to `last`; false stops there.
+    /// Called before each frame that is drawn on the way to `last`; returns false to stop.
     using MayDraw = std::function<bool(int frame, int last)>;
 
-    /// `first`: the frame that a scene with feedback is drawn from. Buffers may hold anything.
+    /// `first`: the frame from which a scene with feedback is drawn. The buffers may hold anything.
     FrameStepper(Renderer& renderer, FrameStates states, int first = 0)
         : renderer_(renderer), states_(std::move(states)), first_(first) {}
-    /// Of the run that a state is in.
+    /// Draws frames of the run that `state` belongs to.
     FrameStepper(Renderer& renderer, const FrameState& state, int first = 0)
         : FrameStepper(
               renderer, [state](int frame) { return state.at_frame(frame); }, first) {}
 
-    /// Draws a frame; false: not all of it yet, and none is counted. It is asked for again then.
+    /// Draws a frame. Returns false while the frame is incomplete; it is then not counted and will be
+    /// requested again.
     using DrawFrame = std::function<bool(const FrameInputs&)>;
-    /// Instead of by the renderer, whole.
+    /// Replaces the renderer's whole-frame drawing.
     void draw_by(DrawFrame draw) { draw_frame_ = std::move(draw); }
 
     FrameSteps draw(int frame, const MayDraw& may_draw = {});
-    /// All that `draw` draws but the frame itself: buffers hold what it would see.
+    /// Draws all that `draw` draws except the frame itself, so that the buffers hold that frame's inputs.
     FrameSteps lead_to(int frame, const MayDraw& may_draw = {});
-    /// The renderer's buffers hold what leads to that frame, by whatever way.
+    /// Declares that the renderer's buffers hold the inputs of that frame.
     void start_from(int frame) { next_ = frame; }
-    /// Goes on into the frame. What is asked for next begins anew.
+    /// Draws up to the pass within the frame. With feedback, the next request starts from the first frame
+    /// again.
     PassPreview preview(int frame, size_t pass, const MayDraw& may_draw = {});
 
 private:
@@ -51,7 +53,7 @@ private:
     FrameStates states_;
     int first_;
     DrawFrame draw_frame_{};
-    std::optional<int> next_{}; ///< the frame that the buffers are ready for; none: they are not
+    std::optional<int> next_{}; ///< frame whose inputs the buffers hold; none: unknown
 };
 
 } // namespace tidemark::render

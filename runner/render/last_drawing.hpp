@@ -1,5 +1,5 @@
-// Whether a pass must be drawn, or still has the picture that drawing would give. Pure: what the pass reads
-// decides, as values.
+// Decides whether a pass must be drawn or already has the resulting picture. Pure: compares the inputs of the
+// pass.
 #pragma once
 
 #include "render/uniform_numbers.hpp"
@@ -10,10 +10,10 @@
 
 namespace tidemark::render {
 
-/// Which picture a texture holds: another number whenever it may be another picture.
+/// Version of a texture's content: changes whenever the picture may change.
 using Generation = uint64_t;
 
-/// All that the pixels of a pass depend on, besides its program and the place it is drawn into.
+/// All that the pixels of a pass depend on, besides its program and its target.
 struct PassInputs {
     UniformValues uniforms;
     std::vector<Generation> channels; ///< of the textures that it reads or keeps pixels of, in a fixed order
@@ -21,11 +21,11 @@ struct PassInputs {
     bool operator==(const PassInputs&) const = default;
 };
 
-/// What a pass was drawn from the last time. A pass that reads its own last frame reads a new generation
-/// every time, and so does a circle of passes: they are never done.
+/// The inputs of the last drawing of a pass. A pass that reads its own last frame has a new generation as
+/// input each time, and so has a cycle of passes: these are drawn every frame.
 class LastDrawing {
 public:
-    /// Whether the target, which holds `generation`, holds what drawing from `inputs` would give.
+    /// Returns whether the target, at `generation`, already holds the result of drawing from `inputs`.
     bool holds(const PassInputs& inputs, Generation generation) const {
         return inputs_ && generation == edition_ && *inputs_ == inputs;
     }
@@ -35,8 +35,8 @@ public:
     }
 
 private:
-    std::optional<PassInputs> inputs_; ///< none: never drawn
-    Generation edition_ = 0;           ///< the one that came of it
+    std::optional<PassInputs> inputs_; ///< empty: never drawn
+    Generation edition_ = 0;           ///< of the target after drawing
 };
 
 } // namespace tidemark::render

@@ -14,13 +14,13 @@
 namespace tidemark::render {
 namespace {
 
-/// What the driver said of one attempt.
+/// A rejected source and the driver's log.
 struct Refusal {
     glsl::ShaderSource source;
     std::string log;
 };
 
-/// The name that a message quotes, as in 'main' or `sdf(vec3)'; empty: none.
+/// Returns the name that a message quotes, as in 'main' or `sdf(vec3)'; empty: none.
 std::string_view named_in(std::string_view message) {
     const size_t quote = message.find_first_of("`'");
     if (quote == message.npos)
@@ -34,8 +34,8 @@ public:
     Linker(const scene::Scene& scene, const scene::Pass& pass, const LinkOptions& options)
         : scene_(scene), pass_(pass), reading_(scene, pass), options_(options) {}
 
-    /// The first dialect that links. Channels that nobody specified may be other than pictures: when every
-    /// dialect fails, the driver's words tell which kinds are worth trying.
+    /// Links the first dialect that the driver accepts. If all fail, unspecified channels may be other than
+    /// 2-D textures; the driver's log then shows which kinds are worth trying.
     Result<LinkedPass> link() {
         if (reading_.may_be_drawn_wrong())
             return fail(error());
@@ -55,7 +55,8 @@ public:
     }
 
 private:
-    /// The likeliest dialect's messages are the ones that mean something to the author.
+    /// Builds the error from the messages of the likeliest dialect, because they are the most useful to the
+    /// author.
     Error error() const {
         const bool promoted = options_.precision != glsl::Precision::single;
         Error error{ErrorCode::load,
@@ -106,7 +107,8 @@ private:
         return gl::link_or_recall(glsl::vertex_shader(dialect.version), source.text());
     }
 
-    /// Knobs and rounding are those of floats: a text of doubles loses what it cannot reach, and no more.
+    /// Specialises a text. Knob folding and its rounding assume floats: of a text in doubles only unreachable
+    /// code is removed.
     glsl::Specialised specialise(const glsl::ShaderSource& source) const {
         const bool single = options_.precision == glsl::Precision::single;
         return glsl::specialise(source, scene_.knobs,
@@ -116,10 +118,10 @@ private:
 
     const scene::Scene& scene_;
     const scene::Pass& pass_;
-    glsl::PassReading reading_; ///< once for all attempts
+    glsl::PassReading reading_; ///< shared by all attempts
     LinkOptions options_;
     std::optional<Refusal> first_;
-    std::optional<Error> unpromotable_; ///< something in the text has no double form
+    std::optional<Error> unpromotable_; ///< set if a construct has no double form
 };
 
 } // namespace

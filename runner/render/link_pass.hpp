@@ -1,4 +1,4 @@
-// From a pass of a scene to a linked program, through the dialects of GLSL that its text may be written in.
+// Links a pass of a scene, trying the dialects of GLSL that its text may be written in.
 #pragma once
 
 #include "base/result.hpp"
@@ -12,24 +12,25 @@ namespace tidemark::render {
 
 struct LinkedPass {
     gl::Program program;
-    /// What it was linked as. Its kinds of channels may differ from the scene's where the scene says nothing:
-    /// the text wants a cube or a volume there.
+    /// Dialect that linked. Its channel kinds differ from the scene's if the text samples a cube or a volume
+    /// in a channel that the scene leaves unspecified.
     glsl::Dialect dialect;
-    std::vector<glsl::KeptHash> hashes{}; ///< in floats, in a program of doubles
+    std::vector<glsl::KeptHash> hashes{}; ///< hashes kept in floats in a promoted program
     glsl::LeftOut left_out{};
-    bool discards = false; ///< as glsl::PassReading has it
+    bool discards = false; ///< as in glsl::PassReading
 };
 
-/// How a pass is compiled.
+/// Compile options of a pass.
 struct LinkOptions {
     glsl::Precision precision = glsl::Precision::single;
     glsl::Specialise specialise = glsl::Specialise::nothing;
-    bool tiled = false;            ///< as glsl::Dialect has it
-    bool marks_non_finite = false; ///< likewise
-    bool keeps_alpha = false;      ///< likewise
+    bool tiled = false;            ///< as in glsl::Dialect
+    bool marks_non_finite = false; ///< as in glsl::Dialect
+    bool keeps_alpha = false;      ///< as in glsl::Dialect
 };
 
-/// The error has the authors' own files and lines. A specialised text that does not link is not used.
+/// Links the pass. Errors have the authors' own files and lines. If the specialised text does not link, the
+/// whole text is linked.
 Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass, const LinkOptions& options);
 
 } // namespace tidemark::render

@@ -41,7 +41,7 @@ void LiveClock::set_speed(double speed, double now) {
 void LiveClock::step(int frames, double fps, double now) {
     if (!paused_)
         toggle_pause(now);
-    // The next frame is one ahead of the one on show.
+    // `next_frame_` is one more than the frame on show.
     next_frame_ = std::max(0, next_frame_ - 1 + frames);
     time_ = std::max(0.0, time_ + frames / fps);
     fresh_ = true;

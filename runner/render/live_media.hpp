@@ -1,4 +1,4 @@
-// What a window hears and sees at the moment, for the inputs of a scene that have no file to read.
+// The current sound and picture of a window, for the inputs of a scene that have no file.
 #pragma once
 
 #include "image/image.hpp"

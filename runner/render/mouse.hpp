@@ -1,4 +1,4 @@
-// The mouse as ShaderToy's shaders see it.
+// The mouse in the form of ShaderToy's iMouse.
 #pragma once
 
 #include "base/extent.hpp"
@@ -8,23 +8,23 @@
 
 namespace tidemark::render {
 
-/// iMouse through press, drag and release. Coordinates are pixels from the bottom left, made whole by
-/// rounding down. xy moves only while the button is down; zw holds where it was pressed: z is positive while
-/// the button is down, w only in the first frame drawn after the press.
+/// iMouse through press, drag and release. Coordinates are pixels from the bottom left, rounded down. xy
+/// moves only while the button is down; zw holds the place of the press: z is positive while the button is
+/// down, w only in the first frame drawn after the press.
 struct Mouse {
     void press(double x, double y);
     void move(double x, double y);
     void release() { down = false; }
 
-    /// iMouse of the next frame.
+    /// Returns iMouse of the next frame.
     glm::vec4 uniform() const;
-    /// After a click at that place; `now`: in the very frame of the press.
+    /// Returns the mouse after a click; `now`: in the frame of the press itself.
     static Mouse clicked(glm::dvec2 at, bool now);
-    /// After a drag from the one place to the other; `held`: the button is still down.
+    /// Returns the mouse after a drag; `held`: the button is still down.
     static Mouse dragged(glm::dvec2 from, glm::dvec2 to, bool held);
-    /// To the same place of a picture of another size.
+    /// Scales the coordinates to a picture of another size.
     void stretch(Extent from, Extent to);
-    /// To be called when a frame has been drawn: the click is then no longer new.
+    /// Ends the first frame of a click; must be called after each frame.
     void frame_drawn() { is_new = false; }
 
     bool operator==(const Mouse&) const = default;

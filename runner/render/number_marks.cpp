@@ -5,7 +5,7 @@
 namespace tidemark::render {
 namespace {
 
-/// By the bits, which no optimiser takes for granted.
+/// Tests the bits, because optimisers may assume that floats are finite.
 constexpr const char* k_text = R"(#version 450 core
 layout(binding = 0) uniform sampler2D picture;
 uniform vec2 extent; // of the window

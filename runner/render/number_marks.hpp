@@ -1,18 +1,18 @@
-// Marks over a picture where its values are no numbers or below zero: a NaN is magenta, an infinity green, a
-// negative value blue. Reads a texture of floats, draws into the window.
+// Marks over a picture: magenta for NaN, green for infinities, blue for negative values. Reads a texture of
+// floats, draws into the window.
 #pragma once
 
 #include "render/filter_program.hpp"
 
 namespace tidemark::render {
 
-/// Lives in the context that it was made in.
+/// Valid in the context that created it.
 class NumberMarks {
 public:
     static Result<NumberMarks> create();
 
-    /// The first of the three that one of a pixel's channels is. Stretched over the framebuffer of a window
-    /// of that size, which is bound; other pixels stay.
+    /// Marks each pixel by the first of the three that occurs in one of its channels; leaves other pixels.
+    /// The picture is stretched over the bound framebuffer, a window of that size.
     void draw(const gl::Texture& picture, Extent window) const;
 
 private:

@@ -30,10 +30,10 @@ glm::dmat4 camera_to_world(const OrbitCamera& camera) {
 double wrapped(double degrees) {
     const double turned = std::fmod(degrees, 360.0);
     const double positive = turned < 0 ? turned + 360 : turned;
-    return positive < 360 ? positive : 0; // a hair below 0 rounds to 360
+    return positive < 360 ? positive : 0; // a tiny negative angle rounds to 360
 }
 
-/// Those of a float with commas between them; nothing where the text is something else.
+/// Reads comma-separated numbers within the range of a float; returns nothing for any other text.
 std::optional<std::vector<double>> numbers_of(std::string_view text) {
     std::vector<double> numbers;
     const char* at = text.data();

@@ -1,4 +1,4 @@
-// The host's own camera, for scenes that declare `uniform mat4 iCamera`.
+// The host's own camera, for scenes that declare iCamera or iOrbit.
 #pragma once
 
 #include "base/result.hpp"
@@ -21,27 +21,28 @@ struct OrbitCamera {
 
     bool operator==(const OrbitCamera&) const = default;
 
-    /// A drag by so many pixels in a window `height` pixels high: once across turns by half a circle.
+    /// Rotates by a drag of so many pixels in a window `height` pixels high; `height` pixels are half a
+    /// circle.
     void turn(double dx, double dy, double height);
-    /// A wheel by so many notches, towards the target when positive.
+    /// Zooms by wheel notches; positive: towards the target.
     void zoom(double notches);
-    /// A drag that keeps the point under the pointer there, at the target's distance.
+    /// Moves the target by a drag, so that the point under the pointer at the target's distance stays there.
     void pan(double dx, double dy, double height);
 
-    /// Camera to world: columns right, up, backwards, position.
+    /// Returns camera to world: columns right, up, backwards, position.
     glm::mat4 matrix() const;
 };
 
-/// How a camera was moved from where the host's begins: there all is 0, and the distance 1, exactly. The pan
-/// is in first distances and the axes of the first heading: right, up, backwards.
+/// Motion of a camera relative to the host's first view, at which all is exactly 0 and the distance 1. The
+/// pan is in first distances along the axes of the first heading: right, up, backwards.
 struct OrbitMotion {
     glm::dvec2 turn; ///< azimuth and elevation, radians
-    double distance; ///< in parts of the first
+    double distance; ///< relative to the first distance
     glm::dvec3 pan;  ///< of the target
 };
 OrbitMotion motion_of(const OrbitCamera& camera);
 
-/// Reads `azimuth,elevation,distance`, and behind it the target `x,y,z` where that is not the origin.
+/// Reads `azimuth,elevation,distance`, optionally followed by the target `,x,y,z` (default: the origin).
 Result<OrbitCamera> parse_camera(std::string_view setting);
 
 } // namespace tidemark::render

@@ -5,14 +5,14 @@
 namespace tidemark::render {
 namespace {
 
-/// So that a large part has the blocks of 64x64 pixels whole that llvmpipe deals out to its threads.
+/// Keeps the 64x64 blocks that llvmpipe assigns to its threads whole in large parts.
 constexpr int k_large_rows = 64;
 
 int whole_blocks(size_t pixels) {
     return std::max(int(pixels) / k_block_side, 1) * k_block_side;
 }
 
-/// So that no small rest stays behind the last one.
+/// Divides columns evenly, so that the last part is not a small rest.
 int evenly(int columns, int most) {
     const int parts = (columns + most - 1) / most;
     const int blocks = (columns + parts * k_block_side - 1) / (parts * k_block_side);
@@ -42,8 +42,8 @@ std::optional<Part> PartCursor::take(size_t pixels) {
     return part;
 }
 
-/// As many whole rows as there may be, else as many columns of the fewest rows: threads share rows out
-/// between them by their columns.
+/// Takes as many whole rows as fit; if not even the fewest rows fit, as many of their columns as fit.
+/// llvmpipe's threads share rows by columns.
 Rectangle PartCursor::cut(const Rectangle& rest, size_t pixels) const {
     Rectangle area = rest;
     pixels = std::min(pixels, rest.extent.pixels());

@@ -1,5 +1,5 @@
-// Goes through a frame that is drawn in parts: pass after pass, face after face, from the bottom row up;
-// every pixel once, in parts as large as the caller wants them. Pure.
+// Iterates over a frame that is drawn in parts: pass by pass, face by face, from the bottom row up; every
+// pixel once, in parts of the size that the caller requests. Pure.
 #pragma once
 
 #include "base/rectangle.hpp"
@@ -9,7 +9,7 @@
 
 namespace tidemark::render {
 
-/// What is drawn of a pass.
+/// The pixels of a pass.
 struct PassArea {
     size_t pass = 0; ///< index into Scene::passes
     Extent extent;   ///< of a face
@@ -25,24 +25,25 @@ struct Part {
     bool operator==(const Part&) const = default;
 };
 
-/// A driver on the CPU draws blocks of so many pixels a side: a part begins and ends with one, or with the
-/// picture. Derivatives are taken from blocks of 2x2, which lie in one part then.
+/// Block side of a driver on the CPU: parts begin and end at a block or at the picture's edge. The 2x2 blocks
+/// for derivatives therefore lie within one part.
 inline constexpr int k_block_side = 4;
 
 class PartCursor {
 public:
     explicit PartCursor(std::vector<PassArea> areas) : areas_(std::move(areas)) {}
 
-    /// The largest part that may be next; none: the frame is whole.
+    /// Returns the largest part that may be next; nothing when the frame is complete.
     std::optional<Part> ahead() const;
-    /// The next one, of about so many pixels: never more unless a block has more. Goes on behind it.
+    /// Returns the next part, of about `pixels` pixels and more only if a block has more, and advances past
+    /// it.
     std::optional<Part> take(size_t pixels);
-    /// The rest of the pass in front needs no drawing.
+    /// Skips the rest of the current pass.
     void leave_out();
 
-    /// Nothing of the pass in front was taken yet.
+    /// Returns whether the current pass has no parts taken yet.
     bool begins_pass() const { return face_ == 0 && y_ == 0 && x_ == 0; }
-    /// Of all pixels, those behind: 0 to 1.
+    /// Returns the fraction of all pixels that were taken, 0 to 1.
     double share() const;
 
 private:
@@ -50,11 +51,11 @@ private:
     void pass_by(const Rectangle& area);
 
     std::vector<PassArea> areas_;
-    size_t index_ = 0; ///< of the area in front
+    size_t index_ = 0; ///< of the current area
     int face_ = 0;
-    int y_ = 0;    ///< the bottom row of what is left of the face
-    int x_ = 0;    ///< the first column that is left in the rows from there
-    int rows_ = 0; ///< that many, where x_ is not 0
+    int y_ = 0;    ///< bottom row of the rest of the face
+    int x_ = 0;    ///< first remaining column in the current rows
+    int rows_ = 0; ///< number of current rows, if x_ is not 0
 };
 
 } // namespace tidemark::render

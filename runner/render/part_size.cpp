@@ -6,9 +6,9 @@ namespace tidemark::render {
 namespace {
 
 constexpr double k_wanted_ms = 25;
-/// Below that, what a part takes is the driver's own time more than its pixels'.
+/// Below this time, the driver's overhead outweighs the pixels.
 constexpr double k_telling_ms = 3;
-/// Pixels beside each other may take very different times: from one part to the next it grows no faster.
+/// Largest growth from one part to the next, because the cost of adjacent pixels may differ a lot.
 constexpr double k_growth = 2;
 constexpr double k_growth_of_quick = 8;
 constexpr size_t k_block = size_t(k_block_side) * k_block_side;
@@ -21,7 +21,7 @@ size_t PartSize::pixels(const Part& ahead) const {
     return known == rows_.end() ? recent_ : std::min(recent_, known_pixels(ahead, known->second));
 }
 
-/// So many that these rows took the wanted time together.
+/// Returns how many pixels take the wanted time, by the times of their rows in the last frame.
 size_t PartSize::known_pixels(const Part& ahead, const std::vector<double>& rows) const {
     const auto width = double(ahead.area.extent.width);
     double left = k_wanted_ms;
@@ -40,7 +40,7 @@ void PartSize::drew(const Part& part, Extent face, double milliseconds) {
     if (milliseconds >= k_telling_ms) {
         const double wanted = pixels * k_wanted_ms / milliseconds;
         recent_ = size_t(std::clamp(wanted, double(k_block), k_growth * std::max(double(recent_), pixels)));
-    } else if (pixels >= double(recent_) / 2) { // not what was left over of a row
+    } else if (pixels >= double(recent_) / 2) { // excludes the rest of a row
         recent_ = std::min(size_t(k_growth_of_quick * double(recent_)), k_most);
     }
     std::vector<double>& rows = rows_[{part.pass, part.face}];

@@ -1,5 +1,5 @@
-// How large the parts of a frame should be, so that the driver is done with each in about 25 ms: what the
-// last parts took says it, and what the same rows took in the frame before. Pure: told what a part took.
+// Chooses the size of a frame's parts so that the driver finishes each in about 25 ms, from the times of the
+// last parts and of the same rows in the last frame. Pure.
 #pragma once
 
 #include "render/part_cursor.hpp"
@@ -14,13 +14,13 @@ namespace tidemark::render {
 
 class PartSize {
 public:
-    /// Pixels of the next part, where it begins as `ahead` does. Of a picture about which nothing is known
-    /// the first is small, and the next ones grow.
+    /// Returns the pixels of the next part, which begins where `ahead` does. Without measurements the first
+    /// part is small, and the next ones grow.
     size_t pixels(const Part& ahead) const;
-    /// That part of a face of that size took so long.
+    /// Records the time of a part, in a face of that size.
     void drew(const Part& part, Extent face, double milliseconds);
 
-    /// The next frame may take another time than all before: it begins with a part of so many pixels at most.
+    /// Limits the next part to `pixels`; for changes after which frames may take a different time.
     void doubt(size_t pixels) { recent_ = std::min(recent_, std::max(pixels, k_first)); }
 
 private:
@@ -28,8 +28,8 @@ private:
 
     static constexpr size_t k_first = 256;
 
-    size_t recent_ = k_first; ///< what the parts so far ask for
-    /// Milliseconds of a pixel in each row of a pass's face, the mean when it was drawn last; 0: not yet.
+    size_t recent_ = k_first; ///< estimate from the last parts
+    /// Milliseconds per pixel in each row of a pass's face, the mean of the last drawing; 0: not drawn yet.
     std::map<std::pair<size_t, int>, std::vector<double>> rows_;
 };
 

@@ -1,5 +1,5 @@
-// A pass that is about to be drawn, in a frame of which everything in front of it is drawn: other programs
-// can draw what it would.
+// A pass just before it is drawn, after all earlier passes of the frame: other programs can be drawn in its
+// place.
 #pragma once
 
 #include "base/extent.hpp"
@@ -15,30 +15,30 @@ namespace tidemark::render {
 
 class Renderer;
 
-/// Buffers have made half a step while it lives, and its Renderer draws no frame. Where there is feedback
-/// they are zero when it goes: nothing can go on from half a step.
+/// While it lives, the buffers are within a frame, and its Renderer must not draw. With feedback, the
+/// destructor clears the buffers, because a partly drawn frame cannot be continued.
 class PassPreview {
 public:
-    /// Goes on into the frame as far as `pass`.
+    /// Draws the passes of the frame before `pass`.
     PassPreview(Renderer& renderer, size_t pass, const FrameInputs& inputs);
 
     const scene::Scene& scene() const;
     const scene::Pass& pass() const;
-    /// The program of the pass itself, and what it was linked as.
+    /// The pass's own program, and the dialect that it was linked in.
     const gl::Program& program() const;
     const glsl::Dialect& dialect() const;
-    /// The size of what the pass draws.
+    /// Returns the size of the pass's picture.
     Extent extent() const;
 
-    /// Draws by `program`, made from a text of the same dialect, into a target of any size; uniforms and
-    /// textures are the pass's. Of a cubemap, one face. The pass itself stays undrawn.
+    /// Draws with `program`, made from a text of the same dialect, into a target of any size, with the pass's
+    /// uniforms and textures; one face of a cubemap. Does not draw the pass itself.
     void draw(const gl::Program& program, const gl::RenderTarget& into, int face = 0) const;
 
 private:
     struct Reset {
         void operator()(Renderer* renderer) const;
     };
-    std::unique_ptr<Renderer, Reset> renderer_; ///< somebody else's
+    std::unique_ptr<Renderer, Reset> renderer_; ///< not owned
     size_t pass_;
     FrameInputs inputs_;
 };

@@ -10,8 +10,8 @@
 namespace tidemark::render {
 namespace {
 
-/// `seen`: what is asked for of a pixel. The second channel is -1 where one alone is seen, both are for
-/// colours.
+/// `seen` returns the displayed value of a pixel. The second channel is -1 to show one channel, both are -1
+/// to show colours.
 constexpr const char* k_seen_text = R"(#version 450 core
 layout(binding = 0) uniform sampler2D picture;
 uniform ivec2 channels;
@@ -26,8 +26,8 @@ bvec3 finite(vec3 value) {
 }
 )";
 
-/// The difference goes from blue over a light grey to red (K. Moreland: Diverging color maps for scientific
-/// visualization, 2009), in straight lines.
+/// Differences go from blue over light grey to red (K. Moreland: Diverging color maps for scientific
+/// visualization, 2009), interpolated linearly.
 constexpr const char* k_look_text = R"(
 uniform float scale;
 out vec4 colour;
@@ -49,7 +49,7 @@ void main() {
 
 constexpr int k_look_block = 8;
 
-/// The largest finite magnitude in a block of pixels, which is 8 a side here, too.
+/// Finds the largest finite magnitude in a block of k_look_block pixels a side, here 8.
 constexpr const char* k_largest_text = R"(
 out vec4 colour;
 void main() {
@@ -65,7 +65,7 @@ void main() {
 }
 )";
 
-/// Room for a picture of that size, as it was left where it has it.
+/// Makes room for a picture of that size, or keeps the existing target if it fits.
 bool fit(std::optional<gl::RenderTarget>& target, Extent extent, GLenum format) {
     if (!target || target->extent() != extent)
         target = gl::make_render_target(gl::make_texture(extent, format, 1));
@@ -91,7 +91,7 @@ Result<PictureLook> PictureLook::create() {
     return PictureLook(std::move(look), std::move(largest));
 }
 
-/// So that the brightest is just not cut off. As set where everything is zero.
+/// Returns the exposure at which the largest magnitude is 1; `look.stops` when all is zero.
 double PictureLook::automatic_stops(const gl::Texture& picture, const Look& look) {
     const auto blocks = [](int length) { return (length + k_look_block - 1) / k_look_block; };
     size_t count = 0;
@@ -118,7 +118,7 @@ double PictureLook::automatic_stops(const gl::Texture& picture, const Look& look
 const gl::Texture* PictureLook::draw(const gl::Texture& picture, const Look& look) {
     if (!fit(target_, picture.extent, GL_RGBA8))
         return nullptr;
-    constexpr double k_farthest = 126; // beyond, the factor is no float: zero would be no zero
+    constexpr double k_farthest = 126; // a larger factor could be infinite: 0 would be NaN
     stops_ =
         std::clamp(look.automatic ? automatic_stops(picture, look) : look.stops, -k_farthest, k_farthest);
     choose(look_, look);

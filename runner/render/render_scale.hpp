@@ -1,4 +1,4 @@
-// How many pixels of a window's picture are drawn for one that is shown, along a side: a power of two.
+// Rendered pixels per window pixel along a side: a power of two.
 #pragma once
 
 #include "base/extent.hpp"
@@ -13,19 +13,19 @@ namespace tidemark::render {
 
 class RenderScale {
 public:
-    RenderScale() = default; ///< 1: each pixel that is shown is drawn
-    /// From the smallest to the largest.
+    RenderScale() = default; ///< 1: renders each window pixel
+    /// Lists the scales from the smallest to the largest.
     static std::vector<RenderScale> all();
-    /// As `name` has it.
+    /// Finds the scale of that `name`.
     static std::optional<RenderScale> named(std::string_view name);
 
-    /// `1/4`, `1`, `2`.
+    /// Returns `1/4`, `1` or `2`, for example.
     std::string name() const;
-    /// What is drawn for a window of that size: a pixel at least.
+    /// Returns the size to render for a window of that size; at least one pixel a side.
     Extent drawn(Extent window) const;
-    /// So many powers of two up, below zero down, as far as there are any.
+    /// Returns the scale `steps` powers of two higher, or lower if negative, within the range.
     RenderScale stepped(int steps) const;
-    /// How many steps it is from there.
+    /// Returns the number of steps from `other` to this scale.
     int steps_from(RenderScale other) const { return exponent_ - other.exponent_; }
 
     auto operator<=>(const RenderScale&) const = default;

@@ -24,14 +24,14 @@ GLenum type_of(SampleType samples) {
     return samples == SampleType::u8 ? GL_UNSIGNED_BYTE : GL_FLOAT;
 }
 
-/// Reading back, too: what was drawn is finished there.
+/// Also covers read-back, which waits for the drawing.
 constexpr std::string_view k_drawing = "drawing a frame";
 
 Doing doing(std::string_view what, const scene::Scene& scene) {
     return Doing(fmt::format("{} of '{}'", what, scene.file.string()));
 }
 
-/// Which face of a cube a program draws.
+/// Selects the face of a cube that a program draws.
 void set_face(const gl::Program& program, int face) {
     if (const gl::Uniform* corners = program.reflection().find("tidemark_corners"))
         gl::set_uniform(program, *corners, k_face_corners[face]);
@@ -166,7 +166,7 @@ void Renderer::continue_from(const Renderer& before) {
 
 void Renderer::warm_up(const FrameInputs& inputs) {
     const Doing preparing = doing("preparing the first frame", scene());
-    // Nothing passes an empty scissor box, but the driver must have its code ready before it knows.
+    // An empty scissor box rejects every pixel, but the driver must first compile its code.
     glEnable(GL_SCISSOR_TEST);
     glScissor(0, 0, 0, 0);
     draw(inputs);
@@ -202,7 +202,7 @@ std::optional<TileGrid> Renderer::tiles() const {
     return tile ? std::optional(TileGrid(extent_, *tile)) : std::nullopt;
 }
 
-/// The program of the shown pass, with its uniforms and textures.
+/// Prepares uniforms and textures of the shown pass; returns its program.
 const gl::Program& Renderer::prepare_shown(const FrameInputs& inputs) const {
     const size_t shown = compiled_.shown();
     const auto& [linked, uniforms] = compiled_[shown];
@@ -241,12 +241,12 @@ ChannelFacts Renderer::facts_of(size_t pass, const FrameInputs& inputs) const {
             continue;
         ChannelFact& fact = facts[size_t(channel.unit)];
         fact = textures_.fact(*texture, inputs);
-        // A quirk of the site that shaders may rely on.
+        // ShaderToy reports no size for the keyboard in a cubemap pass; shaders may rely on it.
         if (is_cube(pass) &&
             traits_of(channels[size_t(channel.unit)].input).changes == scene::Changes::with_keys)
             fact.resolution = {};
     }
-    for (size_t i = 0; i < channels.size(); ++i) // drawn or not
+    for (size_t i = 0; i < channels.size(); ++i) // even if the pass is not drawn
         if (const size_t* source = source_pass(channels[i].input)) {
             const Extent size = is_cube(*source) ? Extent{k_cube_side, k_cube_side} : extent_;
             facts[i] = {{double(size.width), double(size.height), 1}, 0, true};
@@ -266,7 +266,7 @@ const gl::Texture* Renderer::texture_at(size_t pass, int unit) const {
     return found == channels.end() ? nullptr : &texture_of(*found);
 }
 
-/// The passes in front of that one.
+/// Draws the passes before that one.
 void Renderer::draw_before(size_t pass, const FrameInputs& inputs) {
     ++changes_;
     textures_.update(inputs);
@@ -299,7 +299,7 @@ bool Renderer::follows_clock() const {
            });
 }
 
-/// What the pass is to be drawn from; none: its target holds what would come of that.
+/// Returns the inputs to draw the pass from; nothing if its target already holds the result.
 std::optional<PassInputs> Renderer::changed_inputs(size_t index, const FrameInputs& inputs) const {
     const auto& [linked, uniforms] = compiled_[index];
     const DrawnPass& pass = passes_[index];
@@ -307,20 +307,20 @@ std::optional<PassInputs> Renderer::changed_inputs(size_t index, const FrameInpu
     PassInputs reads{uniforms_of(index, uniforms, inputs, into.extent()), {}};
     for (const BoundChannel& channel : pass.channels)
         reads.channels.push_back(edition_of(channel));
-    if (linked.discards && &into != &pass.target.latest()) // else what is discarded stays as it is shown
+    if (linked.discards && &into != &pass.target.latest()) // discard keeps older pixels
         reads.channels.push_back(pass.target.generation());
     if (!compiled_.options().extras.unchanged && pass.drawn.holds(reads, pass.target.generation()))
         return std::nullopt;
     return reads;
 }
 
-/// The program of a pass has its uniforms and textures.
+/// Uploads the uniforms of a pass and binds its textures.
 void Renderer::prepare(size_t index, const UniformValues& uniforms) const {
     compiled_[index].uniforms.upload(compiled_[index].linked.program, uniforms);
     bind_textures(index);
 }
 
-/// Of a pass that is prepared; as far as the scissor box allows.
+/// Draws a face of a prepared pass, within the scissor box.
 void Renderer::draw_face(size_t index, int face, const gl::RenderTarget& into) const {
     if (is_cube(index))
         gl::select_face(into, face);
@@ -353,7 +353,7 @@ void Renderer::draw_substitute(size_t pass, const gl::Program& program, const Fr
     draw_face(program, into, into.extent());
 }
 
-/// The target's bottom left corner, as far as `extent` reaches.
+/// Draws into the bottom left corner of the target, of size `extent`.
 void Renderer::draw_face(const gl::Program& program, const gl::RenderTarget& into, Extent extent) const {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, into.framebuffer.id());
     glViewport(0, 0, extent.width, extent.height);

@@ -14,7 +14,7 @@ const gl::Texture& ShownFloats::draw(const Renderer& renderer, const FrameInputs
     return target_->texture;
 }
 
-/// One of the picture's size: gl_FragCoord is what it was.
+/// Makes a target of the picture's size, so that gl_FragCoord stays the same.
 bool ShownFloats::has_target(const Renderer& renderer) {
     if (!can_draw_again_)
         can_draw_again_ = renderer.can_draw_again();

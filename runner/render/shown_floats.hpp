@@ -1,5 +1,5 @@
-// What the shown pass wrote, as floats: a window keeps Image in bytes, so that a part of it is drawn again
-// into floats when somebody wants to know. Draws nothing of the frame itself.
+// Redraws parts of the shown pass as floats on demand, because a window keeps Image in bytes. Draws no other
+// pass.
 #pragma once
 
 #include "base/rectangle.hpp"
@@ -10,17 +10,17 @@
 
 namespace tidemark::render {
 
-/// Of one renderer, in its context.
+/// Belongs to one renderer and its context.
 class ShownFloats {
 public:
-    /// A texture whose pixels within `part` are those of the frame on show, which `inputs` drew. Where the
-    /// pass cannot be drawn again, or there is no memory, it is the picture of bytes itself.
+    /// Returns a texture whose pixels within `part` are those of the frame on show, drawn from `inputs`. If
+    /// the pass cannot be drawn again, or there is no memory, returns the picture in bytes.
     const gl::Texture& draw(const Renderer& renderer, const FrameInputs& inputs, const Rectangle& part);
 
 private:
     bool has_target(const Renderer& renderer);
 
-    std::optional<bool> can_draw_again_{}; ///< none: not asked yet
+    std::optional<bool> can_draw_again_{}; ///< empty: not checked yet
     std::optional<gl::RenderTarget> target_{};
 };
 

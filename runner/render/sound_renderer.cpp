@@ -16,7 +16,8 @@ namespace tidemark::render {
 
 namespace {
 
-/// The site binds pictures and volumes for a Sound pass. What is another one in another frame has none here.
+/// Returns whether a Sound pass gets the input: on ShaderToy only inputs that never change, pictures and
+/// volumes.
 bool is_heard(const scene::ChannelInput& input) {
     return traits_of(input).changes == scene::Changes::never;
 }

@@ -1,4 +1,4 @@
-// Draws a scene's Sound pass: samples of 16 bits, stereo, by time. A context must be current.
+// Draws a scene's Sound pass as 16-bit stereo samples. A context must be current.
 #pragma once
 
 #include "base/result.hpp"
@@ -18,20 +18,22 @@ namespace tidemark::render {
 
 class SoundRenderer {
 public:
-    /// Samples are counted in an int, here and in the shader: some thirteen hours.
+    /// The longest sound, some thirteen hours, because samples are counted in an int, here and in the shader.
     static constexpr double k_longest_seconds = 48'000;
 
-    /// `date` is iDate; without milliseconds, as on the site. Fails when the scene has no Sound pass, or one
-    /// that does not compile.
+    /// `date` is iDate, without its milliseconds, as on ShaderToy. Fails when the scene has no Sound pass, or
+    /// when that does not compile.
     static Result<SoundRenderer> create(const scene::Scene& scene, const Date& date,
                                         glsl::Precision precision = glsl::Precision::single);
 
-    /// Left and right in turn, 44100 a second each, of the block that starts at sample `first`.
+    /// Draws the block that starts at sample `first`: left and right interleaved, 44,100 samples a second per
+    /// side.
     std::vector<int16_t> draw(int first);
-    /// Of so many rows of a block, the first one starting at sample `first`: the same numbers.
+    /// Draws `rows` rows of a block, the first of which starts at sample `first`; the samples equal those of
+    /// `draw`.
     std::vector<int16_t> draw_rows(int first, int rows);
 
-    /// Samples (of each side) in a row, of which a block has as many.
+    /// Returns the samples per side in so many rows. A block is square.
     static int samples_in(int rows);
     static int block_samples();
 
@@ -39,7 +41,7 @@ private:
     ChannelFacts facts() const;
 
     std::vector<scene::Knob> knobs_;
-    FrameInputs inputs_; ///< the date only
+    FrameInputs inputs_; ///< only the date is used
     UniformTable uniforms_;
     gl::Program program_;
     gl::VertexArrayHandle no_vertices_;

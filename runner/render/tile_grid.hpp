@@ -1,4 +1,4 @@
-// Cuts a picture into tiles: one that is larger than a target may be, or than memory should hold. Pure.
+// Cuts pictures that exceed the driver's limit or the memory into tiles. Pure.
 #pragma once
 
 #include "base/rectangle.hpp"
@@ -10,22 +10,23 @@ namespace tidemark::render {
 
 using Tile = Rectangle;
 
-/// Pixels centre on halves, which floats have up to here: gl_FragCoord is exact in a picture of this side.
+/// The largest side at which gl_FragCoord is exact: pixel centres lie at halves, which floats can hold up to
+/// here.
 inline constexpr int k_largest_tiled_side = 1 << 23;
 
-/// Tiles from the bottom left corner on. Their sides are even, so that the 2x2 pixels that derivatives and
-/// mipmaps are taken from are those of the whole picture; what sticks out on the right and at the top is left
-/// out.
+/// Tiles from the bottom left corner on. Their sides are even, so that the 2x2 pixels for derivatives and
+/// mipmaps are those of the whole picture. Tiles on the right and at the top are cut off at the picture's
+/// edge.
 class TileGrid {
 public:
     TileGrid(Extent whole, Extent tile) : whole_(whole), tile_(tile) {}
 
     int columns() const { return (whole_.width + tile_.width - 1) / tile_.width; }
-    /// A row of tiles is a band of the picture.
+    /// Returns the number of bands; a band is a row of tiles.
     int bands() const { return (whole_.height + tile_.height - 1) / tile_.height; }
     size_t count() const { return size_t(columns()) * size_t(bands()); }
     Extent tile() const { return tile_; }
-    /// Columns from the left; bands from the top, as files have their rows.
+    /// Returns the tile at a column from the left and a band from the top, in the row order of files.
     Tile at(int column, int band) const;
 
 private:
@@ -33,13 +34,14 @@ private:
     Extent tile_;
 };
 
-/// The tiles for a picture of that many bytes a pixel: as many pixels as a frame of the default size has, so
-/// that none keeps a GPU longer, in bands that memory can hold. Nothing where the picture is best drawn
-/// whole: no side is longer than `largest_target`, and there are no more pixels than 4K has.
+/// Returns the tile size for a picture with `pixel_bytes` bytes a pixel: about as many pixels as a frame of
+/// the default size, so that no tile keeps a GPU busy longer, in bands of limited memory. Returns nothing
+/// when the picture is best drawn whole: no side exceeds `largest_target`, and it has at most as many pixels
+/// as 4K.
 std::optional<Extent> tile_for(Extent whole, size_t pixel_bytes, int largest_target);
 
-/// Square tiles of `side` pixels, as `--tile` asks for; fails (ErrorCode::usage) on a side that no target may
-/// have.
+/// Returns square tiles of `side` pixels, as for `--tile`. Fails (ErrorCode::usage) when `side` is odd, below
+/// 2 or above `largest_target`.
 Result<Extent> tile_of_side(int side, int largest_target);
 
 } // namespace tidemark::render

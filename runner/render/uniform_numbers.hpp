@@ -1,4 +1,4 @@
-// The values of uniforms, comparable to the bit.
+// Values of uniforms with bitwise comparison.
 #pragma once
 
 #include "scene/channel.hpp"
@@ -13,7 +13,7 @@
 
 namespace tidemark::render {
 
-/// What one uniform is told, in the order GL takes the numbers.
+/// The value of one uniform, in GL's order of components.
 class UniformNumbers {
 public:
     UniformNumbers(std::initializer_list<double> values) { append(values.begin(), values.end()); }
@@ -26,7 +26,7 @@ public:
     }
     operator std::span<const double>() const { return {values_.data(), count_}; }
 
-    /// To the bit: a NaN equals itself, and -0 is not 0. A shader can tell them apart.
+    /// Compares bits: a NaN equals itself, and -0 differs from 0. A shader can distinguish them.
     bool operator==(const UniformNumbers& other) const {
         const auto bits = [](double value) { return std::bit_cast<uint64_t>(value); };
         return std::ranges::equal(std::span<const double>(*this), std::span<const double>(other), {}, bits,
@@ -34,11 +34,12 @@ public:
     }
 
 private:
-    std::array<double, 3 * scene::k_channel_count> values_{}; ///< no value is longer than iChannelResolution
+    /// The length of iChannelResolution, the longest value.
+    std::array<double, 3 * scene::k_channel_count> values_{};
     size_t count_ = 0;
 };
 
-/// Of all active uniforms of a program.
+/// The values of all active uniforms of a program.
 using UniformValues = std::vector<UniformNumbers>;
 
 } // namespace tidemark::render

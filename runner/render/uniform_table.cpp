@@ -53,11 +53,11 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const Names& names,
         {scene::k_mouse_button_uniform, Source::mouse_button},
     };
     constexpr std::pair<std::string_view, Source> k_names_of_others[] = {
-        // The VS Code extension and glslsandbox.com fill these where a text declares them, …
+        // The VS Code extension and glslsandbox.com fill these if a text declares them, …
         {"resolution", Source::resolution},
         {"time", Source::time},
         {"mouse", Source::relative_mouse},
-        // … glslViewer these.
+        // … and glslViewer fills these.
         {"u_resolution", Source::resolution},
         {"u_time", Source::time},
         {"u_mouse", Source::mouse},
@@ -87,7 +87,7 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const Names& names,
         return;
     const auto absent = [&](std::string_view name, Source source, size_t index = 0) {
         const GLenum type = is_matrix(source) ? GL_FLOAT_MAT4 : GL_FLOAT_VEC4;
-        if (!reflection.has(name)) // GL ignores what is set at location -1
+        if (!reflection.has(name)) // GL ignores values for location -1
             entries_.push_back({{std::string(name), type, 1, -1}, source, index});
     };
     for (const auto& [name, source] : known)
@@ -96,8 +96,7 @@ UniformTable::UniformTable(const gl::Reflection& reflection, const Names& names,
         absent(knobs[i].name, Source::knob, i);
 }
 
-/// Whatever an author makes of our numbers: a number may be of any type, but a matrix is no vector and none
-/// of them is a texture.
+/// Accepts any numeric type that an author declares, but a matrix only for a matrix, and never a sampler.
 bool UniformTable::takes(GLenum type, Source source) {
     if (is_matrix(source))
         return type == GL_FLOAT_MAT4 || type == GL_DOUBLE_MAT4;
@@ -125,7 +124,7 @@ UniformValues UniformTable::values(const FrameInputs& inputs, Extent resolution,
         switch (entry.source) {
         case Source::resolution: return {double(resolution.width), double(resolution.height), 1};
         case Source::time: return {inputs.time};
-        // In a scene promoted to double iTime is whole.
+        // In a scene promoted to double iTime is exact.
         case Source::time_low:
             return {entry.uniform.type == GL_DOUBLE ? 0 : inputs.time - double(float(inputs.time))};
         case Source::time_delta: return {inputs.time_delta};
@@ -155,7 +154,7 @@ UniformValues UniformTable::values(const FrameInputs& inputs, Extent resolution,
     };
     UniformValues values;
     values.reserve(entries_.size());
-    for (const Entry& entry : entries_) // what the program does not have is no reason to draw anew
+    for (const Entry& entry : entries_) // uniforms that the program lacks must not cause a redraw
         values.push_back(entry.uniform.location < 0 ? UniformNumbers{0} : numbers_of(entry));
     return values;
 }
@@ -167,7 +166,7 @@ void UniformTable::upload(const gl::Program& program, const UniformValues& value
 }
 
 void UniformTable::hand_over(const UniformValues& values, const Take& take) const {
-    // As wide as ShaderToy declares them, whatever the author made of that.
+    // Element width as ShaderToy declares the array, whatever the author declares.
     const auto width_of = [](const Entry& entry, size_t all) -> size_t {
         return entry.source == Source::channel_time         ? 1
                : entry.source == Source::channel_resolution ? 3

@@ -1,4 +1,5 @@
-// Which of ShaderToy's uniforms a linked program really has, found once, and their values for each frame.
+// Maps the active uniforms of a linked program to ShaderToy's, once, and computes their values for each
+// frame.
 #pragma once
 
 #include "base/extent.hpp"
@@ -19,33 +20,33 @@ namespace tidemark::render {
 class UniformTable {
 public:
     UniformTable() = default;
-    /// Of a scene, and whose names it goes by beside ours: a text of ShaderToy's that declares `time` has a
-    /// zero there on the site, and has one here.
+    /// The scene's knobs, and whether other hosts' names count: on ShaderToy a uniform `time` is zero, and so
+    /// it is here.
     struct Names {
         const std::vector<scene::Knob>& knobs;
-        bool other_hosts = false; ///< those of the VS Code extension, glslsandbox.com and glslViewer
+        bool other_hosts = false; ///< accepts names of the VS Code extension, glslsandbox.com and glslViewer
     };
-    /// `absent_too`: hands over what the program has no uniform for as well, to measure what that would cost.
+    /// `absent_too`: also sets uniforms that the program does not have, to measure the cost.
     UniformTable(const gl::Reflection& reflection, const Names& names, bool absent_too = false);
 
     size_t size() const { return entries_.size(); }
 
-    /// Of the active uniforms and no others.
+    /// Computes the values of the active uniforms.
     UniformValues values(const FrameInputs& inputs, Extent resolution, const ChannelFacts& channels,
                          const std::vector<scene::Knob>& knobs) const;
-    /// Each uniform with its numbers, and how many of them an element of an array has.
+    /// Receives a uniform, its numbers, and how many of them an array element has.
     using Take = std::function<void(const gl::Uniform&, std::span<const double>, size_t width)>;
     void hand_over(const UniformValues& values, const Take& take) const;
     void upload(const gl::Program& program, const UniformValues& values) const;
 
-    /// Whether some uniform may have another value in the next frame although nobody did anything.
+    /// Returns whether a uniform may change in the next frame without user input.
     bool follows_clock() const;
 
 private:
     enum class Source {
         resolution,
         time,
-        time_low, ///< what binary32 leaves of the time
+        time_low, ///< remainder of the time after rounding to binary32
         time_delta,
         frame,
         frame_rate,
@@ -65,9 +66,10 @@ private:
         orbit_pan,
         knob
     };
-    /// What the member of a channel's struct tells; nothing for other uniforms.
+    /// Returns whether a uniform of that type can hold the value.
     static bool takes(GLenum type, Source source);
     static bool is_matrix(Source source) { return source == Source::camera || source == Source::view; }
+    /// Returns the source of a member of that channel's struct; nothing for other uniforms.
     static std::optional<Source> struct_member(std::string_view name, size_t channel);
 
     struct Entry {

@@ -1,15 +1,15 @@
-// Controls of a page that one explores, with page/*.js behind them. HTML out; hidden where no script runs.
+// Interactive controls of a report page, run by page/*.js. Returns HTML, which is hidden if scripts are off.
 #pragma once
 
 #include <string>
 
 namespace tidemark::report {
 
-/// Fields for the most error and the most time allowed.
+/// Returns input fields for the largest allowed error and time.
 std::string limits_form(const std::string& error_name);
 
-/// Two pictures of the page with a divider between them. `reference`: a figure, HTML, which stands there
-/// alone without scripts.
+/// Returns a comparison of two pictures with a divider. `reference` is a figure as HTML, shown alone if
+/// scripts are off.
 std::string comparison_form(const std::string& note, const std::string& reference);
 
 } // namespace tidemark::report

@@ -1,5 +1,4 @@
-// Pages out of forms, and texts that a scene, a study or a driver chose as words of a page: no character of
-// theirs is markup.
+// Fills HTML templates and escapes text from scenes, studies and drivers, so that none of it acts as markup.
 #pragma once
 
 #include <initializer_list>
@@ -8,13 +7,13 @@
 
 namespace tidemark::report {
 
-/// For content and for attributes in quotes, on one line: control characters are blanks.
+/// Escapes text for content and quoted attributes, on one line: control characters become spaces.
 std::string escaped(std::string_view text);
 
-/// The same, with its line breaks.
+/// Escapes text for content and keeps its line breaks.
 std::string escaped_lines(std::string_view text);
 
-/// JSON for a `<script>`, which ends at the first `</script`, whatever that is to JSON.
+/// Escapes JSON for a `<script>` element, which would end at any `</script`, even inside a JSON string.
 std::string in_script(std::string_view json);
 
 struct Filling {
@@ -22,7 +21,8 @@ struct Filling {
     std::string_view text; ///< HTML
 };
 
-/// Each mark of the form once, in their order; what is filled in is not looked at again.
+/// Replaces each mark of the template once. `fillings` must be in the order of the marks; filled-in text is
+/// not searched again.
 std::string filled(std::string_view form, std::initializer_list<Filling> fillings);
 
 } // namespace tidemark::report

@@ -6,10 +6,10 @@
 namespace tidemark::report {
 namespace {
 
-/// From the middle of a mark to its label.
+/// Distance from the middle of a mark to its label, pixels.
 constexpr double k_distance = 8;
 
-/// The eight places around a mark, the best first.
+/// Returns eight places around a mark, the preferred ones first.
 std::array<Box, 8> places(const Label& label) {
     const auto at = [&](double left, double top) {
         return Box{left, top, left + label.width, top + k_label_height};

@@ -1,5 +1,5 @@
-// Where the labels of marks go, so that none covers another, a mark, or the edge. Greedy, in the order given;
-// pure.
+// Places labels beside marks so that none covers another label, a mark, or the edge. Greedy, in the given
+// order; pure.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace tidemark::report {
 
-/// In pixels, y downwards.
+/// A rectangle in pixels, y downwards.
 struct Box {
     double left = 0, top = 0, right = 0, bottom = 0;
 
@@ -21,14 +21,14 @@ struct Box {
 };
 
 struct Label {
-    double x = 0, y = 0; ///< of its mark
-    double width = 0;    ///< of its text
+    double x = 0, y = 0; ///< position of its mark
+    double width = 0;    ///< width of its text
 };
 
 inline constexpr double k_label_height = 14;
 
-/// For each label a place beside its mark, the right before the left, within `bounds`; nothing where every
-/// place covers an obstacle or an earlier label.
+/// Returns a place beside each mark, within `bounds`, on the right if possible; nothing if every place covers
+/// an obstacle or an earlier label.
 std::vector<std::optional<Box>> place_labels(std::span<const Label> labels, std::span<const Box> obstacles,
                                              const Box& bounds);
 

@@ -11,12 +11,12 @@
 namespace tidemark::report {
 namespace {
 
-/// What stands free beside the outermost values, as a part of the axis.
+/// Margin beyond the outermost values, as a fraction of the axis.
 constexpr double k_room = 0.07;
 constexpr size_t k_fewest_ticks = 3;
 constexpr double k_most_ticks = 9;
 
-/// `mantissas` times each `stride`th power of ten that the axis holds.
+/// Returns `mantissas` times every `stride`-th power of ten, within the axis.
 std::vector<double> multiples(const LogAxis& axis, std::span<const double> mantissas, int stride) {
     std::vector<double> found;
     const int from = int(std::floor(std::log10(axis.low) / stride)) * stride;
@@ -28,7 +28,7 @@ std::vector<double> multiples(const LogAxis& axis, std::span<const double> manti
     return found;
 }
 
-/// Evenly spaced round numbers, for an axis within a factor of two or so.
+/// Returns evenly spaced round numbers, for an axis whose ends differ by a factor of about two.
 std::vector<double> round_numbers(const LogAxis& axis) {
     const double wanted = (axis.high - axis.low) / 4;
     const double power = std::pow(10.0, std::floor(std::log10(wanted)));

@@ -1,4 +1,4 @@
-// A logarithmic axis of a diagram: from values to pixels, and the values that stand beside it.
+// A logarithmic axis of a diagram: maps values to pixels and chooses the tick values.
 #pragma once
 
 #include <string>
@@ -15,14 +15,14 @@ struct LogAxis {
     double pixel(double value) const;
 };
 
-/// An axis that holds values from `least` to `most`, above 0, with some room beside them.
+/// Returns an axis for values from `least` to `most`, both above 0, with a margin of 7 % at either end.
 LogAxis log_axis(double least, double most, double first, double last);
 
-/// Powers of ten where there are enough of them; else 1, 2 and 5 times these; else round numbers. At most
-/// nine, within the axis, in order.
+/// Returns the ticks within the axis in increasing order: powers of ten if there are at least three, else 1,
+/// 2 and 5 times these, else round numbers. At most ten.
 std::vector<double> ticks(const LogAxis& axis);
 
-/// `0.05`, `200`, `10⁻⁵`, `2·10⁻⁵`.
+/// Formats a tick: `0.05`, `200`, `10⁻⁵`, `2·10⁻⁵`.
 std::string tick_text(double value);
 
 } // namespace tidemark::report

@@ -1,5 +1,5 @@
-// A page that a person opens: one file that asks no network and is whole without scripts. In: its words and
-// its body as HTML. Out: the text of the file, with the style and the scripts of page/.
+// A report page: one HTML file that makes no network requests and is complete without scripts. Texts and the
+// body's HTML in, the file's text out, with the style and the scripts of page/.
 #pragma once
 
 #include <string>
@@ -7,19 +7,19 @@
 namespace tidemark::report {
 
 struct Page {
-    std::string title; ///< plain text, as are the next two
+    std::string title; ///< plain text, as the next two fields are
     std::string heading;
     std::string about;
     std::string body;   ///< HTML
-    std::string data{}; ///< JSON for the scripts that explore a diagram; empty: the page has none
+    std::string data{}; ///< JSON for the scripts of a diagram; empty: no diagram
 };
 
 std::string make_page(const Page& page);
 
-/// A command with the script's button that copies it.
+/// Returns a command with a button that copies it, if scripts are on.
 std::string command(const std::string& words);
 
-/// A table within its own scroll bar. `name`: what it shows, for who does not see it. `rows`: HTML.
+/// Returns a table with its own scroll bar. `name` is its accessible name; `rows` is HTML.
 std::string table(const std::string& name, const std::string& rows);
 
 } // namespace tidemark::report

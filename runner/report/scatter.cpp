@@ -15,8 +15,8 @@ namespace tidemark::report {
 namespace {
 
 constexpr size_t k_colours = 7;
-/// Outlines around the origin, of about the same area. The first seven series differ in both; 56 in one of
-/// both.
+/// Outlines around the origin with about the same area. The first seven series differ in both colour and
+/// shape; 56 differ in one of them.
 constexpr std::array<std::string_view, 8> k_shapes{"M-5 0a5 5 0 1 0 10 0a5 5 0 1 0-10 0Z",
                                                    "M-4.5-4.5h9v9h-9Z",
                                                    "M0-6L5.6 4h-11.2Z",
@@ -25,11 +25,11 @@ constexpr std::array<std::string_view, 8> k_shapes{"M-5 0a5 5 0 1 0 10 0a5 5 0 1
                                                    "M-5.5-5.5h11l-11 11h11Z",
                                                    "M-4-5.6L6 0L-4 5.6Z",
                                                    "M4-5.6L-6 0L4 5.6Z"};
-constexpr std::string_view k_cross = "M-2-6h4v4h4v4h-4v4h-4v-4h-4v-4h4Z"; ///< of series 0
-constexpr double k_mark = 6;                                              ///< half of its extent
-constexpr double k_letter = 6.6;                                          ///< width of a letter of a label
-constexpr double k_gap = 4;                                               ///< between two labels
-constexpr size_t k_longest = 28;                                          ///< letters of a label
+constexpr std::string_view k_cross = "M-2-6h4v4h4v4h-4v4h-4v-4h-4v-4h4Z"; ///< of the reference series
+constexpr double k_mark = 6;                                              ///< half its size, pixels
+constexpr double k_letter = 6.6; ///< width of a letter in a label, pixels
+constexpr double k_gap = 4;                                               ///< between two labels, pixels
+constexpr size_t k_longest = 28;                                          ///< most letters of a label
 constexpr Box k_margins{58, 12, 14, 44};
 
 struct ShortText {
@@ -37,7 +37,7 @@ struct ShortText {
     size_t letters = 0;
 };
 
-/// At most `k_longest` characters of UTF-8, and a mark where more were.
+/// Cuts a text to `k_longest` characters of UTF-8, with an ellipsis if it was longer.
 ShortText shortened(std::string_view text) {
     size_t letters = 0;
     for (size_t i = 0; i < text.size(); ++i) {
@@ -52,7 +52,7 @@ std::string colour(size_t series) {
     return fmt::format("series-{}", series == 0 ? 0 : 1 + (series - 1) % k_colours);
 }
 
-/// Ticks that stand so many pixels apart.
+/// Returns ticks that are at least `apart` pixels apart.
 std::vector<double> thinned(const LogAxis& axis, double apart) {
     std::vector<double> kept;
     for (const double value : ticks(axis))
@@ -106,7 +106,7 @@ private:
                    (frame_.top + frame_.bottom) / 2, escaped(plot_.y_name));
     }
 
-    /// The staircase of what can be had for a cost: down at each point of the front.
+    /// Draws the front as a staircase: the least error for a cost, which steps down at each point.
     std::string front() const {
         std::vector<ScatterPoint> points = plot_.points;
         std::erase_if(points, [](const ScatterPoint& point) { return !point.front; });
@@ -118,7 +118,7 @@ private:
         return path.empty() ? path : fmt::format("<path class=\"front\" d=\"{}\"/>\n", path);
     }
 
-    /// A line through each series, in the order of its points.
+    /// Draws a line through each series, in the order of its points.
     std::string lines() const {
         std::vector<std::string> paths;
         for (const ScatterPoint& point : plot_.points) {
@@ -144,7 +144,7 @@ private:
         return text;
     }
 
-    /// What no label may cover: marks and intervals.
+    /// Returns what labels must not cover: marks and intervals.
     std::vector<Box> obstacles() const {
         std::vector<Box> boxes;
         for (const ScatterPoint& point : plot_.points) {
@@ -154,7 +154,7 @@ private:
         return boxes;
     }
 
-    /// Those of the front first, where there is not room for all.
+    /// Draws labels; points of the front come first if not all fit.
     std::string labels() const {
         std::vector<ScatterPoint> points = plot_.points;
         std::ranges::stable_sort(points, std::ranges::greater(), &ScatterPoint::front);

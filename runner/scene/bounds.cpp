@@ -15,7 +15,7 @@ bool is_inside(const fs::path& file, const fs::path& folder) {
     return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
-/// Empty when there is no such folder.
+/// Returns an empty path if the folder does not exist.
 fs::path real_path(const fs::path& path) {
     std::error_code error;
     fs::path real = fs::canonical(path, error);
@@ -34,7 +34,7 @@ Bounds::Bounds(const fs::path& folder, bool allow_outside, const UnsavedTexts* u
         return;
     roots_.push_back(root);
     for (const char* name : {"textures", "lib"}) {
-        // A link of that name would lead anywhere: only a folder that really lies there.
+        // A link of that name could lead anywhere, so only a real folder at that place counts.
         const fs::path beside = root.parent_path() / name;
         if (real_path(beside) == beside)
             roots_.push_back(beside);
@@ -50,7 +50,7 @@ Result<void> Bounds::check(const fs::path& file) const {
             return cannot_read(why);
     if (everything_)
         return {};
-    if (file.native().find('\0') != std::string::npos) // what the system sees ends there
+    if (file.native().find('\0') != std::string::npos) // the system would read the name only up to there
         return cannot_read(why_unreadable(file));
     std::error_code error;
     fs::path real = fs::absolute(file, error);

@@ -1,5 +1,5 @@
-// Which files a scene may read. A scene is other people's text: a path in it must not lead out of its folder
-// unless the person who runs it says so.
+// Limits the files that a scene may read. A scene may be a stranger's text: a path in it must not lead out of
+// its folder unless the user allows that.
 #pragma once
 
 #include "base/result.hpp"
@@ -11,25 +11,26 @@
 
 namespace tidemark::scene {
 
-/// The scene's folder, the folders `textures` and `lib` beside it, where scenes keep what they share, and the
-/// shader library.
+/// The scene's folder, the folders `textures` and `lib` next to it, which scenes share, and the shader
+/// library.
 class Bounds {
 public:
-    /// `folder` is that of the scene; everything may be read when `allow_outside`. `unsaved` must live as
-    /// long.
+    /// `folder` is the scene's. With `allow_outside` every file may be read. `unsaved` must outlive this
+    /// object.
     Bounds(const std::filesystem::path& folder, bool allow_outside, const UnsavedTexts* unsaved = nullptr);
 
-    /// Symbolic links are followed first. The error (ErrorCode::load) says what to do; it has no place yet.
+    /// Checks a path after following its symbolic links. The error (ErrorCode::load) says what to do; it has
+    /// no source location.
     Result<void> check(const std::filesystem::path& file) const;
-    /// What `#include <tidemark/…>` reads.
+    /// The folder that `#include <tidemark/…>` reads.
     const std::filesystem::path& library() const { return library_; }
-    /// The text of a file within the bounds.
+    /// Reads the text of a file within the bounds.
     Result<std::string> read_text(const std::filesystem::path& file) const;
-    /// What an editor holds of a file; nullptr: it has what the file has.
+    /// Returns the text that an editor has not saved to the file yet; nullptr if there is none.
     const std::string* unsaved(const std::filesystem::path& file) const;
 
 private:
-    std::string folder_; ///< as it was named, for the message
+    std::string folder_; ///< as the user named it, for the message
     bool everything_;
     const UnsavedTexts* unsaved_;
     std::filesystem::path library_;

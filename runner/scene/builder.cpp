@@ -10,7 +10,7 @@ namespace tidemark::scene {
 namespace fs = std::filesystem;
 namespace {
 
-/// A file that reads itself was written as a buffer that is on the screen at the same time.
+/// Image pass for a file that reads itself: such a file was written as a buffer that is shown directly.
 constexpr const char* k_show_buffer =
     "void mainImage(out vec4 fragColor, in vec2 fragCoord) {\n"
     "    fragColor = vec4(texelFetch(iChannel0, ivec2(fragCoord), 0).rgb, 1.0);\n"
@@ -33,7 +33,7 @@ std::string_view entry_name_of(PassKind kind) {
     return kind == PassKind::cubemap ? "mainCubemap" : kind == PassKind::sound ? "mainSound" : "mainImage";
 }
 
-/// Whether `name` stands in the text; `exactly`: outside comments, and not as a part of another word.
+/// Returns whether `name` occurs in the text; if `exactly`, as a token outside comments.
 bool mentions(const std::string& text, std::string_view name, bool exactly) {
     if (text.find(name) == std::string::npos || !exactly)
         return text.find(name) != std::string::npos;
@@ -42,17 +42,17 @@ bool mentions(const std::string& text, std::string_view name, bool exactly) {
                        [&](const text::Token& token) { return token.is(name); });
 }
 
-/// The driver would only say that a function is missing, and in a line that nobody wrote. Sound is left to
-/// the driver: a silent one does not stop the picture.
+/// Checks here, because the driver would only report a missing function, in a line that the author did not
+/// write. Sound passes are left to the driver: a silent one does not stop the picture.
 Result<void> check_entry(const Scene& scene, const Draft& draft) {
     const PassKind kind = draft.pass.kind;
     if (kind == PassKind::sound)
         return {};
     const std::string& text = draft.pass.text.text();
-    const bool by_hand = !draft.file.empty(); // what comes from ShaderToy was complete once: a look is enough
+    const bool by_hand = !draft.file.empty(); // a ShaderToy project compiled there, so a plain search will do
     for (const std::string* part : {&text, &scene.common.text()})
         if (mentions(*part, entry_name_of(kind), by_hand) ||
-            mentions(*part, "main", true)) // the oldest have main
+            mentions(*part, "main", true)) // the oldest shaders have main
             return {};
     const std::string place =
         draft.file.empty() ? draft.pass.text.lines().locate(1).file : draft.file.string();
@@ -76,7 +76,8 @@ bool is_read(const std::vector<Draft>& drafts, size_t wanted) {
     return false;
 }
 
-/// Returns the number of the Image pass.
+/// If a pass reads Image, makes Image a buffer and adds a pass that shows it. Returns the number of the Image
+/// pass.
 size_t show_image_that_is_read(std::vector<Draft>& drafts, size_t image) {
     if (!is_read(drafts, image))
         return image;

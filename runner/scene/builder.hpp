@@ -1,5 +1,5 @@
-// Puts a Scene together: passes in any order that refer to each other by number come in, passes in the order
-// of drawing go out.
+// Puts a Scene together: takes passes in any order that refer to each other by number, and sorts them into
+// drawing order.
 #pragma once
 
 #include "base/result.hpp"
@@ -13,19 +13,19 @@ namespace tidemark::scene {
 
 /// A pass under construction.
 struct Draft {
-    Pass pass;                  ///< PassOutput::pass counts the drafts
-    std::filesystem::path file; ///< that holds it; empty for a pass of a JSON
+    Pass pass;                  ///< PassOutput::pass is an index into the drafts
+    std::filesystem::path file; ///< its source file; empty for a pass from JSON
 };
 
-/// Checks that every pass defines what its kind is called by, brings the drafts into the order of drawing
-/// (buffers as `order` has them, then cubemap, image, sound) and makes their references follow. An Image
-/// pass that something reads becomes a buffer, shown by an Image pass of our own. Fills `passes` and adds
-/// the files that channels read to `files`.
+/// Checks that every pass defines its entry function, sorts the drafts into drawing order (buffers as in
+/// `order`, then cubemap, image, sound) and updates their references. An Image pass that a pass reads, even
+/// itself, becomes a buffer, shown by a generated Image pass. Fills `passes` and adds the files that channels
+/// read to `files`.
 Result<void> finish_scene(Scene& scene, std::vector<Draft> drafts, const std::vector<size_t>& order);
 
-/// Notes a file once.
+/// Adds a file to the scene's files, once.
 void note_file(Scene& scene, const std::filesystem::path& file);
-/// Notes all files that a channel reads.
+/// Adds all files that a channel reads.
 void note_files(Scene& scene, const Channel& channel);
 
 } // namespace tidemark::scene

@@ -9,14 +9,14 @@
 
 namespace tidemark::scene {
 
-/// `iChannel0` … `iChannel9`, as in the VS Code extension; the site has the first four of them.
+/// `iChannel0` … `iChannel9`, as in the VS Code extension; ShaderToy has the first four.
 inline constexpr int k_channel_count = 10;
 inline constexpr int k_site_channel_count = 4;
 
 struct Channel {
     ChannelInput input = Noise{};
     Sampling sampling = k_texture_sampling;
-    SourceLocation where{}; ///< the directive that asked for it; empty when nothing did
+    SourceLocation where{}; ///< the directive that set the input; empty if none did
 };
 
 using Channels = std::array<Channel, k_channel_count>;

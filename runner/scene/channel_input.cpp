@@ -11,7 +11,7 @@ constexpr std::string_view k_webcam = "webcam";
 } // namespace
 
 std::optional<ChannelInput> generated_input(std::string_view name) {
-    // Without a file they are what is heard and seen at the moment, where somebody asked for that.
+    // Without a file these are the live microphone and webcam, if the user turned them on.
     if (name == k_microphone)
         return Music{};
     if (name == k_webcam)
@@ -52,7 +52,7 @@ const size_t* source_pass(const ChannelInput& input) {
 }
 
 size_t* source_pass(ChannelInput& input) {
-    return const_cast<size_t*>(source_pass(std::as_const(input))); // `input` is not const
+    return const_cast<size_t*>(source_pass(std::as_const(input)));
 }
 
 } // namespace tidemark::scene

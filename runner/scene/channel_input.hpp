@@ -1,6 +1,5 @@
-// What `iChannelN` may read: a type for each kind of input, and one table of what the program needs to know
-// of a kind. A new kind is a type, its place in ChannelInput and its row. Values only; nothing is loaded
-// here.
+// The inputs of `iChannelN`: one type per kind, and one table of a kind's properties. To add a kind, add a
+// type, its place in ChannelInput and its row. Values only; nothing is loaded here.
 #pragma once
 
 #include "scene/sampling.hpp"
@@ -17,19 +16,19 @@
 
 namespace tidemark::scene {
 
-/// The kind of sampler that GLSL needs for an input.
+/// The kind of GLSL sampler that an input needs.
 enum class TextureKind { flat, cube, volume };
 
-/// Nothing: reads give black. The kind is that of the sampler: a read of a cubemap pass that the project
-/// lacks still is a read of a cube.
+/// No input: reads give black. Keeps the kind of sampler: reading a cubemap pass that the project lacks is
+/// still a read of a cube.
 struct Unbound {
     TextureKind kind = TextureKind::flat;
     TextureKind texture() const { return kind; }
     bool operator==(const Unbound&) const = default;
 };
 
-/// Textures of noise that we generate (image/made/noise.hpp): stand-ins for ShaderToy's with the same size,
-/// number of channels and structure.
+/// Noise textures that the program generates (image/made/noise.hpp) in place of ShaderToy's, with the same
+/// size, number of channels and structure.
 enum class NoiseKind {
     rgba_256,
     rgba_64,
@@ -51,12 +50,12 @@ struct Noise {
 /// A picture file.
 struct Picture {
     std::filesystem::path file;
-    bool one_channel = false; ///< one of ShaderToy's media that is red alone there, whatever the file holds
+    bool one_channel = false; ///< one of ShaderToy's media that has only red there, whatever the file holds
     bool operator==(const Picture&) const = default;
 };
 
-/// What a pass of the scene drew: a buffer, or the cube of a cubemap pass. Whether that is this frame's or
-/// the last one's follows from the order of the passes (render/frame_plan.hpp).
+/// The output of a pass of the scene: a buffer, or the cube of a cubemap pass. Whether it is this frame's or
+/// the last one's depends on the order of the passes (render/frame_plan.hpp).
 struct PassOutput {
     size_t pass = 0; ///< index into Scene::passes
     bool operator==(const PassOutput&) const = default;
@@ -68,20 +67,20 @@ struct Cubemap {
     bool operator==(const Cubemap&) const = default;
 };
 
-/// ShaderToy's `.bin` volume.
+/// A volume in ShaderToy's `.bin` format.
 struct Volume {
     std::filesystem::path file;
     bool operator==(const Volume&) const = default;
 };
 
-/// 256 columns by JavaScript key code: down, pressed in this frame, toggled; and, of the texture that
-/// `#iKeyboard` means, a fourth row: released in this frame.
+/// 256 columns, one per JavaScript key code; rows: down, pressed in this frame, toggled. The texture of
+/// `#iKeyboard` has a fourth row: released in this frame.
 struct Keyboard {
     int rows = 3;
     bool operator==(const Keyboard&) const = default;
 };
 
-/// Spectrum and wave of a sound file, 512 x 2; without a file the site's own signal for a silent input.
+/// Spectrum and wave of a sound file, 512 x 2 texels; without a file, ShaderToy's signal for a silent input.
 struct Music {
     std::filesystem::path file;
     bool operator==(const Music&) const = default;
@@ -93,7 +92,7 @@ struct Video {
     bool operator==(const Video&) const = default;
 };
 
-/// A generated picture, cube or volume of the same kind and size in the place of one that is not to be had.
+/// A generated picture, cube or volume of the same kind and size, in place of a file that is missing.
 struct StandIn {
     enum class Kind { picture, cubemap, volume };
     Kind kind = Kind::picture;
@@ -108,9 +107,9 @@ struct StandIn {
     bool operator==(const StandIn&) const = default;
 };
 
-/// A picture of one value: what a test looks at a scene with.
+/// A picture of one value, as a test input.
 struct Constant {
-    enum class Kind { black, white, nan, texel }; ///< texel: a single grey one
+    enum class Kind { black, white, nan, texel }; ///< texel: one grey texel
     Kind kind = Kind::black;
     bool operator==(const Constant&) const = default;
 };
@@ -118,7 +117,7 @@ struct Constant {
 using ChannelInput = std::variant<Unbound, Noise, Picture, PassOutput, Cubemap, Volume, Keyboard, Music,
                                   Video, StandIn, Constant>;
 
-/// What an input is read from, and the member of its type that names it.
+/// The source of an input, and the member of its type that names it.
 enum class ReadsFrom {
     nothing,
     file,  ///< `file`; it may be empty
@@ -126,20 +125,20 @@ enum class ReadsFrom {
     pass,  ///< `pass`
 };
 
-/// What makes an input another picture in another frame.
+/// The reason for which an input can change from frame to frame.
 enum class Changes { never, with_clock, with_keys, with_passes };
 
 struct InputTraits {
-    size_t kind;                ///< k_kind of its type
-    std::string_view name;      ///< as `inspect` calls one without a file
-    bool by_name;               ///< a directive and `--channel` ask for it by that name
-    std::string_view site_type; ///< `ctype` in ShaderToy's JSON; empty: it is not exported
+    size_t kind;                ///< k_kind of the type
+    std::string_view name;      ///< `inspect`'s name for an input without a file
+    bool by_name;               ///< directives and `--channel` accept this name
+    std::string_view site_type; ///< `ctype` in ShaderToy's JSON; empty: not exported
     ReadsFrom from;
     Changes changes;
-    bool loaded;                        ///< iChN.loaded: there is something to read
-    bool default_input;                 ///< may stand at a channel that nobody named an input for
-    std::optional<TextureKind> texture; ///< nothing: each input says it, `texture()`
-    Sampling sampling;                  ///< where a directive or its name asks for it
+    bool loaded;                        ///< iChN.loaded: there is data to read
+    bool default_input;                 ///< may be at a channel for which no input was named
+    std::optional<TextureKind> texture; ///< nullopt: depends on the input, `texture()`
+    Sampling sampling;                  ///< for an input that a directive or `--channel` names
 };
 
 template <class Kind, class... Kinds>
@@ -148,7 +147,7 @@ consteval size_t place_of(std::type_identity<std::variant<Kinds...>>) {
     (void)((std::is_same_v<Kind, Kinds> || (++place, false)) || ...);
     return place;
 }
-/// The place of a kind among those of ChannelInput.
+/// The index of a kind in ChannelInput.
 template <class Kind>
 inline constexpr size_t k_kind = place_of<Kind>(std::type_identity<ChannelInput>());
 
@@ -157,7 +156,7 @@ inline constexpr auto k_input_traits = [] {
     using enum ReadsFrom;
     using enum Changes;
     using enum TextureKind;
-    constexpr std::nullopt_t each = std::nullopt; // says it itself
+    constexpr std::nullopt_t each = std::nullopt; // depends on the input: texture()
     return std::to_array<InputTraits>({
         // kind             name             by_name  site_type   from     changes      loaded  default  texture  sampling
         {k_kind<Unbound>,    "none",          false,   "",         nothing, never,       false,  true,    each,    {}},
@@ -191,13 +190,13 @@ constexpr const InputTraits& traits_of(const ChannelInput& input) {
     return k_input_traits[input.index()];
 }
 
-/// The input that a directive or `--channel` asks for by a name of the table; nothing for any other name.
+/// Returns the input with that name in the table, for a directive or `--channel`; nullopt for any other name.
 std::optional<ChannelInput> generated_input(std::string_view name);
 
-/// The files that it is read from.
+/// Returns the files that the input is read from.
 std::span<const std::filesystem::path> input_files(const ChannelInput& input);
 
-/// The pass that draws it; null where none does.
+/// Returns the index of the pass that draws the input; null if it is not a pass's output.
 const size_t* source_pass(const ChannelInput& input);
 size_t* source_pass(ChannelInput& input);
 

@@ -18,13 +18,14 @@ using text::Token;
 using text::TokenKind;
 namespace {
 
-/// What the grammar calls VALUE: numbers, and whether all of them were written as whole numbers.
+/// VALUE in the grammar: numbers, and whether all of them were written as integers.
 struct Value {
     std::vector<double> numbers;
     bool whole = true;
 };
 
-/// What `#iChannelN::PARAM` directives say; they may stand before the source of their channel.
+/// Values of a channel's `#iChannelN::PARAM` directives, which may come before the directive that names its
+/// input.
 struct SamplingWishes {
     std::optional<Filter> magnify;
     std::optional<Filter> minify;
@@ -33,7 +34,8 @@ struct SamplingWishes {
     bool cubemap = false;
 };
 
-/// What a channel is sampled like: what only we have, by ShaderToy's defaults; pictures by the extension's.
+/// Returns the channel's sampling: the directives' values, else the defaults of its kind of input
+/// (ShaderToy's for kinds that only Tidemark has, the VS Code extension's for pictures).
 Sampling sampling_of(const Channel& channel, const SamplingWishes& wishes) {
     Sampling sampling = traits_of(channel.input).sampling;
     sampling.magnify = wishes.magnify.value_or(sampling.magnify);
@@ -43,7 +45,8 @@ Sampling sampling_of(const Channel& channel, const SamplingWishes& wishes) {
     return sampling;
 }
 
-/// A cursor over the tokens of one text. Every `expect` either moves on or explains what it wanted.
+/// A cursor over the tokens of one text. Each `expect` either advances or fails with a message about what it
+/// expected.
 class DirectiveReader {
 public:
     DirectiveReader(const text::MappedText& text, Conditional conditional)
@@ -88,22 +91,22 @@ private:
 
     const text::MappedText& text_;
     const Conditional conditional_;
-    int depth_ = 0; ///< of #if
+    int depth_ = 0; ///< nesting of #if
     std::vector<Token> tokens_;
     size_t position_ = 0;
-    int brackets_ = 0; ///< open
+    int brackets_ = 0; ///< number of open ones
     Directives directives_;
     std::unordered_map<std::string, size_t> knob_of_name_;
     std::array<SamplingWishes, k_channel_count> wishes_;
     std::vector<text::Edit> edits_;
 };
 
-/// A directive ends with its line, but for what stands in brackets.
+/// A directive ends with its line, except inside brackets.
 bool DirectiveReader::at_end() const {
     return !peek() || (peek()->first_on_line && brackets_ == 0);
 }
 
-/// Of the next token; at the end, behind the last one.
+/// Returns the place of the next token; at the end, the place after the last one.
 SourceLocation DirectiveReader::here() const {
     if (!at_end())
         return place_of(*peek());
@@ -118,7 +121,8 @@ tl::unexpected<Error> DirectiveReader::wanted(std::string_view what) const {
     return fail(error_at(here(), fmt::format("expected {} but found {}", what, found)));
 }
 
-/// Looks for its end first: without one, what is missed would be missed lines later.
+/// Looks for the closing bracket first: an error about a missing one would otherwise point lines too far
+/// down.
 Result<void> DirectiveReader::open_bracket(std::string_view open, std::string_view close) {
     const Token* bracket = peek();
     if (auto opened = expect(open); !opened)
@@ -211,7 +215,8 @@ Result<void> DirectiveReader::read_directive() {
         return read_knob(where);
     if (keyword == "iSize")
         return read_size(where);
-    if (keyword == "StrictCompatibility") // asks for what we always do: our own main() calls mainImage
+    // Tidemark always does what it requests: our own main() calls mainImage
+    if (keyword == "StrictCompatibility")
         return {};
     if (keyword == "iKeyboard") {
         directives_.keyboard_helpers = true;
@@ -320,7 +325,7 @@ Result<void> DirectiveReader::read_channel_parameter(SamplingWishes& wishes) {
                                     parameter)));
 }
 
-/// `800x450` is several tokens: a number and what is glued to it.
+/// `800x450` is several tokens: a number and those glued to it.
 Result<void> DirectiveReader::read_size(const SourceLocation& where) {
     if (at_end())
         return wanted("a size in pixels, as in 800x450");

@@ -34,7 +34,8 @@ bool is_read_by_another(const Scene& scene, size_t pass) {
     return false;
 }
 
-/// Names alone do not say who reads whom: whoever wrote a buffer and no directive sees noise in its place.
+/// Warns of a buffer or cube that no other pass reads. Passes found by file name read nothing unless a
+/// directive says so; without one the channel is noise.
 void warn_of_unread(Scene& scene, const PassFiles& files) {
     for (size_t pass = 0; pass < scene.passes.size(); ++pass)
         for (const auto& [name, file] : files)
@@ -76,7 +77,7 @@ Result<Scene> load_by_names(const fs::path& folder, const PassFiles& files, cons
     return scene;
 }
 
-/// A file that looks like a pass and is none: somebody added it and expects to see it.
+/// Warns of a file that is named like a pass but unused: its author expects to see it.
 void warn_of_unused(Scene& scene, const PassFiles& files, const fs::path& project) {
     for (const auto& [name, file] : files)
         if (std::find(scene.files.begin(), scene.files.end(), file) == scene.files.end())

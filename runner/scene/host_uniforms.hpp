@@ -1,4 +1,4 @@
-// The uniforms that the host gives a shader: those of ShaderToy's prologue, and our own.
+// The uniforms that the host sets: those of ShaderToy's prologue, the VS Code extension's and Tidemark's own.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace tidemark::scene {
 struct SiteUniform {
     std::string_view name;
     std::string_view type;
-    int length = 0;     ///< of an array; 0 for none
-    bool image = true;  ///< declared where pictures are drawn
+    int length = 0;     ///< array length; 0: not an array
+    bool image = true;  ///< declared in passes that draw pictures
     bool sound = false; ///< declared in the Sound pass
 };
 
@@ -36,19 +36,20 @@ inline constexpr std::array<std::string_view, 10> k_channel_names{
     "iChannel5", "iChannel6", "iChannel7", "iChannel8", "iChannel9"};
 inline constexpr std::array<std::string_view, 4> k_channel_structs{"iCh0", "iCh1", "iCh2", "iCh3"};
 
-/// What the VS Code extension gives beside those: the buttons of the mouse that are down (x left, y right),
-/// and a camera to world that is the identity until a person moves it.
+/// The VS Code extension's own: the mouse buttons that are down (x left, y right), and a camera-to-world
+/// matrix that is the identity until the user moves the view.
 inline constexpr std::string_view k_mouse_button_uniform = "iMouseButton";
 inline constexpr std::string_view k_view_uniform = "iViewMatrix";
 
-/// Ours, for scenes that declare them: the matrix of the orbit camera, and what iTime, rounded to a float,
-/// leaves of the seconds; and for scenes with a view of their own, how that camera was moved.
+/// Tidemark's own, for scenes that declare them: the matrix of the orbit camera; for scenes with a camera of
+/// their own, how the user moved it (orbit and pan); and the remainder of the time in seconds after iTime is
+/// rounded to a float.
 inline constexpr std::string_view k_camera_uniform = "iCamera";
 inline constexpr std::string_view k_orbit_uniform = "iOrbit";
 inline constexpr std::string_view k_orbit_pan_uniform = "iOrbitPan";
 inline constexpr std::string_view k_time_low_uniform = "iTimeLow";
 
-/// A name that a scene may not give to a uniform of its own with another meaning.
+/// Returns whether a scene must not use the name for a uniform of its own.
 inline bool is_host_uniform(std::string_view name) {
     const auto is_name = [&](std::string_view taken) { return taken == name; };
     return std::ranges::any_of(k_site_uniforms, is_name, &SiteUniform::name) ||

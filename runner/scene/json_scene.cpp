@@ -20,7 +20,7 @@ Result<Scene> load_json_scene(const fs::path& path, const LoadOptions& options) 
     const std::string bytes = unsaved ? *unsaved : TRY(read_file(path));
     const CodeIn code = path.filename() == k_project_file ? CodeIn::files : CodeIn::json;
     auto project = TRY(read_project(bytes, path.string(), code));
-    // `tidemark view folder/scene.json` means the folder.
+    // `tidemark view folder/scene.json` opens the folder.
     for (const ProjectPass& pass : project.passes)
         if (pass.file)
             return load_folder_scene(path.parent_path().empty() ? fs::path(".") : path.parent_path(),

@@ -1,4 +1,4 @@
-// From ShaderToy's JSON to a Scene.
+// Loads ShaderToy's JSON as a Scene.
 #pragma once
 
 #include "base/result.hpp"
@@ -9,8 +9,8 @@
 
 namespace tidemark::scene {
 
-/// Reads a project in one `.json`. Messages place its lines at `x.json:Buffer A`, line 1 being the first line
-/// of the pass. Its texts are ShaderToy's own: directives and includes in them are the driver's business.
+/// Reads a project in one `.json`. Messages give its lines as `x.json:Buffer A`, with line 1 the first line
+/// of the pass. The texts are ShaderToy's: directives and includes in them are left to the driver.
 Result<Scene> load_json_scene(const std::filesystem::path& path, const LoadOptions& options);
 
 } // namespace tidemark::scene

@@ -10,12 +10,12 @@
 namespace tidemark::scene {
 namespace {
 
-// A project has some 200 values, 6 levels and 15 members in its longest object.
+// Limits. A typical large project has some 200 values, 6 levels and 15 members in its longest object.
 constexpr size_t k_deepest = 64;
-constexpr size_t k_most_members = 1024; // an object looks its keys up one by one
+constexpr size_t k_most_members = 1024; // an object searches its keys one by one
 constexpr size_t k_most_values = size_t{1} << 20;
 
-/// What a look at the brackets and strings tells, without building anything.
+/// Checks the limits by brackets, commas and strings alone, without building a tree.
 class Survey {
 public:
     Survey(std::string_view text, const std::string& file) : text_(text), file_(file) {}
@@ -49,7 +49,7 @@ public:
         return {};
     }
 
-    /// Where a `\uXXXX` stands that is only half a character.
+    /// Positions of `\uXXXX` escapes that are only half of a surrogate pair.
     const std::vector<size_t>& lone_surrogates() const { return lone_surrogates_; }
 
 private:
@@ -63,7 +63,7 @@ private:
             error_at({file_, line_, 0}, fmt::format("this JSON {}: it is no ShaderToy project", what)));
     }
 
-    /// The code unit of a `\uXXXX` at `at`; 0 when there is none.
+    /// Returns the code unit of a `\uXXXX` at `at`; 0 if there is none.
     unsigned escape_at(size_t at) const {
         if (at + 6 > text_.size() || text_[at] != '\\' || text_[at + 1] != 'u')
             return 0;
@@ -114,7 +114,7 @@ SourceLocation locate(std::string_view text, size_t offset, const std::string& f
             int(before.size() - line_begin) + 1};
 }
 
-/// The library's message without its own name and place, and without the rest of the text.
+/// Returns the library's message without its prefix, its position and the quoted rest of the text.
 std::string_view plain_words(std::string_view what) {
     const size_t syntax = what.find("syntax error");
     what = syntax == std::string_view::npos ? what.substr(what.find("] ") + 2) : what.substr(syntax);

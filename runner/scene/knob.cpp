@@ -46,7 +46,7 @@ std::optional<KnobValue> parse_hex_colour(std::string_view text) {
                      0};
 }
 
-/// The components between commas; nothing when one of them is no number or there are more than four.
+/// Parses numbers separated by commas; nullopt if one is not a number or there are more than four.
 std::optional<std::vector<double>> parse_list(std::string_view text) {
     std::vector<double> numbers;
     while (true) {
@@ -61,7 +61,7 @@ std::optional<std::vector<double>> parse_list(std::string_view text) {
     }
 }
 
-/// What stands between the parentheses of `vec3(…)`; the text itself when it has no such form.
+/// Returns the text between the parentheses of `vec3(…)`; the whole text if it does not have that form.
 std::string_view without_constructor(std::string_view text, const KnobTypeInfo& type) {
     for (const std::string_view name : {type.directive_name, type.glsl_name}) {
         std::string_view rest = text;

@@ -1,4 +1,4 @@
-// A knob: a uniform that the scene declares with `#iUniform` for a person to turn.
+// A knob: a uniform that the scene declares with `#iUniform` for the user to change.
 #pragma once
 
 #include "base/result.hpp"
@@ -15,7 +15,7 @@ namespace tidemark::scene {
 
 enum class KnobType { float1, vec2, vec3, vec4, color3, int1, ivec2, ivec3, ivec4 };
 
-/// The type as the directive and as GLSL spell it, how many components it has, whether they are whole.
+/// A type's names in directives and in GLSL, its number of components, and whether they are integers.
 struct KnobTypeInfo {
     KnobType type;
     std::string_view directive_name;
@@ -27,7 +27,7 @@ struct KnobTypeInfo {
 const KnobTypeInfo& info(KnobType type);
 const KnobTypeInfo* find_knob_type(std::string_view directive_name);
 
-/// One number for each component; those that the type lacks stay 0.
+/// One number per component; unused components are 0.
 using KnobValue = std::array<double, 4>;
 
 struct KnobRange {
@@ -38,37 +38,37 @@ struct KnobRange {
 struct Knob {
     std::string name;
     KnobType type = KnobType::float1;
-    KnobValue initial{}; ///< as the scene declares it
+    KnobValue initial{}; ///< the scene's default
     KnobValue value{};
-    std::optional<KnobRange> range{}; ///< what a slider offers; a value may lie outside
+    std::optional<KnobRange> range{}; ///< a slider's range; a value may lie outside
     std::optional<KnobValue> step{};
     SourceLocation where{};
 };
 
-/// Reads `0.5`, `1,2,3`, `vec3(1, 2, 3)`, or, for a colour, `#rrggbb`. One number stands for all components;
-/// `default` is what the scene declares. The error (ErrorCode::usage) says what the knob takes.
+/// Parses `0.5`, `1,2,3`, `vec3(1, 2, 3)` or, for a colour, `#rrggbb`. One number sets all components;
+/// `default` is the scene's default. The error (ErrorCode::usage) says what the knob accepts.
 Result<KnobValue> parse_knob_value(const Knob& knob, std::string_view text);
 
 inline constexpr std::string_view k_default_value = "default";
 
-/// What it is once it was set to these in turn: the last that it takes decides.
+/// Returns the value after applying the settings in order: the last valid one counts.
 KnobValue value_after(const Knob& knob, std::span<const Setting> settings);
 
-/// Whether a component of a whole-number type can hold `number`, which is whole.
+/// Returns whether `number`, an integer, fits a component of an integer type.
 inline bool fits_int(double number) {
     return number >= -2147483648.0 && number <= 2147483647.0;
 }
 
-/// The knob of that name, or an error with the nearest name there is.
+/// Returns the knob of that name, or an error that suggests the nearest name.
 Result<Knob*> find_knob(std::vector<Knob>& knobs, std::string_view name);
 
-/// `0.5`, `vec3(1, 2, 3)`: a value of the knob as a person writes it in GLSL.
+/// Formats a value of the knob as in GLSL: `0.5`, `vec3(1, 2, 3)`.
 std::string to_string(const Knob& knob, const KnobValue& value);
 inline std::string to_string(const Knob& knob) {
     return to_string(knob, knob.value);
 }
 
-/// The same as a directive has it, which calls a colour by its own name: `color3(1, 0.5, 0)`.
+/// Formats the knob's value as in a directive, which has its own name for colours: `color3(1, 0.5, 0)`.
 std::string to_literal(const Knob& knob);
 
 } // namespace tidemark::scene

@@ -12,13 +12,14 @@ namespace {
 
 using text::Token;
 
-/// What stands between two places of a text.
+/// A range of byte offsets in a text.
 struct Span {
     size_t begin;
     size_t end;
 };
 
-/// The tokens of `= VALUE`, `equals` at the `=`: a number with its sign, or `TYPE(…)`.
+/// Returns the index after the tokens of `= VALUE`, with `equals` at the `=`: a number with its sign, or
+/// `TYPE(…)`.
 size_t end_of_value(const std::vector<Token>& tokens, size_t equals) {
     size_t i = equals + 1;
     if (i < tokens.size() && (tokens[i].is("-") || tokens[i].is("+")))
@@ -31,7 +32,7 @@ size_t end_of_value(const std::vector<Token>& tokens, size_t equals) {
     return std::min(i + 1, tokens.size());
 }
 
-/// Where the name of a knob ends, and its default, if it has one.
+/// Returns the range from the end of a knob's name to the end of its default, if it has one.
 std::optional<Span> place_of_default(const std::vector<Token>& tokens, std::string_view name) {
     for (size_t i = 0; i + 3 < tokens.size(); ++i) {
         if (!tokens[i].is("#") || !tokens[i + 1].is("iUniform") || !tokens[i + 3].is(name))

@@ -1,5 +1,5 @@
-// Values of knobs written into the `#iUniform` lines that declare them. Text in, text out: reads and writes
-// no file.
+// Writes values of knobs into the `#iUniform` lines that declare them. Text in, text out: reads and writes no
+// files.
 #pragma once
 
 #include "base/result.hpp"
@@ -11,8 +11,8 @@
 
 namespace tidemark::scene {
 
-/// The text of a file with the value of each of these knobs as its default; nothing else in it changes. Fails
-/// (ErrorCode::write) where it does not declare one of them.
+/// Returns the text of a file with the value of each of these knobs as its default; nothing else changes.
+/// Fails (ErrorCode::write) if it does not declare one of them.
 Result<std::string> with_defaults(std::string_view text, const std::vector<Knob>& knobs);
 
 } // namespace tidemark::scene

@@ -1,4 +1,4 @@
-// What the person who opens a scene allows it and gives it.
+// The options with which a user opens a scene.
 #pragma once
 
 #include <filesystem>
@@ -7,13 +7,13 @@
 
 namespace tidemark::scene {
 
-/// What editors hold of files and have not saved, by the files' weakly canonical paths.
+/// Texts of files that are open in an editor and not saved, by weakly canonical path.
 using UnsavedTexts = std::map<std::filesystem::path, std::string>;
 
 struct LoadOptions {
-    std::filesystem::path media; ///< --media: where ShaderToy's media files are looked up by name
+    std::filesystem::path media; ///< --media: folder of ShaderToy's media files, by name
     bool allow_outside = false;  ///< --allow-outside: files may lie outside the scene's folder
-    UnsavedTexts unsaved{};      ///< read instead of the files that hold shaders
+    UnsavedTexts unsaved{};      ///< read in place of shader files on disk
 };
 
 } // namespace tidemark::scene

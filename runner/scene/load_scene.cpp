@@ -9,14 +9,14 @@ namespace tidemark::scene {
 namespace fs = std::filesystem;
 namespace {
 
-/// The error with the files that were read before it: a change of one of them may mend it.
+/// Adds the files read before the error: a change to one of them may fix it.
 Error with_files(Error error, const Scene& scene) {
     for (const fs::path& file : scene.files)
         error.files.push_back(file.string());
     return error;
 }
 
-/// A single file: Image, and whatever buffers its channels name.
+/// Loads a single file: Image, and the buffers that channels name.
 Result<Scene> load_file_scene(const fs::path& path, const LoadOptions& options) {
     Scene scene;
     scene.file = path;

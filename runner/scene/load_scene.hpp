@@ -1,4 +1,4 @@
-// From a path to a Scene, whatever form the scene has.
+// Loads a Scene from a path, whatever its form.
 #pragma once
 
 #include "base/result.hpp"

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int k_buffers = 4;
 
-/// ShaderToy's own files for what we generate, as its API names them.
+/// ShaderToy's own files for the textures that Tidemark generates, as its API names them.
 struct NoiseFile {
     NoiseKind kind;
     int id;
@@ -77,7 +77,7 @@ public:
     }
 
 private:
-    /// A buffer keeps the letter of its name; others get what is left, in the order of drawing.
+    /// Gives each buffer the letter in its name; the others get the free letters, in drawing order.
     Result<void> number_buffers() {
         numbers_.assign(scene_.passes.size(), -1);
         std::array<bool, k_buffers> taken{};
@@ -105,7 +105,7 @@ private:
                              Severity::warning, std::move(message)});
     }
 
-    /// ShaderToy knows no size, and overlooks what it does not know: an import finds it here.
+    /// Adds `size`: ShaderToy has no such field and ignores it, but an import reads it here.
     Json image_of(const Pass& pass) {
         Json json = pass_of(pass, "image", "Image", 37);
         if (scene_.size)
@@ -165,7 +165,7 @@ private:
             channel.input);
     }
 
-    /// Without a file it is what the site hears and sees at the moment.
+    /// Returns the live microphone or webcam for an input without a file, since ShaderToy uses those.
     template <class Played>
     Json live_or_file(const Played& input, int id, std::string_view type, const Channel& channel) {
         if (!input.file.empty())
@@ -189,7 +189,7 @@ private:
                 {"ctype", "buffer"}};
     }
 
-    /// What the scene brings along.
+    /// Returns a file of the scene's own, with a warning: ShaderToy does not have it.
     Json own_file(const Channel& channel) {
         const auto files = input_files(channel.input);
         const std::string source =
@@ -206,7 +206,7 @@ private:
 
     const Scene& scene_;
     std::vector<Diagnostic>& warnings_;
-    std::vector<int> numbers_; ///< of each pass that is a buffer
+    std::vector<int> numbers_; ///< for each pass that is a buffer; -1: no buffer
 };
 
 } // namespace
@@ -226,7 +226,7 @@ Result<std::string> make_project(const Scene& scene, std::vector<Diagnostic>& wa
     auto json = TRY(ProjectWriter(scene, warnings).write());
     try {
         return json.dump(k_json_indent) + "\n";
-    } catch (const Json::type_error&) { // JSON is Unicode
+    } catch (const Json::type_error&) { // JSON must be Unicode
         return fail(ErrorCode::load,
                     fmt::format("'{}' has a text that is not UTF-8: save it as that, for JSON is",
                                 scene.file.string()));

@@ -12,7 +12,7 @@ namespace {
 using enum MediaKind;
 constexpr std::nullopt_t no = std::nullopt;
 
-/// Numbers and names before 2017 go together: tex00 to tex09 are 1 to 10, and so on by date of appearance.
+/// Numbers and names before 2017 correspond: tex00 to tex09 are 1 to 10, later ones by date of appearance.
 constexpr Media k_media[] = {
     {"RGBA Noise Medium", "f735bee5", "tex16", "30", "Xsf3zn", picture, 256, 256, 4, NoiseKind::rgba_256},
     {"RGBA Noise Small", "3083c722", "tex11", "16", "XdXGzn", picture, 64, 64, 4, NoiseKind::rgba_64},
@@ -57,14 +57,15 @@ constexpr Media k_media[] = {
     {"", "48e2d9ef", "mzk06", "35", "", music, 512, 2, 1, no},
 };
 
-/// The last part of a URL or path, whatever stands behind `?` left out.
+/// Returns the last part of a URL or path, without anything from `?` on.
 std::string_view base_name_of(std::string_view source) {
     source = source.substr(0, source.find('?'));
     const size_t slash = source.find_last_of('/');
     return slash == std::string_view::npos ? source : source.substr(slash + 1);
 }
 
-/// A path that ShaderToy writes from its own root, as a path under the media folder; empty when it climbs.
+/// Returns a path from ShaderToy's root as a path under the media folder; empty if it leads out of that
+/// folder.
 fs::path relative_path_of(std::string_view source) {
     const fs::path path = fs::path(source.substr(0, source.find('?'))).relative_path().lexically_normal();
     return path.empty() || *path.begin() == ".." ? fs::path() : path;
@@ -75,7 +76,7 @@ bool is_file(const fs::path& path) {
     return fs::is_regular_file(path, ignored);
 }
 
-/// `x.png` with a `_3` before its extension.
+/// Returns `x.png` with `_3`, for example, before its extension.
 std::string face_name(std::string_view base_name, int face) {
     const size_t dot = std::min(base_name.find_last_of('.'), base_name.size());
     return fmt::format("{}_{}{}", base_name.substr(0, dot), face, base_name.substr(dot));

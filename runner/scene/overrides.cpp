@@ -21,7 +21,8 @@ bool in_range(const Knob& knob) {
     return true;
 }
 
-/// How to say what has no `=` in it: a number, of a pass perhaps, wants a source; a source wants a number.
+/// Suggests the right form for a setting without `=`: a number, possibly with a pass, lacks an input; an
+/// input lacks a number.
 std::string channel_setting_like(std::string_view setting) {
     const std::string_view number = setting.substr(setting.rfind(':') + 1);
     if (!number.empty() && number.find_first_not_of("0123456789") == number.npos)
@@ -30,7 +31,7 @@ std::string channel_setting_like(std::string_view setting) {
     return fmt::format("0={}", setting.empty() || setting.front() == '=' ? "noise" : setting);
 }
 
-/// What only `--channel` knows.
+/// Returns the inputs that only `--channel` accepts.
 std::optional<ChannelInput> test_input(std::string_view name) {
     constexpr std::pair<std::string_view, Constant::Kind> k_names[] = {{"black", Constant::Kind::black},
                                                                        {"white", Constant::Kind::white},
@@ -44,7 +45,7 @@ std::optional<ChannelInput> test_input(std::string_view name) {
     return std::nullopt;
 }
 
-/// Image, or the pass that stands before a colon, with the number behind it.
+/// Returns the pass named before the colon, or Image, and the channel's number as text.
 Result<std::pair<Pass*, std::string_view>> channel_of(Scene& scene, std::string_view place) {
     const size_t colon = place.rfind(':');
     if (colon == std::string_view::npos)
@@ -85,7 +86,7 @@ Result<void> override_channel(Scene& scene, std::string_view setting) {
         return fail(ErrorCode::usage,
                     fmt::format("--channel {}: '{}' is a pass: a scene names it with #iChannel{}", setting,
                                 what, number));
-    // The person's own path: no bounds.
+    // The user's own path: no bounds.
     Channel channel;
     channel.input = test ? *test : input_of_name(what, {});
     if (const InputTraits& traits = traits_of(channel.input); traits.by_name)

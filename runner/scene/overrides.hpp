@@ -1,4 +1,4 @@
-// What the command line changes in a scene that is loaded: `--channel` and `--set`.
+// Changes a loaded scene as the options `--channel` and `--set` say.
 #pragma once
 
 #include "base/result.hpp"
@@ -9,14 +9,14 @@
 
 namespace tidemark::scene {
 
-/// Carries out `--channel [PASS:]N=WHAT`: a picture file, `noise`, `none`; sampled as ShaderToy's textures
-/// are.
+/// Applies `--channel [PASS:]N=WHAT`, where WHAT is a picture file, `noise`, `none` or another input; sampled
+/// like ShaderToy's textures.
 Result<void> override_channel(Scene& scene, std::string_view setting);
 
-/// Carries out `--set NAME=VALUE`. A value outside of the knob's range is taken, with a warning.
+/// Applies `--set NAME=VALUE`. Accepts a value outside the knob's range, with a warning.
 Result<void> override_knob(Scene& scene, std::string_view setting);
 
-/// NAME and VALUE of `NAME=VALUE`; the error names the option that wants this form.
+/// Splits `NAME=VALUE`; the error names the option that needs this form.
 Result<std::pair<std::string_view, std::string_view>> split_setting(std::string_view setting,
                                                                     std::string_view option);
 

@@ -10,13 +10,13 @@ namespace tidemark::scene {
 namespace {
 
 constexpr std::string_view k_key = "\"renderpass\"";
-// Of a page that is no page: the time stays linear. A project has its key within some kilobytes, behind its
-// description.
+// Limits that keep the time linear on pages that hold no project. A project has its key within some
+// kilobytes, after its description.
 constexpr size_t k_most_keys = 16;
 constexpr size_t k_most_braces = 256;
 constexpr size_t k_farthest_key = size_t{1} << 16;
 
-/// Behind the string that begins at `at`; JSON has no line end in one.
+/// Returns the position after the string that begins at `at`; JSON strings have no line ends.
 size_t string_end(std::string_view text, size_t at) {
     for (++at; at < text.size() && text[at] != '"' && text[at] != '\n'; ++at)
         if (text[at] == '\\')
@@ -26,10 +26,10 @@ size_t string_end(std::string_view text, size_t at) {
 
 struct Walked {
     size_t at;
-    int depth; ///< brackets that are open there
+    int depth; ///< number of brackets open there
 };
 
-/// From the bracket at `begin` to `end`, or behind its counterpart.
+/// Walks from the bracket at `begin` to its counterpart, and past it, or to `end`.
 Walked walk(std::string_view text, size_t begin, size_t end) {
     Walked walked = {begin, 0};
     do {
@@ -40,8 +40,8 @@ Walked walk(std::string_view text, size_t begin, size_t end) {
     return walked;
 }
 
-/// The object that has the key at `key` for its own; empty: none. What stands before it may be any script,
-/// so it is looked for backwards, brace by brace.
+/// Returns the object that has the key at `key` as a direct member; empty if there is none. The text before
+/// it may be any script, so its brace is searched backwards.
 std::string_view object_around(std::string_view text, size_t key) {
     size_t brace = key;
     for (size_t tried = 0; tried < k_most_braces && brace > 0; ++tried) {
@@ -70,7 +70,7 @@ std::vector<std::string> objects_in(std::string_view text) {
     return objects;
 }
 
-/// What scripts say, and what is left of the page without them.
+/// The scripts of a page, and its text without them.
 struct Page {
     std::string scripts;
     std::string rest;
@@ -95,7 +95,7 @@ Page take_apart(std::string_view text) {
     return page;
 }
 
-/// The characters that a page cannot show as they are.
+/// Replaces HTML entities by their characters.
 std::string without_entities(std::string_view text) {
     constexpr std::array<std::pair<std::string_view, char>, 7> k_entities = {{{"&quot;", '"'},
                                                                               {"&#34;", '"'},
@@ -129,7 +129,7 @@ std::vector<std::string> projects_in_page(std::string_view text) {
         found = objects_in(without_entities(page.rest));
     if (!found.empty())
         return found;
-    // In an attribute a quote is an entity, and one that is none is the attribute's own.
+    // In an attribute, quotes are entities; a plain quote ends the attribute.
     std::replace(page.rest.begin(), page.rest.end(), '"', '\n');
     return objects_in(without_entities(page.rest));
 }

@@ -1,4 +1,4 @@
-// A saved web page as a place where JSON stands: text in, the texts of the projects in it out.
+// Finds ShaderToy projects in a saved web page: text in, the JSON texts of the projects out.
 #pragma once
 
 #include <string>
@@ -7,11 +7,12 @@
 
 namespace tidemark::scene {
 
-/// Whether a text is a page rather than JSON.
+/// Returns whether a text is HTML rather than JSON.
 bool is_page(std::string_view text);
 
-/// The JSON objects in a page that have the key `renderpass`: in its scripts; else in what it shows, as a
-/// browser saves JSON that it was asked to show; else in attributes. In time linear in the page.
+/// Returns the JSON objects in a page that have the key `renderpass`: from its scripts; if there are none,
+/// from its visible text, as when a browser saves a page of JSON; if there are none, from attributes. Takes
+/// time linear in the page.
 std::vector<std::string> projects_in_page(std::string_view page);
 
 } // namespace tidemark::scene

@@ -15,7 +15,7 @@ namespace tidemark::scene {
 namespace fs = std::filesystem;
 namespace {
 
-/// Enough for every scene; a chain of thousands of files is a mistake or a trap.
+/// Enough for every real scene; a chain of thousands of files is a mistake or an attack.
 constexpr size_t k_most_passes = 64;
 
 bool is_same_file(const fs::path& a, const fs::path& b) {
@@ -41,7 +41,7 @@ size_t PassLoader::add(Draft draft, Order order) {
 
 Result<PassLoader::FileText> PassLoader::read(const fs::path& file) {
     const auto read_text = [&](const fs::path& path) -> Result<std::string> {
-        // The person who named the scene may name a link.
+        // The path that the user gave may be a link.
         if (path != scene_.file.lexically_normal())
             TRY(bounds_.check(path));
         if (const std::string* held = bounds_.unsaved(path))
@@ -51,7 +51,7 @@ Result<PassLoader::FileText> PassLoader::read(const fs::path& file) {
         return read_file(path).map(plain_text);
     };
     auto expanded = TRY(text::expand_includes(file, read_text, bounds_.library()));
-    for (const auto* paths : {&expanded.files, &expanded.missing}) // a missing one may come
+    for (const auto* paths : {&expanded.files, &expanded.missing}) // a missing one may appear later
         for (const fs::path& path : *paths)
             note_file(scene_, path);
     auto directives = TRY(take_directives(expanded.text, conditional_));
@@ -60,7 +60,7 @@ Result<PassLoader::FileText> PassLoader::read(const fs::path& file) {
     return FileText{std::move(expanded.text), std::move(directives), std::move(expanded.files)};
 }
 
-/// A knob that several passes declare alike is one knob: it has one slider and one value.
+/// A knob that several passes declare with the same type is one knob: it has one slider and one value.
 Result<void> PassLoader::add_knobs(std::vector<Knob> knobs) {
     for (Knob& knob : knobs) {
         const auto [found, is_new] = knob_of_name_.try_emplace(knob.name, scene_.knobs.size());
@@ -85,7 +85,7 @@ Result<void> PassLoader::load_common(const fs::path& file) {
     return {};
 }
 
-/// A text that several scenes share has no say in how large one of them is seen.
+/// Only `#iSize` in Image's own file counts: a text that several scenes share must not set one scene's size.
 Result<void> PassLoader::take_size(const Directives& directives, const fs::path& image) {
     const StatedSize* taken = nullptr;
     for (const StatedSize& size : directives.sizes) {
@@ -129,7 +129,8 @@ Result<void> PassLoader::bind(size_t draft, const Directives& directives) {
     for (size_t i = 0; i < directives.sources.size(); ++i) {
         Channel channel = directives.channels[i];
         if (directives.sources[i].empty()) {
-            // Not named. Of a file alone the channel reads noise, perhaps with a sampler of its own.
+            // No directive names it. In a file that is not part of a project it reads noise, perhaps with
+            // another sampler.
             if (conditional_ == Conditional::read)
                 drafts_[draft].pass.channels[i] = std::move(channel);
             continue;
@@ -185,7 +186,8 @@ Result<ChannelInput> PassLoader::output_of_file(size_t reader, const fs::path& f
     draft.file = file;
     const size_t added = add(std::move(draft), Order::by_reading);
     if (auto loaded = load(added); !loaded) {
-        if (loaded.error().diagnostics.empty()) // the file itself cannot be read: say who wants it
+        // the file itself cannot be read: the error is at the directive
+        if (loaded.error().diagnostics.empty())
             return fail(error_at(where, loaded.error().message));
         return fail(std::move(loaded.error()));
     }

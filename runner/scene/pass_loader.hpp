@@ -1,4 +1,4 @@
-// Passes that stand in files of their own: reads a file with its includes and directives, and follows its
+// Loads passes from files of their own: reads a file with its includes and directives, and follows its
 // channels to the other files that they name.
 #pragma once
 
@@ -15,26 +15,25 @@
 
 namespace tidemark::scene {
 
-/// Fills one Scene. The passes that are known beforehand are added first, then loaded one by one in the order
-/// of drawing; a buffer that only a channel names (`#iChannel0 "blur.glsl"`) is loaded, once, before the pass
-/// that reads it.
+/// Fills one Scene. Add the passes known beforehand first, then load them one by one in drawing order. A
+/// buffer that only a channel names (`#iChannel0 "blur.glsl"`) is loaded once, before the pass that reads it.
 class PassLoader {
 public:
     PassLoader(Scene& scene, std::filesystem::path folder, const Bounds& bounds,
                Conditional conditional = Conditional::read);
 
-    /// ShaderToy's passes have their order by name and may read each other as they like: who is drawn later
-    /// reads this frame. Other files are drawn before those that read them.
+    /// ShaderToy's passes are ordered by name and may read each other freely: a pass drawn later reads this
+    /// frame's output. Other files are drawn before those that read them.
     enum class Order { by_name, by_reading };
 
-    /// Adds a pass that is known beforehand; gives its number among the drafts.
+    /// Adds a pass known beforehand; returns its index among the drafts.
     size_t add(Draft draft, Order order = Order::by_name);
-    /// Reads the draft's file, if it has one. A channel that no directive names keeps what it has.
+    /// Reads the draft's file, if it has one. A channel that no directive names keeps its input.
     Result<void> load(size_t draft);
-    /// Reads a file that stands in front of all passes, behind what stands there already. Comes before the
-    /// passes: one that includes the file itself does not get it a second time.
+    /// Reads a file that precedes the text of all passes, after those read before it. Call it before `load`.
+    /// A pass that includes the file itself does not get it a second time.
     Result<void> load_common(const std::filesystem::path& file);
-    /// The Scene is complete.
+    /// Completes the Scene.
     Result<void> finish();
 
 private:
@@ -45,7 +44,7 @@ private:
     };
 
     Result<FileText> read(const std::filesystem::path& file);
-    /// `image`: the file of Image that is read; empty where another one is.
+    /// `image` is Image's file; empty for other passes and Common.
     Result<void> take_size(const Directives& directives, const std::filesystem::path& image);
     Result<void> add_knobs(std::vector<Knob> knobs);
     Result<void> bind(size_t draft, const Directives& directives);
@@ -57,19 +56,19 @@ private:
     std::string cycle_from(size_t draft) const;
 
     Scene& scene_;
-    const std::filesystem::path folder_; ///< of the scene
+    const std::filesystem::path folder_; ///< the scene's folder
     const Bounds& bounds_;
     const Conditional conditional_;
     std::vector<Draft> drafts_;
-    std::unordered_map<std::string, size_t> knob_of_name_; ///< of the scene's
+    std::unordered_map<std::string, size_t> knob_of_name_; ///< indices into the scene's knobs
     std::vector<size_t> order_;
-    std::vector<size_t> loading_; ///< buffers that wait for those they read
+    std::vector<size_t> loading_; ///< buffers waiting for those that they read
     struct Common {
         std::filesystem::path file;
         text::MappedText text;
     };
     std::vector<Common> commons_;
-    // For each draft:
+    // One entry per draft:
     std::vector<std::vector<std::filesystem::path>> included_;
     std::vector<Order> order_of_;
 };

@@ -18,13 +18,13 @@ constexpr std::pair<std::string_view, Kind> k_kinds[] = {
     {"sound", Kind::sound}, {"cubemap", Kind::cubemap},
 };
 
-/// The first of the two keys that says something: the API's, then the site's.
+/// Returns the value of the first key, which is the API's; if it is empty, of the second, the site's.
 std::string either(const Json& object, const char* first, const char* second) {
     std::string text = as_text(object, first);
     return text.empty() ? as_text(object, second) : text;
 }
 
-/// ShaderToy's truth is a string.
+/// Returns a boolean as text, since ShaderToy writes them as strings.
 std::string flag(const Json& object, const char* key) {
     const auto found = object.find(key);
     if (found != object.end() && found->is_boolean())
@@ -52,7 +52,7 @@ public:
     }
 
 private:
-    /// More than ShaderToy ever allowed; a list of thousands is something else.
+    /// ShaderToy allows 8; a list of thousands is something else.
     static constexpr size_t k_most_passes = 64;
 
     tl::unexpected<Error> refuse(std::string message) const {
@@ -88,7 +88,7 @@ private:
         } else if (code_in_ == CodeIn::json || (code != json.end() && !code->is_null()))
             return refuse(fmt::format("{} has no code", called));
         else
-            pass.file.emplace(); // named below, when all passes are known
+            pass.file.emplace(); // named in read(), when all passes are known
         pass.size = as_text(json, "size");
         read_outputs(json, pass);
         read_inputs(json, called, pass);
@@ -96,7 +96,7 @@ private:
         return {};
     }
 
-    /// By its type; where that is missing, by its name.
+    /// Returns the kind by the pass's type; if that is missing, by its name.
     static std::optional<Kind> kind_of(const Json& json, std::string_view name) {
         const std::string type = as_text(json, "type");
         for (const auto& [word, kind] : k_kinds)
@@ -156,7 +156,7 @@ private:
     Project project_;
 };
 
-/// Names for the passes of one kind that ShaderToy has only once.
+/// Returns a name for a pass of a kind that ShaderToy has only once.
 std::string numbered(std::string_view name, int count) {
     return count == 1 ? std::string(name) : fmt::format("{} {}", name, count);
 }
@@ -178,7 +178,7 @@ std::vector<std::string> pass_names(const Project& project) {
     const auto is_free = [&](const std::string& name) {
         return std::find(names.begin(), names.end(), name) == names.end();
     };
-    // What it draws tells which buffer it is; then what its author called it; then what is left.
+    // Buffers are named by what they draw, then by their author's name, then by the next free letter.
     for (int round = 0; round < 3; ++round)
         for (size_t i = 0; i < names.size(); ++i) {
             const ProjectPass& pass = project.passes[i];

@@ -1,6 +1,5 @@
-// A ShaderToy project as its JSON tells it, whatever the dialect of the JSON: passes with their code and
-// their inputs, still by ShaderToy's names. What the names mean is decided in
-// project_inputs.hpp.
+// A ShaderToy project as its JSON has it, in any of the JSON's dialects: passes with code and inputs, still
+// under ShaderToy's names. project_inputs.hpp resolves the names.
 #pragma once
 
 #include "base/result.hpp"
@@ -15,8 +14,8 @@
 
 namespace tidemark::scene {
 
-/// What one channel of a pass reads. All texts are as the JSON has them (numbers as their digits), empty
-/// where it has nothing.
+/// The input of one channel of a pass. All texts are as in the JSON (numbers as their digits), empty if
+/// missing.
 struct ProjectInput {
     int channel = 0;
     std::string type; ///< texture, buffer, cubemap, volume, keyboard, music, musicstream, mic, video, webcam
@@ -30,12 +29,12 @@ struct ProjectInput {
 struct ProjectPass {
     using Kind = PassName::Kind;
     Kind kind = Kind::image;
-    std::string name;   ///< the author's, for messages only
-    std::string output; ///< id of what it draws
+    std::string name;   ///< the author's name, for messages only
+    std::string output; ///< id of its output
     std::string code;
-    std::optional<std::string> file; ///< scene.json: the code stands in that file of the folder
+    std::optional<std::string> file; ///< scene.json: the file of the folder that holds the code
     std::vector<ProjectInput> inputs;
-    std::string size{}; ///< of Image: 800x450, as its #iSize had it
+    std::string size{}; ///< for Image: its #iSize, as in 800x450
 };
 
 struct Project {
@@ -43,24 +42,24 @@ struct Project {
     std::vector<Diagnostic> warnings;
 };
 
-/// Where the code of a pass may stand: in the JSON, or in files beside it, which `"code": {"file": "…"}`
-/// names; a pass that says nothing has the file of its name.
+/// The place of the passes' code: in the JSON, or in files next to it that `"code": {"file": "…"}` names. In
+/// a project with files, a pass without code has the file of its name.
 enum class CodeIn { json, files };
 
-/// Reads the JSON of ShaderToy's API, of its site, or of 2014, alone or as a list of one. `file` is for the
+/// Reads the JSON of ShaderToy's API, of its site, or of 2014, alone or as a list of one. `file` is for
 /// messages.
 Result<Project> read_project(std::string_view json, const std::string& file, CodeIn code = CodeIn::json);
 
-/// The same for the list of passes that find_passes (scene/json_text.hpp) finds in a JSON.
+/// Reads the list of passes that find_passes (scene/json_text.hpp) returns.
 Result<Project> read_passes(const nlohmann::ordered_json& passes, const std::string& file, CodeIn code);
 
-/// A name for each pass, unique and the same in every project: `Common`, `Buffer A` … by what it draws, not
+/// Returns a name for each pass, unique and the same in every project: `Common`, `Buffer A` … by output, not
 /// by the author's name; `Cube A`, `Image`, `Sound`.
 std::vector<std::string> pass_names(const Project& project);
 
-/// 0 to 3 for the id of Buffer A to D in either form.
+/// Returns 0 to 3 for the id of Buffer A to D, in the API's or the site's form.
 std::optional<int> buffer_number(std::string_view id);
-/// Whether that is the id of Cube A.
+/// Returns whether it is the id of Cube A.
 bool is_cube_id(std::string_view id);
 
 } // namespace tidemark::scene

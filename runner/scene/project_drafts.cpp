@@ -12,7 +12,7 @@ namespace {
 
 using Kind = ProjectPass::Kind;
 
-/// Nothing where the project has none.
+/// Returns nullopt if the project states no size.
 Result<std::optional<Extent>> read_size(const std::string& text, const std::string& file) {
     const auto size = size_of_text(text);
     if (!text.empty() && !size)
@@ -22,7 +22,8 @@ Result<std::optional<Extent>> read_size(const std::string& text, const std::stri
     return size;
 }
 
-/// Whether a later pass takes this one's place: each but the buffers and Common is there once.
+/// Returns whether a later pass replaces this one: ShaderToy has one pass of each kind, except buffers and
+/// Common.
 bool is_replaced(const Project& project, size_t pass) {
     const Kind kind = project.passes[pass].kind;
     return kind != Kind::buffer && kind != Kind::common &&

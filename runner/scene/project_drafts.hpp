@@ -1,4 +1,4 @@
-// From the passes of a project to drafts: kind, name and channels, their texts still empty.
+// Turns the passes of a project into drafts: kind, name and channels, with texts still empty.
 #pragma once
 
 #include "base/result.hpp"
@@ -11,26 +11,26 @@
 
 namespace tidemark::scene {
 
-/// What a tab of that kind becomes: Common is none, and counts as Image.
+/// Returns the pass kind of a tab; Common, which is not a pass, counts as Image.
 PassKind kind_of(PassName::Kind kind);
 
 struct ProjectDrafts {
     std::vector<Draft> drafts;
-    std::vector<size_t> order; ///< of drawing
+    std::vector<size_t> order; ///< drawing order
     std::vector<std::optional<size_t>>
-        of_pass; ///< the draft of each of the project's passes; none for Common
+        of_pass; ///< index of the draft of each of the project's passes; none for Common
 
-    /// Where the text of a pass goes: into its draft, or behind what Common there is.
+    /// Returns the text to which a pass's code is appended: its draft's, or the scene's Common.
     text::MappedText& text_of(size_t pass, Scene& scene) {
         return of_pass[pass] ? drafts[*of_pass[pass]].pass.text : scene.common;
     }
 };
 
-/// Needs one Image pass; of several passes of a kind that ShaderToy has once, the last one counts and a
-/// warning says so. Adds the warnings of the project and of its inputs to the scene's.
+/// Makes the drafts. Fails without an Image pass; of several passes of a kind that ShaderToy has once, the
+/// last one counts, with a warning. Adds the warnings of the project and its inputs to the scene's.
 Result<ProjectDrafts> draft_project(Scene& scene, InputReader::Context context);
 
-/// A text as the rest of the program takes it: plain line ends, and a blank for each NUL.
+/// Normalises a text: plain line ends, and a blank for each NUL.
 std::string plain_text(std::string text);
 
 } // namespace tidemark::scene

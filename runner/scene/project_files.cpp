@@ -44,7 +44,7 @@ Result<std::string> join_project(const fs::path& folder, const Bounds& bounds) {
         if (!code)
             return fail(std::move(code.error()));
         Json value = *std::move(code);
-        try { // JSON is Unicode: a byte of another encoding has no place in it
+        try { // JSON is Unicode: bytes in another encoding cannot be stored
             (void)value.dump();
         } catch (const Json::type_error&) {
             return fail(ErrorCode::load,

@@ -1,5 +1,5 @@
-// A ShaderToy project taken apart into the files of a scene folder, and put together again. Nothing is lost
-// either way: code byte for byte, and every field of the JSON in its place, whether we know it or not.
+// Splits a ShaderToy project into the files of a scene folder, and joins them again. Both are lossless: code
+// byte for byte, and every field of the JSON in its place, even unknown ones.
 #pragma once
 
 #include "base/result.hpp"
@@ -18,19 +18,20 @@ struct ProjectFile {
     std::string bytes;
 };
 
-/// The code of every pass in a file of its own, and last `scene.json`: the project with `{"file": NAME}` in
-/// the place of each code. `file` is for the messages.
+/// Returns one file with the code of each pass and, last, `scene.json`: the project with `{"file": NAME}` in
+/// place of each code. `file` is for messages.
 Result<std::vector<ProjectFile>> split_project(std::string_view json, const std::string& file);
 
-/// The JSON that `split_project` took apart, from the folder's `scene.json`.
+/// Restores the JSON that `split_project` took apart, from the folder's `scene.json`.
 Result<std::string> join_project(const std::filesystem::path& folder, const Bounds& bounds);
 
-/// Knobs with their present values, as GLSL: ShaderToy has no uniforms of one's own.
+/// Returns the knobs as GLSL constants with their present values, since ShaderToy has no user-defined
+/// uniforms.
 std::string knobs_as_constants(const Scene& scene);
 
-/// A scene that never was a project, as one in the form of the API: includes pasted, knobs as constants of
-/// their present values, the channels that the passes mention. What ShaderToy cannot have is added to
-/// `warnings`; more buffers than it has are an error.
+/// Writes a scene as a project in the API's form: includes pasted, knobs as constants with their present
+/// values, the channels that the passes mention. Adds to `warnings` the features that ShaderToy lacks; more
+/// than four buffers are an error.
 Result<std::string> make_project(const Scene& scene, std::vector<Diagnostic>& warnings);
 
 } // namespace tidemark::scene

@@ -12,7 +12,7 @@ namespace tidemark::scene {
 namespace fs = std::filesystem;
 namespace {
 
-/// ShaderToy's pictures of its own buffers: `/media/previz/buffer02.png` is C.
+/// Returns the buffer of ShaderToy's preview picture: `/media/previz/buffer02.png` is C.
 std::optional<int> previz_buffer(std::string_view source) {
     constexpr std::string_view k_name = "previz/buffer0";
     const size_t at = source.find(k_name);
@@ -22,7 +22,7 @@ std::optional<int> previz_buffer(std::string_view source) {
     return digit >= '0' && digit <= '3' ? std::optional(digit - '0') : std::nullopt;
 }
 
-/// Also as `/media/a//media/previz/cubemap00.png`.
+/// Also matches `/media/a//media/previz/cubemap00.png`.
 bool is_previz_cube(std::string_view source) {
     return source.find("previz/cubemap0") != std::string_view::npos;
 }
@@ -37,7 +37,7 @@ bool is_there(const fs::path& file) {
     return fs::exists(file, ignored);
 }
 
-/// Short enough for a message: a source may be a whole picture in base 64.
+/// Shortens a name for messages: a source may be a whole picture in base 64.
 std::string shown(const ProjectInput& input) {
     const std::string& name = input.source.empty() ? input.id : input.source;
     return name.size() <= 120 ? name : name.substr(0, 120) + "...";
@@ -83,7 +83,7 @@ Sampling InputReader::sampling_of(const ProjectInput& input, Kind kind) {
     if (kind == Kind::keyboard)
         return k_keyboard_sampling;
     if (kind == Kind::music ||
-        kind == Kind::microphone) // ShaderToy makes these so, whatever the sampler says
+        kind == Kind::microphone) // ShaderToy ignores the sampler for these
         return k_buffer_sampling;
     Sampling sampling = kind == Kind::picture   ? k_texture_sampling
                         : kind == Kind::volume  ? k_volume_sampling
@@ -129,7 +129,8 @@ Result<ChannelInput> InputReader::input_of(const ProjectInput& input, Kind kind)
     return Unbound{};
 }
 
-/// The buffer that draws the id; in the form of the other dialect, or as the picture that stood for it.
+/// Returns the buffer whose output has the input's id; else the one with that id in the other dialect, or
+/// with that preview picture.
 ChannelInput InputReader::output_of(const ProjectInput& input) const {
     const auto& passes = context_.project.passes;
     for (size_t i = 0; i < passes.size(); ++i)
@@ -171,7 +172,7 @@ Result<ChannelInput> InputReader::media_input(const ProjectInput& input, MediaKi
     return Music{files.front()};
 }
 
-/// A file of the project's own, else one of ShaderToy's.
+/// Returns a file of the project's own, else one of ShaderToy's media.
 Result<std::vector<fs::path>> InputReader::files_of(const ProjectInput& input, MediaKind kind) const {
     const Media* media = media_of(input);
     const std::string source = input.source.empty() && media ? std::string(media->hash) : input.source;
@@ -190,8 +191,8 @@ Result<std::vector<fs::path>> InputReader::files_of(const ProjectInput& input, M
     return found.empty() ? std::vector<fs::path>{} : std::vector{std::move(found)};
 }
 
-/// Warns once of what is not here.
-/// Only a window that is asked to hears and sees.
+/// Substitutes a live input and warns of it once: it is live only in a window that was started with that
+/// option.
 ChannelInput InputReader::live_input(const std::string& name, Substitute instead) {
     if (warned_.insert(name).second)
         warnings_.push_back(

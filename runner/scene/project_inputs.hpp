@@ -1,4 +1,4 @@
-// From an input as ShaderToy's JSON names it to a Channel: its kind, the file or the stand-in, the sampler.
+// Resolves an input of ShaderToy's JSON to a Channel: its kind, its file or substitute, its sampler.
 #pragma once
 
 #include "scene/bounds.hpp"
@@ -13,24 +13,24 @@
 
 namespace tidemark::scene {
 
-/// Reads the inputs of one project. Looks which media files there are; opens none.
+/// Reads the inputs of one project. Checks which media files exist; opens none.
 class InputReader {
 public:
-    /// What an input can mean in its project.
+    /// The names that an input can refer to.
     struct Context {
         const Project& project;
-        const std::vector<std::string>& names; ///< of its passes (pass_names)
-        std::filesystem::path folder;          ///< files of the project's own are relative to it
+        const std::vector<std::string>& names; ///< names of its passes (pass_names)
+        std::filesystem::path folder;          ///< the project's own files are relative to it
         const MediaFolder& media;
         const Bounds& bounds;
         std::string file; ///< the JSON, for messages
     };
     explicit InputReader(Context context) : context_(std::move(context)) {}
 
-    /// PassOutput::pass counts the project's passes. Fails only on a file out of bounds.
+    /// PassOutput::pass is an index into the project's passes. Fails only on a file out of bounds.
     Result<Channel> read(const ProjectInput& input);
 
-    /// One for each file that is not here.
+    /// Returns one warning for each missing file or live input.
     std::vector<Diagnostic> take_warnings() { return std::move(warnings_); }
 
 private:
@@ -49,7 +49,7 @@ private:
 
     Context context_;
     std::vector<Diagnostic> warnings_;
-    std::set<std::string> warned_; ///< sources
+    std::set<std::string> warned_; ///< sources and ids already warned of
 };
 
 } // namespace tidemark::scene

@@ -1,4 +1,4 @@
-// How a texture is sampled, and what ShaderToy's editor gives each kind of input.
+// Sampling parameters of textures, and the defaults of ShaderToy's editor for each kind of input.
 #pragma once
 
 namespace tidemark::scene {
@@ -17,22 +17,22 @@ struct Sampling {
     bool operator==(const Sampling&) const = default;
 };
 
-/// What ShaderToy's editor gives a texture: mipmaps, repeat, flipped.
+/// ShaderToy's default for a texture: mipmaps, repeat, flipped.
 inline constexpr Sampling k_texture_sampling{Filter::linear, Filter::linear, Mipmaps::linear, Wrap::repeat,
                                              true};
 
-/// What ShaderToy's editor gives a buffer.
+/// ShaderToy's default for a buffer.
 inline constexpr Sampling k_buffer_sampling{Filter::linear, Filter::linear, Mipmaps::none, Wrap::clamp, true};
-/// What ShaderToy's editor gives a cubemap.
+/// ShaderToy's default for a cubemap.
 inline constexpr Sampling k_cubemap_sampling{Filter::linear, Filter::linear, Mipmaps::none, Wrap::clamp,
                                              false};
 
-/// What ShaderToy's editor gives a volume.
+/// ShaderToy's default for a volume.
 inline constexpr Sampling k_volume_sampling{Filter::linear, Filter::linear, Mipmaps::linear, Wrap::repeat,
                                             false};
-/// What the VS Code extension gives what has its first row on top.
+/// The VS Code extension's default for data with its first row on top.
 inline constexpr Sampling k_unflipped{Filter::linear, Filter::linear, Mipmaps::none, Wrap::repeat, false};
-/// Keys are bits: nothing between them.
+/// Keys are bits, so they are not interpolated.
 inline constexpr Sampling k_keyboard_sampling{Filter::nearest, Filter::nearest, Mipmaps::none, Wrap::clamp,
                                               true};
 

@@ -22,7 +22,7 @@ bool is_id(std::string_view text) {
            std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 128 && std::isalnum(c); });
 }
 
-/// Empty where the project does not say it.
+/// Returns an empty text if the project does not state its id.
 std::string id_of(const Json& project) {
     const Json* inner = &project;
     for (const char* key : {"Shader", "info"}) {
@@ -33,7 +33,8 @@ std::string id_of(const Json& project) {
     return inner == &project ? "" : as_text(*inner, "id");
 }
 
-/// What a list holds; all else is one project, or the error of who reads it.
+/// Returns the entries of a list or an export; any other JSON is returned as one project, and its reader
+/// reports errors.
 std::vector<Json> projects_of(Json json) {
     if (json.is_object() && json.contains("shaders"))
         json = Json(std::move(json["shaders"]));
@@ -75,7 +76,7 @@ Result<Json> choose(std::vector<Json> projects, std::string_view id, const std::
     return fail(error_at({file}, fmt::format("this holds {}, and not {}", fmt::join(ids, ", "), id)));
 }
 
-/// What stands in front of an id: nothing, or the site's own name.
+/// Returns whether an address is an id alone or on ShaderToy's own site.
 bool is_of_site(std::string_view address) {
     const size_t scheme = address.find("://");
     if (scheme != address.npos)

@@ -1,5 +1,5 @@
-// One project out of what a person saved of ShaderToy, or what a program of theirs printed: a page or JSON
-// in, JSON out. No network is asked.
+// Extracts one project from a saved ShaderToy page or JSON, or from another program's output: a page or JSON
+// in, JSON out. Makes no network requests.
 #pragma once
 
 #include "base/result.hpp"
@@ -9,12 +9,12 @@
 
 namespace tidemark::scene {
 
-/// The six letters and digits of a project's address (https://www.shadertoy.com/view/XxXxXx, also of `embed`
-/// or of the API), or these alone; ErrorCode::usage where there are none.
+/// Returns the six letters and digits of a project's address (https://www.shadertoy.com/view/XxXxXx, or one
+/// with `embed` or of the API), or of an id alone; ErrorCode::usage if there are none.
 Result<std::string> project_id(std::string_view address);
 
-/// JSON for `split_project`. `id`: the project to take where there are several; empty: there is one, and JSON
-/// stays as it is. `file` is for the messages.
+/// Returns JSON for `split_project`. `id` is the project to take from several; if it is empty, there must be
+/// one, and JSON is returned unchanged. `file` is for messages.
 Result<std::string> saved_project(std::string text, std::string_view id, const std::string& file);
 
 } // namespace tidemark::scene

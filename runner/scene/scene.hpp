@@ -1,4 +1,4 @@
-// What to draw, as values: the passes of a scene, what their channels read, and its knobs.
+// A scene as values: its passes, the inputs of their channels, and its knobs.
 #pragma once
 
 #include "base/extent.hpp"
@@ -18,32 +18,33 @@ enum class PassKind {
     cubemap,
     image,
     sound,
-    hit, ///< Image, asked for what it hit instead of a colour: glsl/hit.hpp
+    hit, ///< Image, instrumented to output hits instead of colours: glsl/hit.hpp
 };
 
 /// One unit of drawing (ShaderToy's render pass).
 struct Pass {
     PassKind kind = PassKind::image;
     std::string name;      ///< "Image", "Buffer A": unique in its scene
-    text::MappedText text; ///< includes pasted, directives blanked out, every line where its author put it
+    text::MappedText text; ///< includes pasted, directives blanked out, line numbers unchanged
     Channels channels;
-    bool keyboard_helpers = false; ///< says `#iKeyboard`: wants isKeyDown(Key_A) and the like declared
-    bool bare_file = false;        ///< of no project: finds SHADER_TOY defined, as in the VS Code extension
+    bool keyboard_helpers = false; ///< has `#iKeyboard`: isKeyDown(Key_A) and the like must be declared
+    bool bare_file = false; ///< not part of a project: SHADER_TOY is defined, as in the VS Code extension
 };
 
 struct Scene {
-    std::filesystem::path file; ///< as it was named on the command line
-    text::MappedText common;    ///< stands in front of every pass
-    std::vector<Pass> passes;   ///< in the order of drawing; a sound pass, if any, last
+    std::filesystem::path file; ///< as named on the command line
+    text::MappedText common;    ///< precedes the text of every pass
+    std::vector<Pass> passes;   ///< in drawing order; a sound pass, if any, is last
     std::vector<Knob> knobs;
-    std::optional<Extent> size{}; ///< that its author wants to see it in, by `#iSize`
-    bool moves_view = false;      ///< says `#iFirstPersonControls`: iViewMatrix follows the person
-    std::vector<std::filesystem::path> files; ///< all files the scene read or will read, pictures included
-    std::vector<Diagnostic> warnings;         ///< what was replaced by a stand-in, and why
+    std::optional<Extent> size{}; ///< size that the author states with `#iSize`
+    bool moves_view = false;      ///< has `#iFirstPersonControls`: iViewMatrix follows the user's mouse
+    std::vector<std::filesystem::path> files; ///< all files that the scene reads, pictures included
+    std::vector<Diagnostic> warnings;         ///< such as inputs replaced by a stand-in, with the reason
 
     std::string name() const;
     const Pass* find(PassKind kind) const; ///< the last pass of that kind
-    size_t image_index() const;            ///< of the Image pass (or what became of it); every scene has one
+    /// index of the Image pass, or of the hit pass made from it; every scene has one
+    size_t image_index() const;
     const Pass& image() const { return passes[image_index()]; }
 };
 

@@ -1,4 +1,4 @@
-// A knob or a definition and what it is set to, as a person writes it.
+// A knob or a definition and its value, as the user wrote them.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct Setting {
     bool operator==(const Setting&) const = default;
 };
 
-/// Instead of an earlier one of its name.
+/// Adds a setting, replacing an earlier one of the same name.
 void set(std::vector<Setting>& settings, const Setting& setting);
 
 } // namespace tidemark::scene

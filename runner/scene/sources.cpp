@@ -11,7 +11,7 @@ namespace tidemark::scene {
 namespace fs = std::filesystem;
 namespace {
 
-/// The name alone when it has neither `*` nor `{}`. Empty: no six files fit.
+/// Returns the name itself if it has neither `*` nor `{}`. Empty without a complete set of six files.
 std::vector<fs::path> cubemap_faces(const fs::path& name) {
     constexpr std::array<std::string_view, 6> k_suffixes[] = {
         {"e", "w", "u", "d", "n", "s"},

@@ -1,4 +1,4 @@
-// What a channel reads, by the name that a directive or the command line gives.
+// Resolves the name in a directive or on the command line to a channel's input.
 #pragma once
 
 #include "scene/channel.hpp"
@@ -10,22 +10,22 @@
 
 namespace tidemark::scene {
 
-/// By the extension; what has none that we know is a picture.
+/// Returns the kind by the extension; a file with an unknown one is a picture.
 MediaKind media_kind_of(const std::filesystem::path& file);
 
-/// What a file is that no extension says to be something else.
+/// The meaning of a file that its extension does not mark as another kind.
 enum class PictureAs { flat, cubemap };
 
-/// A name of the table of inputs (`noise`, `keyboard`), or a file relative to `folder`: picture or cubemap,
-/// sound, video or volume. What names a pass (`self`, `buffer_a`, a shader's file) is Unbound.
+/// Resolves a name in the table of inputs (`noise`, `keyboard`), or a file relative to `folder`: picture or
+/// cubemap, sound, video or volume. The name of a pass (`self`, `buffer_a`, a shader file) gives Unbound.
 ChannelInput input_of_name(std::string_view name, const std::filesystem::path& folder,
                            PictureAs picture = PictureAs::flat);
 
-/// Whether the name is that of a pass: `self`, `Buffer A`, `blur.glsl`.
+/// Returns whether the name is that of a pass: `self`, `Buffer A`, `blur.glsl`.
 bool names_a_pass(std::string_view name);
 
-/// Puts the six faces +x -x +y -y +z -z that fit a cubemap's name with `*` or `{}` in its place, by the first
-/// of the extension's sets of suffixes of which all files are there. False: none fits.
+/// Replaces a cubemap's name with `*` or `{}` by its six faces +x -x +y -y +z -z, with the first of the VS
+/// Code extension's sets of suffixes for which all files exist. Returns false if there is none.
 bool find_faces(ChannelInput& input);
 
 } // namespace tidemark::scene

@@ -1,4 +1,4 @@
-// The size that a scene says it is seen in: `#iSize 800x450`.
+// The size that a scene states for its picture: `#iSize 800x450`.
 #pragma once
 
 #include "base/error.hpp"
@@ -10,16 +10,16 @@
 
 namespace tidemark::scene {
 
-/// What `#iSize` says.
+/// The size in an `#iSize` directive.
 struct StatedSize {
     Extent extent;
     SourceLocation where{};
 };
 
-/// No window is larger on X11, which counts its pixels in 16 bits, half of them below zero.
+/// X11's limit for windows: it stores sizes in 16 bits with a sign.
 inline constexpr int k_largest_stated_side = 32767;
 
-/// `800x450`; nothing where it is something else, or too large.
+/// Parses `800x450`; nullopt if it is something else or too large.
 std::optional<Extent> size_of_text(std::string_view text);
 std::string to_string(const Extent& size);
 

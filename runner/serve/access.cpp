@@ -12,11 +12,11 @@ namespace tidemark::serve {
 namespace {
 
 constexpr std::string_view k_letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
-constexpr size_t k_token_letters = 22; // of 6 bits
+constexpr size_t k_token_letters = 22; // each holds 6 bits
 constexpr size_t k_shortest = 16;
 constexpr size_t k_longest = 128;
 
-/// The value of `token` behind the `?`.
+/// Returns the value of `token` in a query.
 std::string_view token_in(std::string_view query) {
     constexpr std::string_view k_name = "token=";
     while (!query.empty()) {
@@ -28,7 +28,7 @@ std::string_view token_in(std::string_view query) {
     return {};
 }
 
-/// Without the port.
+/// Returns the host without the port.
 std::string_view name_of(std::string_view host) {
     if (host.starts_with('['))
         return host.substr(0, host.find(']') + 1);
@@ -41,7 +41,7 @@ bool is_loopback_name(std::string_view name) {
            (is_number && name.starts_with("127."));
 }
 
-/// `http://HOST` of that very host.
+/// Returns whether an origin is `http://HOST` or `https://HOST` with that host.
 bool is_own(std::string_view origin, std::string_view host) {
     const size_t scheme = origin.find("://");
     const std::string_view name = origin.substr(0, scheme);
@@ -74,7 +74,7 @@ Result<void> check_token(std::string_view token) {
 
 bool is_same_token(std::string_view given, std::string_view right) {
     if (given.size() != right.size())
-        return false; // its length is no secret
+        return false; // the length is not secret
     unsigned char difference = 0;
     for (size_t i = 0; i < right.size(); ++i)
         difference |= static_cast<unsigned char>(given[i] ^ right[i]);

@@ -1,4 +1,5 @@
-// Who is let in: whoever has the token that stands in the address, and of web pages this server's own alone.
+// Access control: a client needs the token from the address, and only this server's own page may open a
+// WebSocket.
 #pragma once
 
 #include "base/result.hpp"
@@ -8,26 +9,28 @@
 
 namespace tidemark::serve {
 
-/// 128 bits of the system's random numbers, in 22 letters that an address can hold.
+/// Returns 22 characters that are valid in an address, with 128 bits and more of the system's random numbers.
 Result<std::string> make_token();
-/// Of a person's own choice: 16 to 128 letters, digits, `-` and `_`. ErrorCode::usage says what is wrong.
+/// Checks a token chosen by the user: 16 to 128 letters, digits, `-` and `_`. ErrorCode::usage says what is
+/// wrong.
 Result<void> check_token(std::string_view token);
-/// Takes as long whichever letter is wrong.
+/// Compares tokens in a time that does not depend on which letters differ.
 bool is_same_token(std::string_view given, std::string_view right);
 
-/// What a browser says when it asks for something.
+/// A browser's HTTP request.
 struct Knock {
     std::string_view target;      ///< `/?token=…`
-    std::string_view host{};      ///< the header; empty: none
-    std::string_view origin{};    ///< likewise; browsers send it with every WebSocket
+    std::string_view host{};      ///< the header; empty if missing
+    std::string_view origin{};    ///< the header; browsers send it with every WebSocket
     bool upgrade = false;         ///< to a WebSocket
-    bool through_loopback = true; ///< the server listens there alone
+    bool through_loopback = true; ///< the server listens only on the loopback
 };
 
 enum class Answer { page, socket, forbidden, not_found };
 
-/// A page elsewhere may have its reader's browser ask this server, but cannot make it say another origin; one
-/// whose name was turned to this address (DNS rebinding) has a host that is no name of the loopback.
+/// Decides on a request. A page of another site can make its reader's browser send requests here, but with
+/// that site's origin; a page whose name was resolved to this address (DNS rebinding) sends a host that is
+/// not a name of the loopback.
 Answer answer_to(const Knock& knock, std::string_view token);
 
 } // namespace tidemark::serve

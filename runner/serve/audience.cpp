@@ -54,13 +54,13 @@ void Audience::left(ViewerId viewer) {
 void Audience::handle(ViewerId viewer, const PictureSeen& seen) {
     Viewer& who = viewers_[viewer];
     if (who.on_the_way.empty() || seen.number > who.on_the_way.back())
-        return; // it was sent none of that number
+        return; // no picture of that number was sent
     std::erase_if(who.on_the_way, [&](uint32_t number) { return number <= seen.number; });
     send_newest(viewer, who);
     inbox_.wake();
 }
 
-/// Those who do not steer watch.
+/// Input of viewers without control is ignored.
 void Audience::handle(ViewerId viewer, const platform::InputEvent& event) {
     if (viewer != steering_)
         return;
@@ -84,7 +84,8 @@ void Audience::handle(ViewerId viewer, const FilmShown& shown) {
     inbox_.wake();
 }
 
-/// Of the film only what follows what it has; else the whole picture, if there is one.
+/// Sends a film picture only if it follows the last one that the viewer has; otherwise the whole picture, if
+/// there is one.
 void Audience::send_newest(ViewerId id, Viewer& viewer) {
     if (viewer.sent == newest_.number || !viewer.is_ready())
         return;
@@ -100,7 +101,7 @@ void Audience::send_newest(ViewerId id, Viewer& viewer) {
     settings_.send(id, message);
 }
 
-/// Each change of hands is told to everybody: not more often than people can follow.
+/// Limits the rate: each change of control is sent to all viewers, and users must be able to follow.
 void Audience::handle(ViewerId viewer, SteeringWanted) {
     constexpr std::chrono::milliseconds k_shortest_turn(100);
     const auto now = std::chrono::steady_clock::now();

@@ -1,5 +1,6 @@
-// Those who look: which of them steers, what each has still to see, and what a newcomer must be told. No slow
-// one holds up the others: it misses pictures, and gets the newest when it is ready again.
+// Connected clients: which one has control, which pictures each has acknowledged, and the texts for a new
+// one. A slow client does not delay the others: it misses pictures and gets the newest when it is ready
+// again.
 #pragma once
 
 #include "serve/hands.hpp"
@@ -16,58 +17,60 @@
 
 namespace tidemark::serve {
 
-/// A picture as it is sent; they are numbered from 1.
+/// An encoded picture, to be sent; numbered from 1.
 struct NumberedPicture {
     uint32_t number = 0;
-    SharedMessage message{};  ///< whole; null where nobody wants it so
-    SharedMessage film{};     ///< as what changed since `film_before`; null likewise
-    uint32_t film_before = 0; ///< number of the film's picture before it; 0: it can be seen without
+    SharedMessage message{};  ///< as a whole; null if no viewer needs it
+    SharedMessage film{};     ///< as changes since `film_before`; null likewise
+    uint32_t film_before = 0; ///< number of the preceding film picture; 0: a key picture, which needs none
 };
 
-/// What the next picture is wanted as, by those who are ready for it.
+/// The encodings that the viewers need.
 struct WantedCodings {
     bool whole = false;
     bool film = false;
-    bool key = false; ///< of those who want the film one has not seen its last picture
+    bool key = false; ///< a viewer of the film has not received its last picture
 };
 
-/// All of it from any thread.
+/// Thread-safe.
 class Audience : public Guests {
 public:
     static constexpr size_t k_most_viewers = 16;
-    /// One that is on its way while the next one is made.
+    /// One can be on its way while the next one is made.
     static constexpr size_t k_pictures_on_the_way = 2;
 
     struct Settings {
         std::function<void(ViewerId, SharedMessage)> send;
-        bool once = false; ///< the end of the last viewer is that of the program
-        bool film = false; ///< whoever can show a film is sent one
+        bool once = false; ///< close the program when the last viewer leaves
+        bool film = false; ///< send a film to viewers that can show one
     };
 
-    /// What viewers do goes into `inbox`, which is woken when one of them is ready for a picture, too.
+    /// Adds the viewers' input to `inbox`, and wakes it when a viewer is ready for a picture.
     Audience(Settings settings, Inbox& inbox) : settings_(std::move(settings)), inbox_(inbox) {}
 
     bool came(ViewerId viewer) override;
     Result<void> said(ViewerId viewer, std::string_view message) override;
     void left(ViewerId viewer) override;
 
-    /// To everybody who is ready for it, and later to the others, unless there is a newer one by then.
+    /// Sends it to every viewer that is ready, and to the others when they are, unless there is a newer one
+    /// by then.
     void show(NumberedPicture picture);
-    /// To everybody, and to those who come later: each text takes the place of the one of that `kind`.
+    /// Sends a text to all viewers, and to later ones when they connect; it replaces the last text of that
+    /// `kind`.
     void tell(const std::string& kind, SharedMessage text);
-    /// To the one who steers.
+    /// Sends a text to the viewer with control.
     void tell_steering(const SharedMessage& text);
 
-    /// Somebody is ready for one more picture.
+    /// Returns whether a viewer is ready for one more picture.
     bool is_waiting() const;
     WantedCodings wanted() const;
 
 private:
     struct Viewer {
-        std::deque<uint32_t> on_the_way; ///< numbers of pictures
-        uint32_t sent = 0;               ///< the newest of them, ever
+        std::deque<uint32_t> on_the_way; ///< numbers of pictures sent and not acknowledged
+        uint32_t sent = 0;               ///< number of the newest one sent
         bool shows_film = false;
-        uint32_t film = 0; ///< the newest of the film's that it was sent
+        uint32_t film = 0; ///< number of the newest film picture sent
 
         bool is_ready() const { return on_the_way.size() < k_pictures_on_the_way; }
     };
@@ -85,10 +88,11 @@ private:
 
     Settings settings_;
     Inbox& inbox_;
-    mutable std::mutex mutex_;           ///< of what follows
-    std::map<ViewerId, Viewer> viewers_; ///< in the order in which they came
+    mutable std::mutex mutex_;           ///< guards the members below
+    std::map<ViewerId, Viewer> viewers_; ///< in the order of their arrival
     ViewerId steering_ = 0;
-    std::chrono::steady_clock::time_point steering_since_{}; ///< asked for, not inherited
+    /// time of the last change that a viewer asked for
+    std::chrono::steady_clock::time_point steering_since_{};
     Hands hands_;
     NumberedPicture newest_;
     uint32_t newest_film_ = 0; ///< number of the film's last picture

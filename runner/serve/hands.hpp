@@ -1,4 +1,5 @@
-// What the steering viewer holds down, so that it can be let go for one that has gone.
+// The keys and buttons that the controlling viewer holds down, so that they can be released when it loses
+// control.
 #pragma once
 
 #include "platform/input.hpp"
@@ -11,7 +12,7 @@ namespace tidemark::serve {
 class Hands {
 public:
     void follow(const platform::InputEvent& event);
-    /// The events that let go of it all.
+    /// Returns the events that release them all.
     std::vector<platform::InputEvent> let_go();
 
 private:

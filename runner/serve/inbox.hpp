@@ -1,4 +1,4 @@
-// What the steering viewer did, on its way from the server's thread to the one that draws.
+// Input of the controlling viewer, passed from the server's thread to the drawing thread.
 #pragma once
 
 #include "live/command.hpp"
@@ -17,14 +17,14 @@ public:
         live::Commands commands;
     };
 
-    /// A pointer that moves on replaces where it was.
+    /// Adds an event; a pointer move replaces one directly before it.
     void add(const platform::InputEvent& event);
     void add(live::Command command);
-    /// There is more than anybody's hands could do.
+    /// Returns whether more is waiting than a user could produce.
     bool is_full() const;
 
-    /// What came since the last call: sleeps until there is something, `wake` was called or the seconds,
-    /// which may be infinite, have passed.
+    /// Returns what was added since the last call. Sleeps until there is something, `wake` was called or the
+    /// seconds, which may be infinite, have passed.
     Content wait(double seconds);
     void wake();
 

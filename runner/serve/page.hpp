@@ -1,5 +1,5 @@
-// The page that viewers open, as a text: page/ and what web/host has for any page, put together by
-// CMakeLists.txt. It lies in the program.
+// The viewers' page as text: page/ and the shared files of web/host, joined by CMakeLists.txt and compiled
+// into the program.
 #pragma once
 
 #include <string_view>

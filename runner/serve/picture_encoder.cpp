@@ -7,7 +7,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A film that stands still so long is shown as sharp as a whole picture.
+/// A film picture that stands still this long is sent again as a whole, sharp picture.
 constexpr std::chrono::milliseconds k_still(200);
 
 } // namespace
@@ -37,7 +37,7 @@ bool PictureEncoder::has_room() const {
 
 void PictureEncoder::run() {
     std::unique_lock lock(mutex_);
-    std::optional<Job> soft; // seen in a film alone, so far
+    std::optional<Job> soft; // sent only as film so far
     const auto is_asked = [this] { return ending_ || waiting_; };
     while (true) {
         if (soft)
@@ -61,7 +61,7 @@ void PictureEncoder::run() {
     }
 }
 
-/// Where there is no film, and nobody who wants a whole picture, there is one for whoever comes.
+/// Without a film picture, makes a whole one even if no viewer needs it: a later viewer may.
 NumberedPicture PictureEncoder::encoded(Job& job, const WantedCodings& wanted) {
     const auto begun = Clock::now();
     const Extent extent = job.picture.extent;

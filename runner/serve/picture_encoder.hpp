@@ -1,4 +1,4 @@
-// Makes what is sent of pictures on a thread of its own, the newest first: whoever draws does not wait.
+// Encodes pictures for sending on a thread of its own, the newest first, so that drawing does not wait.
 #pragma once
 
 #include "image/image.hpp"
@@ -18,13 +18,13 @@ namespace tidemark::serve {
 class PictureEncoder {
 public:
     struct Job {
-        image::Image picture; ///< RGBA in bytes
-        PictureHead head;     ///< the number after its own is this one's, too
+        image::Image picture; ///< RGBA, 8 bits per channel
+        PictureHead head;     ///< the number after its own is reserved for this picture too
     };
-    /// All are called on the encoder's thread.
+    /// Callbacks, all called on the encoder's thread.
     struct Settings {
-        std::function<std::string(const image::Image&)> whole;          ///< a file
-        std::function<std::string(const image::Image&, bool key)> film; ///< empty: it failed
+        std::function<std::string(const image::Image&)> whole;          ///< returns a file
+        std::function<std::string(const image::Image&, bool key)> film; ///< empty: encoding failed
         std::function<WantedCodings()> wanted;
         std::function<void(NumberedPicture)> done;
     };
@@ -34,9 +34,9 @@ public:
     PictureEncoder& operator=(const PictureEncoder&) = delete;
     ~PictureEncoder();
 
-    /// One that was not begun is left out.
+    /// Queues a picture; replaces one that is still waiting.
     void push(Job job);
-    /// None waits.
+    /// Returns whether no picture is waiting.
     bool has_room() const;
 
 private:
@@ -53,7 +53,7 @@ private:
     std::thread thread_;
 };
 
-/// One message: the head's length in four bytes, the lowest first, the head as JSON, the file.
+/// Returns one message: the head's length in four bytes, lowest first, the head as JSON, the file.
 SharedMessage picture_message(const PictureHead& head, const std::string& file);
 
 } // namespace tidemark::serve

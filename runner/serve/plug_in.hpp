@@ -1,4 +1,4 @@
-// The plug-in of the web server, loaded when it is first asked for: only `tidemark serve` has a use for it.
+// Loads the web server's plug-in on first use; only `tidemark serve` needs it.
 #pragma once
 
 #include "base/result.hpp"

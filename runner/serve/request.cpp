@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 using platform::Button;
 using platform::Key;
 
-/// Every whole number of pixels up to here is a float.
+/// Floats represent every integer up to here.
 constexpr double k_farthest_pixel = 1 << 24;
 constexpr double k_most_notches = 1000;
 constexpr size_t k_longest_name = 256;
@@ -30,7 +30,7 @@ tl::unexpected<Error> refused(std::string_view name, std::string_view wanted) {
     return fail(ErrorCode::usage, fmt::format("\"{}\": give {}", name, wanted));
 }
 
-/// A finite number within `most` on either side of 0.
+/// Returns a finite number whose absolute value is at most `most`.
 Result<double> number(const Json& message, const char* name, double most) {
     const auto found = message.find(name);
     if (found == message.end() || !found->is_number() || !(std::abs(found->get<double>()) <= most))
@@ -54,7 +54,8 @@ Result<std::string> name_in(const Json& message, const char* name) {
     return found->get<std::string>();
 }
 
-/// A word of GLSL: it is written into commands, and looked for in files.
+/// Returns a GLSL identifier; others are refused, since it is written into commands and searched for in
+/// files.
 Result<std::string> identifier_in(const Json& message) {
     const std::string name = TRY(name_in(message, "name"));
     const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
@@ -106,7 +107,7 @@ Result<Request> turn_knob(const Json& message) {
     return command(std::move(turn));
 }
 
-/// A number alone: whatever else stands there would become part of a shader's text.
+/// Accepts only a number: other text would become part of a shader.
 Result<Request> define(const Json& message) {
     live::Define define{TRY(identifier_in(message)), {}};
     define.value = TRY(name_in(message, "value"));

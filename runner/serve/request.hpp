@@ -1,5 +1,5 @@
-// What a page asks for, read from its message: events as a window has them, commands as the overlay has them,
-// and what only viewers say. The page is not trusted: whatever is not as it must be is refused.
+// Parses a page's messages: events like a window's, commands like the overlay's, and messages that only
+// viewers send. The page is not trusted: malformed messages are refused.
 #pragma once
 
 #include "base/result.hpp"
@@ -12,27 +12,27 @@
 
 namespace tidemark::serve {
 
-/// A picture of that number, and all before it, have been seen.
+/// The picture of that number, and all before it, were shown.
 struct PictureSeen {
     uint32_t number = 0;
 };
-/// This viewer wants to be the one that steers.
+/// The viewer asks for control.
 struct SteeringWanted {};
-/// Whether this viewer's browser can show a film.
+/// Whether the viewer's browser can show a film.
 struct FilmShown {
     bool can = false;
 };
-/// Whatever is held down is let go: the page lost the keyboard.
+/// The page lost the keyboard: everything held down is released.
 struct LetGo {};
 
 using Request =
     std::variant<platform::InputEvent, live::Command, PictureSeen, SteeringWanted, FilmShown, LetGo>;
 
-/// No longer message is taken.
+/// Bytes; longer messages are refused.
 inline constexpr size_t k_longest_request = 4096;
 
-/// `{"do":"press","button":"left","x":100,"y":50}`, pixels from the bottom left. ErrorCode::usage says what
-/// is wrong.
+/// Parses a message such as `{"do":"press","button":"left","x":100,"y":50}`, with pixels from the bottom
+/// left. ErrorCode::usage says what is wrong.
 Result<Request> parse_request(std::string_view message);
 
 } // namespace tidemark::serve

@@ -73,7 +73,7 @@ double in_hundredths(double value) {
     return std::round(value * 100) / 100;
 }
 
-/// Names of files may be no UTF-8.
+/// Replaces bytes that are not UTF-8, which file names may contain.
 std::string dump(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -6,7 +6,7 @@
 namespace tidemark::sound {
 namespace {
 
-/// ALSA prints by itself otherwise.
+/// Discards the messages that ALSA would print.
 void say_nothing(const char*, int, const char*, int, const char*, ...) {}
 
 Result<AlsaLibrary> load_alsa() {

@@ -1,4 +1,4 @@
-// libasound, loaded when a sound is first played or listened to.
+// Loads libasound when a sound is first played or recorded, and opens devices.
 #pragma once
 
 #include "base/result.hpp"
@@ -9,7 +9,7 @@
 
 namespace tidemark::sound {
 
-/// The functions of the library that we call.
+/// The library's functions in use.
 struct AlsaLibrary {
     decltype(&snd_pcm_open) open = nullptr;
     decltype(&snd_pcm_close) close = nullptr;
@@ -24,11 +24,11 @@ struct AlsaLibrary {
     decltype(&snd_lib_error_set_handler) set_handler = nullptr;
 };
 
-/// Loaded by the first call, which quiets what it would print by itself. ErrorCode::load says what is
-/// missing.
+/// Returns the library, loaded by the first call, which also turns off its messages. ErrorCode::load names
+/// the missing library or function.
 const Result<AlsaLibrary>& alsa_library();
 
-/// A device of it, open.
+/// An open device; closed by the destructor.
 struct AlsaDevice {
     const AlsaLibrary& alsa;
     snd_pcm_t* pcm = nullptr;
@@ -42,17 +42,17 @@ struct AlsaDevice {
     }
 };
 
-/// What is asked of a device.
+/// Parameters of a device to open.
 struct AlsaFormat {
-    const char* name; ///< as ALSA's configuration has it: "default"
+    const char* name; ///< the name in ALSA's configuration, such as "default"
     snd_pcm_stream_t direction;
     snd_pcm_format_t samples;
     unsigned channels;
-    unsigned rate;                ///< samples a second of each channel
-    unsigned buffer_microseconds; ///< what it holds at most
+    unsigned rate;                ///< samples per second and channel
+    unsigned buffer_microseconds; ///< length of the device's buffer
 };
 
-/// Never waits. The error is ALSA's own reason.
+/// Opens a device without waiting. The error is ALSA's own message.
 Result<std::unique_ptr<AlsaDevice>> open_device(const AlsaFormat& format);
 
 } // namespace tidemark::sound

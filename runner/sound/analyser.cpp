@@ -11,7 +11,7 @@ namespace {
 
 constexpr float k_smoothing = 0.8f;
 
-/// Blackman with alpha = 0.16, periodic, as the specification of AnalyserNode writes it.
+/// Returns the periodic Blackman window with alpha = 0.16, as the specification of AnalyserNode defines it.
 double window(size_t n) {
     constexpr double alpha = 0.16;
     const double turn = 2.0 * std::numbers::pi * double(n) / double(k_block);
@@ -20,7 +20,7 @@ double window(size_t n) {
 
 uint8_t byte_of_magnitude(float magnitude) {
     constexpr double least = -100.0, most = -30.0;
-    const double decibels = 20.0 * std::log10(double(magnitude)); // of 0: minus infinity
+    const double decibels = 20.0 * std::log10(double(magnitude)); // minus infinity for 0
     const double scaled = std::floor(255.0 / (most - least) * (decibels - least));
     return scaled > 0.0 ? uint8_t(std::min(scaled, 255.0)) : uint8_t(0);
 }

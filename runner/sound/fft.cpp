@@ -11,7 +11,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// As the operator, less its care for infinities, which costs more than the multiplication.
+/// Multiplies without the operator's handling of infinities, which costs more than the multiplication.
 Complex product(Complex a, Complex b) {
     return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }

@@ -1,5 +1,5 @@
-// The discrete Fourier transform. Forty lines of our own: one size is needed, a few dozen times a frame at
-// most, and the bytes that come of it must not change with a library's choice of algorithm.
+// The discrete Fourier transform. Forty lines of our own: only one size is needed, at most 128 times a frame
+// for each sound, and the resulting bytes must not depend on a library's choice of algorithm.
 #pragma once
 
 #include <complex>

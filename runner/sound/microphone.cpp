@@ -10,7 +10,7 @@
 namespace tidemark::sound {
 namespace {
 
-/// Frames of a window that come later than this have gaps in what they hear.
+/// Length of the device's buffer: a frame that comes later than this loses samples.
 constexpr unsigned k_recorded_microseconds = 500'000;
 
 } // namespace
@@ -34,7 +34,7 @@ void Microphone::listen() {
     const snd_pcm_sframes_t count = device_->alsa.read(device_->pcm, came.data(), came.size());
     if (count == -EAGAIN || count == 0)
         return;
-    if (count < 0) { // more came than it holds
+    if (count < 0) { // more samples came than the buffer holds
         device_->alsa.prepare(device_->pcm);
         device_->alsa.start(device_->pcm);
         return;

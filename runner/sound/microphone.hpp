@@ -1,4 +1,4 @@
-// A sound as it comes from a device of ALSA, which is loaded when one is opened.
+// Reads sound from an ALSA device; libasound is loaded when one is opened.
 #pragma once
 
 #include "base/result.hpp"
@@ -13,15 +13,15 @@ struct AlsaDevice;
 
 class Microphone {
 public:
-    /// `device` as ALSA's configuration names it: `default`, `plughw:1`. ErrorCode::load says why it cannot
-    /// be listened to.
+    /// Opens `device`, a name of ALSA's configuration such as `default` or `plughw:1`. ErrorCode::load gives
+    /// the reason if it cannot be opened.
     static Result<Microphone> open(const std::string& device);
     Microphone(Microphone&&) noexcept;
     Microphone& operator=(Microphone&&) noexcept;
     ~Microphone();
 
-    /// The spectrum, smoothed from call to call as a browser does, and the wave of what was heard last. Never
-    /// waits; where nothing came since the last call, what came before counts again.
+    /// Returns the spectrum, smoothed from call to call as in a browser, and the wave of the newest samples.
+    /// Never waits; if no samples came since the last call, it analyses the previous ones again.
     SignalBytes hear();
 
 private:
@@ -29,7 +29,7 @@ private:
     void listen();
 
     std::unique_ptr<AlsaDevice> device_;
-    Block newest_{}; ///< samples, the oldest first
+    Block newest_{}; ///< samples, oldest first
     Magnitudes mean_{};
 };
 

@@ -9,7 +9,7 @@
 namespace tidemark::sound {
 namespace {
 
-/// What the device holds at most: short, so that a pause of ours is heard as one; long enough for a busy
+/// Length of the device's buffer: short, so that a pause takes effect soon, but long enough for a busy
 /// machine.
 constexpr unsigned k_buffer_microseconds = 200'000;
 

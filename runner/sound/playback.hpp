@@ -1,5 +1,4 @@
-// Sound that is heard: samples go to the default device of ALSA, which is loaded when a scene first has
-// something to play.
+// Plays samples on ALSA's default device. libasound is loaded when a scene first has something to play.
 #pragma once
 
 #include "base/result.hpp"
@@ -13,20 +12,20 @@ namespace tidemark::sound {
 
 struct AlsaDevice;
 
-/// 16-bit stereo, left and right in turn.
+/// Player of 16-bit stereo, left and right samples interleaved.
 class Playback {
 public:
-    /// ErrorCode::load says why there is nothing to hear: no library, no device.
+    /// Opens the device. ErrorCode::load gives the reason if the library or the device is missing.
     static Result<Playback> open(int rate);
     Playback(Playback&&) noexcept;
     Playback& operator=(Playback&&) noexcept;
     ~Playback();
 
-    /// Hands over what the device has room for, never waits, and gives the number of samples (of each side)
-    /// that were taken. Nothing when the device had run dry: what comes next is heard late.
+    /// Writes as many samples as the device has room for, never waits, and returns their number per channel.
+    /// Returns nothing if the device had run out of samples: the following ones are heard late.
     std::optional<size_t> write(std::span<const int16_t> samples);
 
-    /// At once; what was handed over and is not yet heard is dropped.
+    /// Stops at once and drops samples that were written but not yet played.
     void silence();
 
 private:

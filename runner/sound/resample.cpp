@@ -28,7 +28,7 @@ public:
                 sum += weights[i];
             }
             for (int i = 0; i < int(taps()); ++i)
-                weights[i] = float(weights[i] / sum); // a constant stays what it is
+                weights[i] = float(weights[i] / sum); // a constant signal keeps its value
         }
     }
 

@@ -1,4 +1,4 @@
-// One channel at another rate.
+// Converts one channel to another sample rate.
 #pragma once
 
 #include <span>
@@ -6,9 +6,9 @@
 
 namespace tidemark::sound {
 
-/// Band-limited: a sinc of 32 crossings of the lower rate under a Blackman window. Sample n of the result
-/// stands at the time n / to_rate; outside of `samples` there is silence. The same samples when the rates are
-/// equal.
+/// Returns the samples, band-limited by a sinc with 32 crossings at the lower rate under a Blackman window.
+/// Sample n is at the time n / to_rate; outside of `samples` there is silence. Returns the same samples if
+/// the rates are equal.
 std::vector<float> resampled(std::span<const float> samples, int from_rate, int to_rate);
 
 } // namespace tidemark::sound

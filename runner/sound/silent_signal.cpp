@@ -5,7 +5,7 @@
 namespace tidemark::sound {
 namespace {
 
-/// The site's own approximation of 2 pi; the bytes depend on it late in a long run.
+/// ShaderToy's own approximation of 2 pi; the bytes depend on it late in a long run.
 constexpr double k_turn = 6.2831;
 
 double spectrum(int bin, double time) {

@@ -24,9 +24,9 @@ bool has(std::string_view file, size_t at, std::string_view what) {
     return at <= file.size() && file.substr(at).starts_with(what);
 }
 
-/// WAV and AIFF: a name, a size and so many bytes, padded to an even place.
+/// Checks the chunks of WAV and AIFF: a name, a size and that many bytes, padded to an even offset.
 bool has_all_chunks(std::string_view file, Order order) {
-    constexpr uint32_t unknown = 0x7fff0000; // and more: written into a pipe
+    constexpr uint32_t unknown = 0x7fff0000; // this or more: written to a pipe
     constexpr size_t heading = 8;
     for (size_t at = 12; file.size() - at >= heading;) {
         const uint32_t size = word_at(file, at + 4, order);
@@ -39,7 +39,7 @@ bool has_all_chunks(std::string_view file, Order order) {
     return true;
 }
 
-/// From page to page; the last one of a stream has a flag.
+/// Checks the pages of an Ogg file; the last page of a stream has a flag.
 bool has_all_pages(std::string_view file) {
     constexpr size_t heading = 27;
     constexpr uint8_t last = 4;
@@ -68,7 +68,7 @@ struct Mp3Frame {
     size_t side_bytes = 0; ///< between the header and the data
 };
 
-/// Layer III of MPEG 1, 2 and 2.5; nothing where no frame of a known length begins.
+/// Reads a header of layer III of MPEG 1, 2 or 2.5; nothing if no frame of known length begins here.
 std::optional<Mp3Frame> mp3_frame(std::string_view file, size_t at) {
     constexpr std::array<int, 16> rates_1 = {0,   32,  40,  48,  56,  64,  80,  96,
                                              112, 128, 160, 192, 224, 256, 320, 0};
@@ -90,7 +90,7 @@ std::optional<Mp3Frame> mp3_frame(std::string_view file, size_t at) {
                     first ? (mono ? 17u : 32u) : (mono ? 9u : 17u)};
 }
 
-/// Behind the tag of a title and its like.
+/// Returns the offset after an ID3 tag.
 size_t mp3_begin(std::string_view file) {
     if (!file.starts_with("ID3") || file.size() < 10)
         return 0;
@@ -100,7 +100,7 @@ size_t mp3_begin(std::string_view file) {
     return 10 + size;
 }
 
-/// How many frames the first one promises, which holds no sound then; 0: it does not say.
+/// Returns the number of frames that the first frame declares, which then holds no sound; 0: none declared.
 uint32_t mp3_promise(std::string_view file, size_t at, const Mp3Frame& frame) {
     const size_t place = at + 4 + frame.side_bytes;
     if (!has(file, place, "Xing") && !has(file, place, "Info"))

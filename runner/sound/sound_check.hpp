@@ -1,5 +1,5 @@
-// Whether a sound's container is whole: libsndfile plays what is there of a file that was cut. WAV, AIFF,
-// FLAC, Ogg and MP3. No decoding.
+// Checks that a sound file is complete, because libsndfile plays the rest of a truncated file without an
+// error. Handles WAV, AIFF, FLAC, Ogg and MP3. Decodes nothing.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace tidemark::sound {
 
-/// False where parts that the file speaks of lie behind its end. True of a format that is not known here, and
-/// of a stream whose writer did not know its length.
+/// Returns false if parts that the file declares lie beyond its end. Returns true for unknown formats and for
+/// streams whose writer did not know their length.
 bool is_whole(std::string_view file);
 
-/// The length that a FLAC's header promises; nothing of others, and where it is not known.
+/// Returns the length in a FLAC's header; nothing for other formats or if the header has none.
 std::optional<uint64_t> promised_frames(std::string_view file);
 
 } // namespace tidemark::sound

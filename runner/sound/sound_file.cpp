@@ -23,7 +23,7 @@ constexpr int k_least_rate = 1000;
 constexpr int k_most_rate = 384000;
 constexpr size_t k_largest_sound_file = size_t{1} << 30;
 
-/// A file in memory, as libsndfile wants to see one.
+/// A file in memory, with the interface that libsndfile reads through.
 struct MemoryFile {
     std::string_view bytes;
     sf_count_t place = 0;
@@ -59,7 +59,7 @@ sf_count_t tell(void* user) {
     return static_cast<MemoryFile*>(user)->place;
 }
 
-/// Reads to the end of what there is: the number of frames in a header is a promise, and for MP3 a guess.
+/// Reads to the end of the data: the number of frames in a header may be wrong, and for MP3 it is a guess.
 std::vector<float> decoded(const SoundLibrary& library, SNDFILE* file, const SF_INFO& info) {
     constexpr size_t block = 1 << 14;
     const auto channels = size_t(info.channels);
@@ -80,7 +80,7 @@ void append(std::string& text, uint32_t value, int bytes) {
         text += char(value >> (8 * i) & 0xffu);
 }
 
-/// RIFF, "fmt ", "data": 44 bytes.
+/// Returns the 44 bytes of RIFF, "fmt " and "data".
 std::string wav_header(int rate, uint32_t data_bytes) {
     constexpr uint32_t pcm = 1, channels = 2, bits = 16, frame_bytes = channels * bits / 8;
     std::string header = "RIFF";

@@ -1,4 +1,4 @@
-// Sound in files: decoded to floats in memory, and written as WAV.
+// Reads sound files to floats in memory, and writes WAV files.
 #pragma once
 
 #include "base/output_path.hpp"
@@ -12,10 +12,10 @@
 
 namespace tidemark::sound {
 
-/// The longest sound that is read, in seconds.
+/// Longest sound that is read, in seconds.
 inline constexpr int k_longest_sound = 20 * 60;
 
-/// `channels` interleaved samples a frame, -1..1 for full scale, at the file's own rate.
+/// Interleaved samples, `channels` per frame, -1..1 for full scale, at the file's own rate.
 struct SoundData {
     int rate = 44100;
     int channels = 2;
@@ -25,10 +25,11 @@ struct SoundData {
     double duration() const { return double(frames()) / double(rate); }
 };
 
-/// Decodes WAV, AIFF, FLAC, Ogg (Vorbis, Opus) and MP3. ErrorCode::load names the file and what is wrong.
+/// Decodes WAV, AIFF, FLAC, Ogg (Vorbis, Opus) and MP3. ErrorCode::load names the file and the fault.
 Result<SoundData> read_sound(const std::filesystem::path& path);
 
-/// Writes a WAV file of 16-bit stereo: left and right in turn. Whole or not at all (ErrorCode::write).
+/// Writes a WAV file of 16-bit stereo, left and right interleaved; a failure leaves no partial file
+/// (ErrorCode::write).
 Result<void> write_wav(const OutputPath& output, int rate, std::span<const int16_t> samples);
 
 } // namespace tidemark::sound

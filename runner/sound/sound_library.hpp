@@ -1,5 +1,5 @@
-// libsndfile, loaded when the first sound is read: with its codecs it is ten shared objects that a scene
-// without sound has no use for.
+// Loads libsndfile when the first sound is read: with its codecs it is ten shared objects, which a scene
+// without sound does not need.
 #pragma once
 
 #include "base/result.hpp"
@@ -8,7 +8,7 @@
 
 namespace tidemark::sound {
 
-/// The functions of the library that we call.
+/// The library's functions in use.
 struct SoundLibrary {
     decltype(&sf_open_virtual) open_virtual = nullptr;
     decltype(&sf_readf_float) read_frames = nullptr;
@@ -16,8 +16,8 @@ struct SoundLibrary {
     decltype(&sf_close) close = nullptr;
 };
 
-/// Loaded by the first call; others wait for it. It stays until the process ends. ErrorCode::load says what
-/// is missing.
+/// Returns the library, loaded by the first call; other threads wait for it. It stays until the process ends.
+/// ErrorCode::load names the missing library or function.
 const Result<SoundLibrary>& sound_library();
 
 } // namespace tidemark::sound

@@ -1,4 +1,4 @@
-// What a Sound pass draws, as samples.
+// Converts the picture that a Sound pass draws to samples.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace tidemark::sound {
 
-/// RGBA bytes (left low, left high, right low, right high) to 16-bit stereo, left and right in turn: the
-/// number -1 + 2 (low + 256 high) / 65535 times 32767, rounded to nearest, halves away from 0.
+/// Converts RGBA bytes (left low, left high, right low, right high) to interleaved 16-bit stereo: the number
+/// -1 + 2 (low + 256 high) / 65535 times 32767, rounded to nearest, halves away from 0.
 std::vector<int16_t> decode_sound_texels(std::span<const uint8_t> rgba);
 
 } // namespace tidemark::sound

@@ -12,14 +12,14 @@ constexpr int k_steps_a_second = 60;
 constexpr int k_samples_a_step = k_analysed_rate / k_steps_a_second;
 constexpr size_t k_remembered = 128;
 
-/// Which sample, or step, a time falls on: a time that is a whole number of them but for rounding is that
-/// one.
+/// Returns the sample, or step, at a time; a time just below a whole number through rounding counts as that
+/// number.
 int64_t whole_steps(double time, double rate) {
     return int64_t(std::floor(time * rate + 1e-4));
 }
 
-/// WebAudio 1.0, 1.8.6, "down-mixing": stereo, quad and 5.1 have weights of their own; what has none counts
-/// equally.
+/// Returns the weights of WebAudio 1.0, 1.8.6, "down-mixing": 5.1 has weights of its own; all other layouts
+/// count their channels equally.
 std::vector<float> down_mix_weights(int channels) {
     switch (channels) {
     case 6: return {0.70710678f, 0.70710678f, 1.0f, 0.0f, 0.5f, 0.5f};
@@ -65,11 +65,11 @@ void Spectrum::step_to(int64_t step) {
 }
 
 SignalBytes Spectrum::at(double time) {
-    // After the end the smoothed spectrum fades; 128 steps later nothing is left of it.
+    // After the end the smoothed spectrum fades; after 128 steps it is silent.
     if (!(time >= 0.0) || time > duration_ + 3.0)
         return signal_bytes({}, Block{});
     step_to(whole_steps(time, k_steps_a_second));
-    // From nothing every time: carried on, the sum would depend on where it began.
+    // Starts from zero each time: a mean that continues would depend on where it began.
     Magnitudes mean{};
     for (const Magnitudes& magnitudes : recent_)
         smooth(mean, magnitudes);

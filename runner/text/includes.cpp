@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view k_library = "tidemark/";
 
-/// What is included by the `#include` whose `#` is tokens[at], where it is one that we follow.
+/// Returns the `#include` whose `#` is tokens[at]; nothing if it is left for the driver.
 std::optional<Include> include_at(std::string_view text, const std::vector<Token>& tokens, size_t at) {
     const size_t end = end_of_directive(tokens, at);
     if (at + 2 >= end)
@@ -38,7 +38,7 @@ std::optional<Include> include_at(std::string_view text, const std::vector<Token
     return include;
 }
 
-/// Files that include others twice double at each step: a few small ones could keep us busy for ever.
+/// Files that include others twice double the text at each level: a few small files could run for ever.
 constexpr size_t k_most = 10'000;
 constexpr size_t k_deepest = 100;
 
@@ -62,7 +62,7 @@ public:
         return std::move(result_);
     }
 
-    /// The error with every file that it may be about.
+    /// Adds every file that the error may be about.
     Error with_files(Error error) const {
         for (const auto* paths : {&result_.files, &missing_})
             for (const fs::path& path : *paths)
@@ -73,7 +73,7 @@ public:
 private:
     struct Level {
         fs::path file;
-        int line = 0; ///< of the #include that is being followed
+        int line = 0; ///< line of the #include that is being expanded
     };
 
     Result<void> paste(const fs::path& path, const std::string& text) {
@@ -111,7 +111,7 @@ private:
             include.name.empty() ? fail(ErrorCode::load, "#include \"\" names no file") : expand(target);
         if (pasted || !pasted.error().diagnostics.empty())
             return pasted;
-        if (include.conditional) { // perhaps for another host: whether it counts is the driver's to say
+        if (include.conditional) { // may be meant for another host; the driver decides whether it counts
             const std::string_view line =
                 std::string_view(text).substr(include.begin, include.end - include.begin);
             result_.text.append(line, from.string(), include.line);
@@ -120,7 +120,7 @@ private:
         return refuse(pasted.error().message);
     }
 
-    /// An error at the innermost #include, with one note for each file that led there.
+    /// Returns an error at the innermost #include, with one note for each file on the way to it.
     tl::unexpected<Error> refuse(std::string message) const {
         Error error = error_at({chain_.back().file.string(), chain_.back().line, 0}, std::move(message));
         for (size_t i = chain_.size() - 1; i-- > 0;)

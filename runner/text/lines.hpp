@@ -1,4 +1,4 @@
-// A text as its lines.
+// Splits a text into lines.
 #pragma once
 
 #include <string_view>
@@ -6,7 +6,8 @@
 
 namespace tidemark::text {
 
-/// Without their ends; views into the text. What stands behind the last end is a line if it is not empty.
+/// Returns the lines without their line ends, as views into the text. A last line without a line end counts
+/// if it is not empty.
 std::vector<std::string_view> lines_of(std::string_view text);
 
 } // namespace tidemark::text

@@ -13,7 +13,7 @@ bool stands_before(const LineMap::Shift& a, const LineMap::Shift& b) {
     return a.line != b.line ? a.line < b.line : a.column < b.column;
 }
 
-/// Finds lines and columns of offsets that only grow.
+/// Computes line and column of increasing offsets.
 class Cursor {
 public:
     explicit Cursor(std::string_view text) : text_(text) {}
@@ -35,8 +35,8 @@ private:
     int line_ = 1;
 };
 
-/// Where a word begins in what replaces something, behind the first: the author wrote all of them in one
-/// place.
+/// Returns the offset of each token of a replacement that does not begin at offset 0. The author wrote all of
+/// them in one place.
 std::vector<size_t> inner_words(std::string_view replacement) {
     std::vector<size_t> begins;
     for (size_t i = 1; i < replacement.size(); ++i)
@@ -74,12 +74,12 @@ int LineMap::shift_at(int line, int column) const {
     return next == shifts_.begin() || std::prev(next)->line != line ? 0 : std::prev(next)->by;
 }
 
-/// The shifts so far are about columns before this call: they move, and both are added up.
+/// The existing shifts use columns before this call: their columns move, and both shifts are added up.
 void LineMap::shift(const std::vector<Shift>& shifts) {
     std::vector<Shift> result;
     size_t old = 0;
-    int before = 0; // what the old ones say here
-    int added = 0;  // what the new ones say here
+    int before = 0; // sum of the old shifts at this column
+    int added = 0;  // sum of the new shifts at this column
     int line = 0;
     const auto begin_line = [&](int next) {
         if (next != line)
@@ -93,7 +93,7 @@ void LineMap::shift(const std::vector<Shift>& shifts) {
     };
     for (const Shift& shift : shifts) {
         const int total = shift.line == line ? added + shift.by : shift.by;
-        // In the columns of before, this one stands at its own column plus all shifts up to it.
+        // In the columns before this call, the new shift is at its own column plus all new shifts up to it.
         while (old < shifts_.size() && stands_before(shifts_[old], {shift.line, shift.column + total, 0}))
             take_old(shifts_[old++]);
         begin_line(shift.line);
@@ -142,7 +142,7 @@ void MappedText::apply(const std::vector<Edit>& edits) {
     Cursor cursor(text_);
     size_t line_begin = 0; // in the result
     int line = 1;
-    int told = 0; // by the shifts of this line
+    int told = 0; // sum of the shifts of this line so far
     size_t copied = 0;
     for (const Edit& edit : edits) {
         assert(edit.begin >= copied && edit.end >= edit.begin && edit.end <= text_.size());

@@ -1,5 +1,5 @@
-// A text that knows where each of its lines was written. Files, includes and generated lines are put
-// together with `append`; a message about line N of the whole is sent back to its author with `locate`.
+// A text with the file and line that each of its lines comes from. `append` joins files, includes and
+// generated lines; `locate` maps a message about line N of the whole back to the author's file.
 #pragma once
 
 #include "base/error.hpp"
@@ -10,20 +10,20 @@
 
 namespace tidemark::text {
 
-/// From a line of the whole text (counted from 1) to the author's file and line.
+/// Maps a line of the whole text (counted from 1) to the author's file and line.
 class LineMap {
 public:
-    /// Lines from `line` on were written in `file` from `source_line` on, until the next run begins.
+    /// Declares that lines from `line` on come from `file`, from `source_line` on, until the next run begins.
     void begin_run(int line, std::string_view file, int source_line);
 
-    /// Where `line` was written. A line of our own making has an empty file name.
+    /// Returns the place where `line` was written. Generated lines have an empty file name.
     SourceLocation locate(int line, int column = 0) const;
 
-    /// The runs of `other`, whose line 1 stands at `first_line` here.
+    /// Appends the runs of `other`; its line 1 is `first_line` here.
     void append(const LineMap& other, int first_line);
 
-    /// On `line`, what stands from `column` on was written `by` columns further right (left where negative)
-    /// than it would be found without this call. In ascending order of places.
+    /// From `column` of `line` on, the author's column is `by` larger (smaller if negative) than without this
+    /// shift. Shifts are passed in ascending order of place.
     struct Shift {
         int line;
         int column;
@@ -41,26 +41,26 @@ private:
     };
     std::vector<std::string> files_;
     std::vector<Run> runs_;     // ascending in `line`
-    std::vector<Shift> shifts_; // ascending; each holds up to the next of its line
+    std::vector<Shift> shifts_; // ascending; each applies until the next one of its line
 };
 
-/// Replace the characters [begin, end) by `replacement`.
+/// Replaces the characters [begin, end) with `replacement`.
 struct Edit {
     size_t begin = 0;
     size_t end = 0;
     std::string replacement{};
 };
 
-/// Text with its LineMap. Every chunk starts on a line of its own and the whole ends with a newline.
+/// Text with its LineMap. Every chunk starts on a new line, and the whole ends with a newline.
 class MappedText {
 public:
     void append(std::string_view chunk, std::string_view file, int first_line);
     void append(const MappedText& other);
-    /// Lines of our own making.
+    /// Appends lines that have no author.
     void append_generated(std::string_view chunk) { append(chunk, {}, 0); }
 
     /// Applies edits that are sorted by `begin` and do not overlap. Line breaks that an edit removes are
-    /// put back behind its replacement, so that no line moves; a replacement must not contain any.
+    /// inserted after its replacement, so that no line moves; a replacement must not contain any.
     void apply(const std::vector<Edit>& edits);
 
     const std::string& text() const { return text_; }
@@ -75,7 +75,7 @@ private:
     int line_count_ = 0;
 };
 
-/// The text with CR LF and lone CR turned into LF and a byte-order mark dropped.
+/// Returns the text with CR LF and lone CR replaced by LF, and without a byte-order mark.
 std::string with_plain_line_ends(std::string text);
 
 } // namespace tidemark::text

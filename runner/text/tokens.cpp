@@ -25,11 +25,11 @@ public:
 private:
     char at(size_t offset) const { return offset < text_.size() ? text_[offset] : '\0'; }
 
-    /// A backslash before a line end joins the lines: both are blank to every reader.
+    /// A backslash before a line end joins the lines; compilers treat both characters as blanks.
     bool at_line_joint() const { return at(position_) == '\\' && at(position_ + 1) == '\n'; }
 
-    /// Counts the line feed at `position_`. One inside a comment or behind a backslash begins no line for
-    /// the preprocessor.
+    /// Counts the line feed at `position_`. One inside a comment or after a backslash begins no line for the
+    /// preprocessor.
     void advance_line(bool begins_line) {
         ++line_;
         line_begin_ = position_ + 1;
@@ -61,7 +61,7 @@ private:
 
     void skip_line_comment() {
         while (position_ < text_.size() && at(position_) != '\n') {
-            if (at_line_joint()) { // the comment goes on
+            if (at_line_joint()) { // the comment continues
                 ++position_;
                 advance_line(false);
             }
@@ -102,8 +102,9 @@ private:
         return TokenKind::punctuation;
     }
 
-    /// Whether the string here ends on its line; if so, `closing_quote_` is where. A quote without an end is
-    /// remembered: those of its kind behind it on the line have none either, and need no search.
+    /// Checks that the string here ends on its line, and if so stores its end in `closing_quote_`. For a
+    /// quote without an end it stores how far it searched: later quotes of the same kind on that line have no
+    /// end either, which keeps the lexer linear.
     bool closes_on_line() {
         const char quote = at(position_);
         size_t& open_until = quote == '"' ? double_open_until_ : single_open_until_;
@@ -167,12 +168,12 @@ private:
     std::vector<Token> tokens_;
     size_t position_ = 0;
     size_t line_begin_ = 0;
-    size_t closing_quote_ = 0;     ///< of the string at `position_`
-    size_t double_open_until_ = 0; ///< no string in these quotes ends before
+    size_t closing_quote_ = 0;     ///< end of the string at `position_`
+    size_t double_open_until_ = 0; ///< no string in double quotes ends before this offset
     size_t single_open_until_ = 0;
     int line_ = 1;
     bool first_on_line_ = true;
-    bool skipped_ = false; ///< blanks or comments, or there is nothing before
+    bool skipped_ = false; ///< blanks or comments precede, or this is the beginning of the text
 };
 
 } // namespace

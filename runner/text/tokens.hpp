@@ -1,5 +1,5 @@
-// GLSL text cut into tokens. Comments and blanks are skipped; every token knows its place. This is the
-// lexer that all readers and rewriters of shader text share; it never fails, whatever the bytes are.
+// Splits GLSL text into tokens with their places; comments and blanks are skipped. All readers and rewriters
+// of shader text share this lexer. It never fails, whatever the bytes are.
 #pragma once
 
 #include <string_view>
@@ -10,30 +10,30 @@ namespace tidemark::text {
 enum class TokenKind : unsigned char {
     identifier,
     number,      ///< a preprocessing number: 1, .5, 1e-3, 0x1Fu, 1.f
-    string,      ///< quotes included; only directives have strings
+    string,      ///< with its quotes; only directives have strings
     punctuation, ///< one character
 };
 
 struct Token {
-    std::string_view text; ///< a view into the text that was cut
+    std::string_view text; ///< view into the tokenized text
     size_t begin = 0;      ///< offset of the first character
     int line = 0;          ///< counted from 1
     int column = 0;        ///< counted from 1, in bytes
     TokenKind kind = TokenKind::punctuation;
-    bool first_on_line = false; ///< as the preprocessor counts: joined lines and comments are no line ends
-    bool glued = false;         ///< nothing stands between this token and the one before
+    bool first_on_line = false; ///< for the preprocessor: joined lines and line ends in comments do not count
+    bool glued = false;         ///< nothing separates it from the previous token
 
     size_t end() const { return begin + text.size(); }
     bool is(std::string_view wanted) const { return text == wanted; }
 };
 
-/// Whether it may stand in a name or a number.
+/// Returns whether `c` may be part of a name or a number.
 bool is_word_character(char c);
 
-/// All tokens of `text`, in order; linear in its size. The views stay valid as long as `text` does.
+/// Returns all tokens of `text`, in order; linear in its size. The views stay valid as long as `text` does.
 std::vector<Token> tokenize(std::string_view text);
 
-/// One past the last token of the preprocessor line that the token `first` begins.
+/// Returns one past the last token of the directive whose first token is `first`.
 size_t end_of_directive(const std::vector<Token>& tokens, size_t first);
 
 } // namespace tidemark::text

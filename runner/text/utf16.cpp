@@ -9,7 +9,7 @@ bool continues(char c) {
     return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
 }
 
-/// Of the character that `rest`, which is not empty, begins with.
+/// Returns the number of bytes of the first character of `rest`, which is not empty.
 size_t bytes_of_first(std::string_view rest) {
     const auto first = static_cast<unsigned char>(rest.front());
     const size_t wanted = first >= 0xF0 && first < 0xF8 ? 4 : first >= 0xE0 ? 3 : first >= 0xC0 ? 2 : 1;
@@ -18,7 +18,7 @@ size_t bytes_of_first(std::string_view rest) {
     return whole && first < 0xF8 ? wanted : 1;
 }
 
-/// Beyond the plane that one unit reaches.
+/// Four bytes of UTF-8 encode characters beyond U+FFFF, which need two UTF-16 units.
 size_t units_of(size_t bytes) {
     return bytes == 4 ? 2 : 1;
 }

@@ -1,4 +1,5 @@
-// Places within a line as most editors count them: in UTF-16 units. Bytes that are no UTF-8 count one each.
+// Places within a line in UTF-16 units, as most editors count them. A byte that is not valid UTF-8 counts as
+// one unit.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,8 @@ namespace tidemark::text {
 
 size_t utf16_length(std::string_view utf8);
 
-/// How many bytes the first `units` take; all of them where there are not so many. A character is not cut.
+/// Returns the number of bytes in the first `units` units; all bytes if there are fewer units. Never splits a
+/// character.
 size_t bytes_of_utf16(std::string_view utf8, size_t units);
 
 } // namespace tidemark::text

@@ -29,12 +29,13 @@ std::string base64_of(std::span<const std::byte> bytes) {
     return base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-/// Browsers turn a photograph by what its camera wrote into it; we do not.
+/// Returns whether a photograph has camera data: browsers rotate by its orientation, the program does not.
 bool has_camera_data(std::string_view jpeg) {
     return jpeg.substr(0, size_t{64} << 10).find("Exif") != std::string_view::npos;
 }
 
-/// What a browser decodes as we do, as it is.
+/// Returns the type of a file that browsers decode like the program does, so that it can be embedded
+/// unchanged; otherwise empty.
 std::string_view type_of(std::string_view file) {
     if (file.starts_with("\x89PNG"))
         return "image/png";
@@ -46,7 +47,7 @@ Json picture_file(std::string_view type, std::string_view bytes, bool flip) {
     return {{"kind", "picture"}, {"type", type}, {"flip", flip}, {"data", base64(bytes)}};
 }
 
-/// Its first row becomes the texture's first row.
+/// Embeds samples; the image's first row becomes the texture's first row.
 Result<Json> samples_of(const Image& image) {
     if (image.type == SampleType::f32)
         return Json{{"kind", "floats"},
@@ -78,7 +79,7 @@ Json media_file(std::string_view kind, std::string_view bytes) {
     return {{"kind", kind}, {"data", base64(bytes)}};
 }
 
-/// One object a channel.
+/// Makes one JSON object per channel.
 class Embedder {
 public:
     explicit Embedder(bool vflip) : vflip_(vflip) {}
@@ -91,7 +92,8 @@ public:
     }
 
     Result<Json> operator()(const scene::Picture& picture) const {
-        const auto image = TRY(image::read_picture(picture.file)); // a browser would not say what is wrong
+        // checked here, since a browser would not report what is wrong
+        const auto image = TRY(image::read_picture(picture.file));
         const auto file = TRY(read_file(picture.file, k_largest_file));
         const std::string_view type = type_of(file);
         const bool as_it_is = !type.empty() && image.type == SampleType::u8;
@@ -187,7 +189,7 @@ private:
 
 Result<Json> input_data(const scene::Channel& channel) {
     auto data = std::visit(Embedder(channel.sampling.vflip), channel.input);
-    if (!data && !channel.where.file.empty()) // say which directive asked for it
+    if (!data && !channel.where.file.empty()) // report the directive that names the file
         return fail(error_at(channel.where, data.error().message));
     return data;
 }

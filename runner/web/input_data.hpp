@@ -1,4 +1,4 @@
-// What a channel reads, as JSON: a file of the scene whole and in base 64, what is generated as PNG.
+// A channel's input as JSON: files of the scene embedded whole in base 64, generated pictures as PNG.
 #pragma once
 
 #include "base/result.hpp"
@@ -7,11 +7,11 @@
 
 namespace tidemark::web {
 
-/// The largest file that goes into a page.
+/// Bytes of the largest file that is embedded in a page.
 inline constexpr size_t k_largest_file = size_t{64} << 20;
 
-/// `kind` says what the rest is: see host/media.js. Not for a PassOutput. Fails (ErrorCode::load) on a file
-/// that cannot be read or is too large.
+/// Returns an object whose `kind` determines the other members (host/inputs.js). Not for a PassOutput. Fails
+/// (ErrorCode::load) on a file that cannot be read or is too large.
 Result<Json> input_data(const scene::Channel& channel);
 
 } // namespace tidemark::web

@@ -1,4 +1,4 @@
-// JSON as a page's scripts read it: members in the order in which they were written.
+// JSON for a page's scripts, with members in the order in which they were written.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,4 +1,4 @@
-// A knob as JSON, from which host/controls.js makes its widget.
+// A knob as JSON, from which host/controls.js makes its widgets.
 #pragma once
 
 #include "scene/knob.hpp"

@@ -10,7 +10,8 @@
 namespace tidemark::web {
 namespace {
 
-/// Whatever bytes the scene's texts have: in ASCII, for the page around a figure need not be in UTF-8.
+/// Escapes everything to ASCII, since the page around a figure need not be in UTF-8; invalid bytes are
+/// replaced.
 std::string in_script(const nlohmann::ordered_json& data) {
     return report::in_script(data.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace));
 }

@@ -21,22 +21,23 @@ std::string_view name_of(scene::PassKind kind) {
     }
 }
 
-/// WebGL starts at zero what has no value, as the texts that are written for it expect.
+/// Returns GLSL ES 3.00 without initialisers: WebGL sets variables to zero, as shaders written for it expect.
 text::MappedText web_source(const glsl::PassReading& reading) {
     const auto dialects = reading.dialects(glsl::Precision::single);
     glsl::Dialect dialect = *std::ranges::find(dialects, glsl::Version::es_300, &glsl::Dialect::version);
     dialect.initialise = false;
-    return std::move(reading.assemble(dialect)->source); // which fails in double precision only
+    return std::move(reading.assemble(dialect)->source); // assembling fails only in double precision
 }
 
-/// As seen from the scene: a page does not tell in whose home it was made.
+/// Returns the path relative to the scene, so that a page does not reveal its author's folders.
 std::string shown_name(const std::filesystem::path& file, const scene::Scene& scene) {
     const auto relative =
         file.lexically_normal().lexically_relative(scene.file.parent_path().lexically_normal());
     return relative.empty() || *relative.begin() == ".." ? file.filename().string() : relative.string();
 }
 
-/// [line of the source, file, line in it], where a file begins or goes on; ours have no file.
+/// Returns [line of the source, file, line in the file] for each line at which a run of a file begins;
+/// generated lines have an empty file.
 Json line_runs(const text::MappedText& source, const scene::Scene& scene) {
     Json runs = Json::array();
     SourceLocation last;
@@ -66,7 +67,7 @@ Json pass_data(const scene::Scene& scene, const scene::Pass& pass) {
 std::vector<size_t> channels_named(const scene::Scene& scene, const scene::Pass& pass) {
     const glsl::PassReading reading(scene, pass);
     const auto named = [&](std::string_view name) { return reading.place_of(name).has_value(); };
-    // Sizes and times are asked for by a number that only a compiler knows.
+    // Sizes and times are indexed by a number that only a compiler can evaluate, so the first four count.
     const bool asks = named("iChannelResolution") || named("iChannelTime") || named("iChannel");
     std::vector<size_t> channels;
     for (size_t i = 0; i < scene::k_channel_count; ++i)

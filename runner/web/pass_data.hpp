@@ -1,4 +1,4 @@
-// A pass as the page compiles it.
+// A pass as JSON, in the form in which the page compiles it.
 #pragma once
 
 #include "scene/scene.hpp"
@@ -8,11 +8,12 @@
 
 namespace tidemark::web {
 
-/// `name`, `kind`, `source` (GLSL ES 3.00: the author's text as WebGL has it, ours around it), `lines` (of
-/// the source from which on a file has which lines) and whether it `discards`.
+/// Returns `name`, `kind`, `source` (GLSL ES 3.00: the author's text and the host's around it), `lines`
+/// (which lines of the source come from which file), `discards`, and `foreign` (it may use other hosts'
+/// uniforms).
 Json pass_data(const scene::Scene& scene, const scene::Pass& pass);
 
-/// The channels that the text may look at, ascending.
+/// Returns the channels that the text may read, ascending.
 std::vector<size_t> channels_named(const scene::Scene& scene, const scene::Pass& pass);
 
 } // namespace tidemark::web

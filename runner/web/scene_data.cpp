@@ -18,7 +18,7 @@ namespace {
 
 using scene::PassKind;
 
-/// A Sound pass gets what never changes, here as on the site.
+/// Leaves a Sound pass only inputs that never change, like ShaderToy.
 scene::Channel heard(const scene::Scene& scene, scene::Channel channel) {
     if (traits_of(channel.input).changes != scene::Changes::never)
         channel.input = scene::Unbound{texture_kind(scene, channel.input)};
@@ -79,7 +79,7 @@ private:
                 need(*source);
     }
 
-    /// From the scene's passes to the page's.
+    /// Numbers the needed passes in their order on the page.
     void number_passes() {
         size_t count = 0;
         for (size_t& place : place_)
@@ -103,7 +103,7 @@ private:
         return channels;
     }
 
-    /// Among the inputs; what several channels read is there once.
+    /// Returns the index among the inputs; several channels share an equal input.
     Result<size_t> place_of(const scene::Channel& channel) {
         const auto known = std::ranges::find_if(known_, [&](const scene::Channel& other) {
             return other.input == channel.input && other.sampling.vflip == channel.sampling.vflip;
@@ -116,8 +116,8 @@ private:
     }
 
     const scene::Scene& scene_;
-    std::vector<std::vector<size_t>> named_; ///< channels, of each pass
-    std::vector<size_t> place_;              ///< of each pass among the page's
+    std::vector<std::vector<size_t>> named_; ///< channels that each pass's text names
+    std::vector<size_t> place_;              ///< index of each pass on the page
     std::vector<scene::Channel> known_;
     Json inputs_ = Json::array();
 };

@@ -1,5 +1,5 @@
-// What a page knows of its scene, as JSON: the texts of its passes with the way back to their authors' lines,
-// what the channels read, the knobs. `host/` reads it.
+// A scene as JSON for its page: the passes' texts with the authors' lines, the channels' inputs, the knobs.
+// `host/` reads it.
 #pragma once
 
 #include "base/result.hpp"
@@ -8,7 +8,7 @@
 
 namespace tidemark::web {
 
-/// Passes that nobody needs are left out, and inputs that no text names. Fails like `make_page`.
+/// Leaves out passes that are not needed and inputs that no text names. Fails like `make_page`.
 Result<Json> scene_data(const scene::Scene& scene);
 
 } // namespace tidemark::web

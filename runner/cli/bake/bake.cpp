@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct BakeOptions {
-    fs::path output{}; ///< empty: the command's own
+    fs::path output{}; ///< empty: the command's default
     uint32_t seed = image::k_noise_seed;
 };
 

@@ -19,11 +19,11 @@ namespace fs = std::filesystem;
 namespace {
 
 struct IslandOptions {
-    fs::path output; ///< empty: island.exr; of --study no folder
+    fs::path output; ///< empty: island.exr; with --study, no folder
     image::SampleDepth depth = image::SampleDepth::half;
     int side = 512;
     uint32_t seed = bake::k_island_seed;
-    fs::path heights; ///< of the user; empty: our own island
+    fs::path heights; ///< the user's height map; empty: generated island
     double extent = bake::k_island_extent;
     double sea = 0.0;
     double metres = 1.0;

@@ -1,4 +1,5 @@
-// `bake island`: the fields of a terrain that waves roll in to, and the study of how exactly they are known.
+// `bake island`: bakes the fields of a terrain for waves that roll in to the shore, and studies their
+// accuracy.
 #pragma once
 
 #include "cli/command_line.hpp"

@@ -18,9 +18,9 @@ namespace {
 
 constexpr int k_study_sides[] = {64, 128, 256, 512, 1024};
 
-// ---- The table ------------------------------------------------------------------------------------------
+// ---- The table
 
-/// "1.2e-03 1.97": an error, and the power of the spacing with which it fell from the size before.
+/// Formats an error and its order of convergence against the previous size, for example "1.2e-03 1.97".
 std::string error_cell(double error, std::optional<double> before) {
     const std::string order = before ? fmt::format("{:5.2f}", std::log2(*before / error)) : "    -";
     return fmt::format("{:8.1e} {}", error, order);
@@ -72,12 +72,12 @@ Result<void> put_tables() {
     return {};
 }
 
-// ---- The report -----------------------------------------------------------------------------------------
+// ---- The report
 
 constexpr bake::Stencil k_stencils[] = {bake::Stencil::first_order, bake::Stencil::second_order};
-constexpr int k_usual_side = 512; // of `bake island`
+constexpr int k_usual_side = 512; // the default of `bake island`
 
-/// What a point of the study marches with.
+/// The parameters of the marching at one point of the study.
 struct MarchSetting {
     bake::Stencil stencil = bake::Stencil::second_order;
     int side = k_usual_side;
@@ -104,7 +104,8 @@ lab::Study plan() {
     return study;
 }
 
-/// The points of plan(), in the order of lab::points_of: the bake's own setting, then all combinations.
+/// Returns the settings of the points of plan(), in the order of lab::points_of: the default setting, then
+/// all combinations.
 std::vector<MarchSetting> march_settings() {
     std::vector<MarchSetting> settings{{}};
     for (const bake::Stencil stencil : k_stencils)
@@ -121,7 +122,7 @@ lab::Hits hits_of(std::vector<double> ways, double evaluations) {
     return hits;
 }
 
-/// What the marches of one setting found, case by case and together.
+/// Compares the marches of one setting with the exact results, case by case and together.
 void hold_against_exact(const MarchSetting& setting, lab::WorkPrecision& point) {
     std::vector<lab::Hits> exact, found;
     std::vector<std::vector<double>> footprints; // hit_errors takes them at distance 1

@@ -1,5 +1,5 @@
-// `bake island --study`: error of the marching against its run time, on maps with known answers; as a table
-// and, with a folder, as the same report that `tidemark study` writes.
+// `bake island --study`: error of the fast marching against its run time, on maps with known answers; as a
+// table and, with a folder, as a report like that of `tidemark study`.
 #pragma once
 
 #include "base/result.hpp"
@@ -9,11 +9,11 @@
 namespace tidemark::cli {
 
 struct MarchStudyRequest {
-    std::filesystem::path folder; ///< of the report; empty: the table alone
+    std::filesystem::path folder; ///< of the report; empty: print only the table
     double budget = 30;           ///< seconds for the timing
 };
 
-/// The process's exit code.
+/// Returns the exit code.
 Result<int> study_march(const MarchStudyRequest& request);
 
 } // namespace tidemark::cli

@@ -11,7 +11,7 @@
 namespace tidemark::cli {
 namespace {
 
-constexpr size_t k_block_bytes = 1 << 18; ///< what a processor's cache holds while it is filled and written
+constexpr size_t k_block_bytes = 1 << 18; ///< fits a processor's cache while it is filled and written
 
 } // namespace
 

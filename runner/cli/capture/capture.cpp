@@ -31,15 +31,16 @@
 namespace tidemark::cli {
 namespace {
 
-/// Bytes; more than its buffers can be: two textures each, of four floats a pixel, the largest a cubemap's.
+/// Returns an upper bound of the state's size in bytes: two textures per buffer with four floats a pixel,
+/// each at most as large as the frame or a cubemap.
 uint64_t largest_state(const CapturePlan& plan) {
     constexpr uint64_t k_cubemap = 6 * 1024 * 1024, k_header = 1 << 20;
     const auto pixels = std::max<uint64_t>(plan.drawing.extent.pixels(), k_cubemap);
     return k_header + plan.scene.passes.size() * 2 * pixels * 4 * sizeof(float);
 }
 
-/// The newest state that the rest of the capture can begin from. Where there is none, one that is too new
-/// still says which program was chosen.
+/// Returns the newest state from which the rest of the capture can start. If there is none, a newer one
+/// supplies only the program that was chosen.
 std::optional<SavedState> find_state(const CapturePlan& plan, const Fingerprint& fingerprint) {
     const render::FrameStates states = states_of(plan.frames);
     std::optional<SavedState> too_new;
@@ -72,8 +73,8 @@ void say_what_was_written(const FrameRecords& records, const CapturePlan& plan) 
                         records.last().file));
 }
 
-/// One line for all frames, which begins with the first of them that has such pixels. Nothing where none
-/// has: a file does not show them.
+/// Prints one line for all frames, naming the first with such pixels; nothing if there is none. The file does
+/// not show such pixels.
 void warn_of(const FrameRecords::Found& found,
              const std::function<std::string(const FrameRecord&, const std::string& others)>& words) {
     if (!found.first)
@@ -99,7 +100,7 @@ void say_what_pixels_hold(const FrameRecords& records, const CapturePlan& plan) 
     });
 }
 
-/// The plan without the frames that are there already; says how many those are.
+/// Removes frames that already exist from the plan, and prints how many there are.
 void keep_what_is_there(CapturePlan& plan, const Fingerprint& fingerprint) {
     const size_t all = plan.frames.frames.size();
     const KeptFrames kept = leave_out_kept(plan, fingerprint);
@@ -109,7 +110,8 @@ void keep_what_is_there(CapturePlan& plan, const Fingerprint& fingerprint) {
     plan.kept = kept.frames;
 }
 
-/// What a run before left, which may have ended after this one began, and what this one needs no more.
+/// Removes files of an earlier run, which may have overlapped with this one, and saved states that have
+/// become unnecessary.
 void tidy_up(const CapturePlan& plan) {
     if (plan.resume)
         for (const OutputPath& file : {plan.output.of_frame(0), state_file(plan.output, 0)})
@@ -128,7 +130,7 @@ std::string interruption(const CapturePlan& plan, Capture& run) {
                        words.empty() ? "" : "; " + words);
 }
 
-/// What was made before: leaves it out of the plan, and gives what the rest begins from.
+/// Removes existing frames from the plan, and returns the state from which the rest starts.
 std::optional<SavedState> take_up(CapturePlan& plan, const Fingerprint& fingerprint) {
     if (plan.resume)
         keep_what_is_there(plan, fingerprint);
@@ -140,7 +142,7 @@ std::optional<SavedState> take_up(CapturePlan& plan, const Fingerprint& fingerpr
     if (plan.frames.frames.empty() || !(plan.resume || plan.shard))
         return std::nullopt;
     auto state = find_state(plan, fingerprint);
-    if (state && !plan.shard) { // shards draw one program, whatever another capture chose
+    if (state && !plan.shard) { // all shards must draw the same program, whatever another capture chose
         plan.drawing.specialise = state->program;
         plan.trial.reset();
     }
@@ -171,7 +173,7 @@ Result<void> report(Capture& run, const CapturePlan& plan, bool complete) {
 
 Result<int> capture_frames(CapturePlan plan) {
     Interrupt interrupt;
-    std::jthread codec; // is loaded beside the driver, which takes as long
+    std::jthread codec; // loads in parallel with the driver, which takes as long
     if (plan.to_picture_files())
         codec = image::preload_picture_codec(plan.output.pattern());
     const auto context = TRY(platform::HeadlessContext::create(plan.device));
@@ -264,7 +266,7 @@ void add_capture_options(Command command, CaptureOptions& options) {
         .type_name("MAX")
         .check(number<double>("a number"))
         .excludes(plain)
-        .excludes("--timeout"); // a trial's frames have no limit
+        .excludes("--timeout"); // frames of a trial have no time limit
     command
         .add_option("--tile", options.tile,
                     "Draw in tiles of N pixels a side, an even number [1024x256 above 4096x2160 pixels]")

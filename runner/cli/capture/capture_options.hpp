@@ -1,4 +1,4 @@
-// The options of `tidemark capture`, for whoever reads its words.
+// The options of `tidemark capture`, for other code that parses its command line.
 #pragma once
 
 #include "cli/command_line.hpp"
@@ -11,7 +11,7 @@ struct CaptureOptions;
 
 void add_capture_options(Command command, CaptureOptions& options);
 
-/// --codec: of every command that makes videos.
+/// Adds --codec, for every command that makes videos.
 void add_codec_option(Command command, std::string& codec);
 
 } // namespace tidemark::cli

@@ -26,14 +26,15 @@ using image::SampleDepth;
 using image::SampleType;
 using image::Transfer;
 
-/// A buffer is state: a half would make infinity of 1e6. So a pass that was asked for keeps its floats.
+/// Keeps floats for passes other than Image: a buffer is state, and a half float would turn 1e6 into
+/// infinity.
 SampleDepth default_depth(const OutputName& output, const std::string& pass) {
     const SampleDepth natural = image::natural_depth(output.pattern());
     const bool state = drawn_transfer(pass) == Transfer::data;
     return natural == SampleDepth::half && state ? SampleDepth::f32 : natural;
 }
 
-/// Of a video of ten bits 16, which a frame is drawn for.
+/// Returns 16 bits for a video of ten bits; frames are drawn in that depth.
 Result<SampleDepth> parse_depth(const std::string& text, const OutputName& output, const std::string& codec,
                                 const std::string& pass) {
     constexpr std::pair<std::string_view, SampleDepth> k_depths[] = {{"8", SampleDepth::u8},
@@ -73,7 +74,7 @@ Result<Transfer> parse_transfer(const std::string& text, const CapturePlan& plan
     return Transfer::linear;
 }
 
-/// What Image's alpha is, and what becomes of it in the file.
+/// Returns how Image's alpha is drawn and stored in the file.
 Result<Alpha> parse_alpha(const std::string& text, const CapturePlan& plan) {
     const auto refuse = [&](std::string_view why) {
         return fail(ErrorCode::usage, fmt::format("--alpha {}: {}", text, why));
@@ -98,7 +99,8 @@ Result<Alpha> parse_alpha(const std::string& text, const CapturePlan& plan) {
     return alpha;
 }
 
-/// Of the passes behind Image, which all go into its file. Buffers are state: they keep their floats.
+/// Returns the sample depth of the passes written in addition to Image. Buffers are state, so they keep
+/// floats by default.
 Result<std::optional<SampleDepth>> parse_layers(const CaptureOptions& options, const CapturePlan& plan) {
     const auto refuse = [](std::string_view why) {
         return fail(ErrorCode::usage, fmt::format("--layers: {}", why));
@@ -121,10 +123,10 @@ Result<std::optional<SampleDepth>> parse_layers(const CaptureOptions& options, c
     return options.depth.empty() ? SampleDepth::f32 : plan.depth;
 }
 
-/// How much of a scene a sheet shows where nobody says it.
+/// The default length of a sheet in seconds.
 constexpr double k_seconds_of_sheet = 10;
 
-/// The moments of its cells.
+/// Returns the frames of the sheet's cells.
 Result<std::vector<int>> frames_of_sheet(const CaptureOptions& options, const FrameSequence& asked,
                                          const SheetGrid& grid) {
     const auto refuse = [](std::string why) {
@@ -147,7 +149,7 @@ Result<std::vector<int>> frames_of_sheet(const CaptureOptions& options, const Fr
     return beginnings(seconds, asked.state.fps, grid.cells());
 }
 
-/// What does not go with a sheet.
+/// Rejects outputs that do not fit a sheet.
 Result<void> check_sheet(const CapturePlan& plan) {
     if (!plan.sheet)
         return {};
@@ -164,17 +166,18 @@ Result<void> check_sheet(const CapturePlan& plan) {
     return {};
 }
 
-/// A frame that is named twice (`0-9,5-14`) is one file.
+/// Removes repeated frames (`0-9,5-14`): each frame is one file.
 void drop_repeats(std::vector<int>& frames) {
     std::unordered_set<int> seen;
     std::erase_if(frames, [&](int frame) { return !seen.insert(frame).second; });
 }
 
-/// A WAV file of 16-bit stereo counts its bytes in 32 bits: some six hours. Nobody listens so long.
+/// In seconds. A WAV file of 16-bit stereo counts its bytes in 32 bits, which allows some six hours; this
+/// limit is lower.
 constexpr double k_longest_sound = 3600;
 constexpr double k_seconds_of_sound = 60;
 
-/// Whether what is there already can be told from what is missing.
+/// Fails if existing frames could not be told from missing ones.
 Result<void> check_resume(const OutputName& output) {
     const auto refuse = [](std::string_view why) {
         return fail(ErrorCode::usage, fmt::format("--resume: {}", why));
@@ -187,7 +190,7 @@ Result<void> check_resume(const OutputName& output) {
     return {};
 }
 
-/// Several processes write to one folder, and `gather` has to find out what is there.
+/// Fails if several processes could not write to one folder, or `gather` could not check the result.
 Result<void> check_shard(const CaptureOptions& options, const OutputName& output) {
     const auto refuse = [](std::string_view why) {
         return fail(ErrorCode::usage, fmt::format("--shard: {}", why));
@@ -201,7 +204,7 @@ Result<void> check_shard(const CaptureOptions& options, const OutputName& output
     return {};
 }
 
-/// What a capture leaves for another one.
+/// Checks the options that keep data for a later run.
 Result<void> check_keeping(const CaptureOptions& options, const OutputName& output, Extent extent) {
     if (options.resume)
         TRY(check_resume(output));
@@ -215,10 +218,11 @@ Result<void> check_keeping(const CaptureOptions& options, const OutputName& outp
     return {};
 }
 
-/// A frame of motion blur alone, or of smooth edges alone, is seldom wanted: both go together.
+/// Motion blur and smooth edges are seldom wanted one without the other, so --shutter alone implies several
+/// samples.
 constexpr int k_samples_of_shutter = 16;
 
-/// Whole numbers clip what they cannot hold; so does a display, sample by sample.
+/// Clamps each sample for integer formats, as a display does.
 render::Exposure exposure_of(const CaptureOptions& options, SampleDepth depth) {
     const double shutter = options.shutter.value_or(0);
     return {.samples = options.samples.value_or(shutter > 0 ? k_samples_of_shutter : 1),
@@ -226,7 +230,7 @@ render::Exposure exposure_of(const CaptureOptions& options, SampleDepth depth) {
             .clamped = depth == SampleDepth::u8 || depth == SampleDepth::u16};
 }
 
-/// What the output can hold.
+/// Checks that the output format can hold the frames.
 Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options) {
     const OutputName& output = plan.output;
     const Extent extent = plan.frames.state.extent;
@@ -255,7 +259,7 @@ Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options
     return {};
 }
 
-/// What the command line says before the scene is known.
+/// Converts the options that do not depend on the scene.
 Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     CapturePlan plan;
     plan.frames =
@@ -309,7 +313,8 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     return check_output(plan, options).map([&] { return std::move(plan); });
 }
 
-/// What is read must not be written, even by a frame late in a sequence: it is refused before the first.
+/// Refuses to overwrite a file that is read, also for a late frame of a sequence, before the first frame is
+/// drawn.
 Result<void> spare_what_is_read(const CaptureOptions& options, CapturePlan& plan) {
     std::vector<std::filesystem::path> read = files_read(plan.scene, options.frames);
     if (!options.like.empty())
@@ -341,11 +346,11 @@ Result<void> check_cube(const CapturePlan& plan) {
     return {};
 }
 
-/// In fewer frames a trial of another program does not pay.
+/// With fewer frames a trial of another program does not pay.
 constexpr size_t k_frames_worth_a_trial = 64;
 
-/// A trial looks at the first frame that is drawn and at the last, as the sequence sees them but for what
-/// buffers hold: they are empty. Where knobs are turned on the way no program has their values in it.
+/// Plans a trial of the first and the last frame, in their states of the sequence but with empty buffers.
+/// While a recording changes knobs, they cannot be constants in a program.
 Result<std::optional<PlannedTrial>> plan_trial(const CaptureOptions& options, const CapturePlan& plan) {
     const std::vector<int>& frames = plan.frames.frames;
     const bool turned = plan.frames.input && turns_knobs(*plan.frames.input);
@@ -364,7 +369,7 @@ Result<std::optional<PlannedTrial>> plan_trial(const CaptureOptions& options, co
                          options.allowed_difference}};
 }
 
-/// A video is shared segment by segment, as it is encoded.
+/// Assigns whole segments of a video to the shard, since segments are encoded separately.
 void take_segments(const Shard& shard, CapturePlan& plan) {
     for (VideoSegment& segment : plan.segments)
         segment.others = true;
@@ -376,7 +381,7 @@ void take_segments(const Shard& shard, CapturePlan& plan) {
     }
 }
 
-/// All shards draw the same program: there is no trial.
+/// Reduces the plan to the shard's frames. All shards draw the same program, without a trial.
 Result<void> take_shard(const CaptureOptions& options, CapturePlan& plan) {
     plan.shard = TRY(parse_shard(options.shard));
     const std::filesystem::path folder = plan.output.of_frame(0).path().parent_path();

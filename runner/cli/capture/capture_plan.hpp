@@ -1,6 +1,6 @@
-// What `tidemark capture` was told, and what that comes to: the scene, its frames, how they are drawn and
-// where they go. What is wrong with the command line is said here, but for what only the driver or the
-// compiled scene knows; behind the plan nobody reads the options.
+// The options of `tidemark capture`, and the plan made from them: the scene, its frames, how they are drawn
+// and where they go. Errors in the command line are found here, except those that only the driver or the
+// compiled scene shows; later code uses the plan, not the options.
 #pragma once
 
 #include "cli/capture/shard.hpp"
@@ -21,7 +21,7 @@
 
 namespace tidemark::cli {
 
-/// What the picture that `--like` names says of itself.
+/// The metadata of the picture that `--like` names.
 struct Likeness {
     FrameSequence sequence;
     std::string fingerprint; ///< Fingerprint::text
@@ -52,21 +52,21 @@ struct CaptureOptions {
     bool loop = false;
     int state_every = 0;
     std::string shard;
-    std::vector<std::string> words{}; ///< as they were typed, without --shard and --resume
+    std::vector<std::string> words{}; ///< the arguments, without --shard, --resume and --json
 };
 
-/// A trial of a program that is specialised further than `CapturePlan::drawing` says.
+/// A trial of a program with stronger optimisation than `CapturePlan::drawing` has.
 struct PlannedTrial {
     glsl::Specialise as_far_as = glsl::Specialise::invariant_uniforms;
     TrialPlan frames;
 };
 
-/// Frames of a video that are encoded on their own.
+/// Frames of a video that are encoded separately.
 struct VideoSegment {
     std::vector<int> frames;
-    std::vector<int> ticks; ///< of the video that each of them is shown
-    bool kept = false;      ///< it is there already
-    bool others = false;    ///< another shard makes it
+    std::vector<int> ticks; ///< for each frame, the number of video ticks that it is shown
+    bool kept = false;      ///< already exists
+    bool others = false;    ///< made by another shard
 
     bool is_to_be_made() const { return !kept && !others; }
 };
@@ -77,46 +77,47 @@ struct CapturePlan {
     OutputName output;
     image::SampleDepth depth = image::SampleDepth::u8;
     image::Transfer transfer = image::Transfer::srgb; ///< of the files
-    image::Alpha alpha = image::Alpha::where_needed;  ///< of Image; where_needed: it is 1
+    image::Alpha alpha = image::Alpha::where_needed;  ///< of Image; where_needed: alpha is 1
     std::optional<SheetGrid> sheet{};                 ///< its cells are the frames
-    std::optional<image::SampleDepth> layers{};       ///< the other passes' too, as this; none: one picture
-    std::string codec{};                              ///< of a video; empty: that of its name
+    /// Sample depth when all passes are written as layers; nothing: one picture.
+    std::optional<image::SampleDepth> layers{};
+    std::string codec{};                              ///< of a video; empty: the default of its file type
     VideoPace pace;                                   ///< of a video
     std::vector<VideoSegment> segments{};             ///< of a video: all its frames
-    render::RenderOptions drawing;                    ///< frames drawn whole
+    render::RenderOptions drawing;                    ///< for frames drawn whole
     render::Exposure exposure;
     std::optional<int> tile_side;
     std::optional<PlannedTrial> trial;
     platform::DeviceChoice device;
     std::optional<double> timeout; ///< seconds for a frame
-    SceneRequest request;          ///< that `scene` was loaded by
-    std::string like;              ///< the picture that it should come to; empty: none
+    SceneRequest request;          ///< the request that `scene` was loaded with
+    std::string like;              ///< the picture to reproduce; empty: none
     std::optional<Likeness> likeness{};
-    bool json = false;            ///< reports the frames, with the SHA-256 of their pixels
-    bool resume = false;          ///< goes on where a capture was cut short
-    bool loop = false;            ///< says whether the sequence goes round
+    bool json = false;            ///< print a report of the frames, with the SHA-256 of their pixels
+    bool resume = false;          ///< continue an interrupted capture
+    bool loop = false;            ///< report whether the sequence is a seamless loop
     int state_every = 0;          ///< frames between two saved states of buffers; 0: none is saved
-    std::optional<Shard> shard{}; ///< whose `frames` these are
-    std::vector<int> kept{};      ///< frames that are there already, and no more among `frames`
-    /// The command that finds where a pixel of that frame stops being a number.
+    std::optional<Shard> shard{}; ///< the shard that makes `frames`
+    std::vector<int> kept{};      ///< frames that already exist, not in `frames`
+    /// Returns the command that finds where a pixel of that frame becomes NaN or infinite.
     std::function<std::string(const render::FrameState&)> trace_command;
 
     bool to_picture_files() const { return !output.standard_output() && !output.video(); }
 };
 
-/// What the samples of a pass stand for as they are drawn. Of a buffer they are state, not colours.
+/// Returns the transfer of a pass's samples as drawn. A buffer's samples are state, not colours.
 image::Transfer drawn_transfer(const std::string& pass);
 
-/// --codec, where a file of that name may have it (ErrorCode::usage otherwise).
+/// Returns the codec of --codec. Fails (ErrorCode::usage) if a file of that name cannot have it.
 Result<std::string> parse_codec(const std::string& text, const OutputName& output);
 
-/// Whether --resume could go on with it.
+/// Returns true if --resume could continue it.
 bool can_be_resumed(const CapturePlan& plan);
 
-/// How to go on where a capture is cut short after so many whole frames; empty: it begins anew.
+/// Returns how to resume a capture that ended after so many whole frames; empty if it would start again.
 std::string words_on_resuming(const CapturePlan& plan, size_t whole_frames);
 
-/// Loads the scene, too, and prints its warnings.
+/// Converts options to a plan. Loads the scene, and prints its warnings.
 Result<CapturePlan> plan_capture(const CaptureOptions& options);
 
 /// The sound of a scene instead of its pictures.
@@ -128,7 +129,7 @@ struct SoundPlan {
     double duration = 60; ///< seconds
 };
 
-/// Whether `-o x.wav` asks for that.
+/// Returns true if the output is a .wav file.
 bool wants_sound(const CaptureOptions& options);
 Result<SoundPlan> plan_sound(const CaptureOptions& options);
 

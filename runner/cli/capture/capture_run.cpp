@@ -29,7 +29,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// Blocks of up to so many bytes are kept by the process: a frame of 4K in bytes.
+/// Freed blocks up to this size stay in the process: a 4K frame of bytes.
 constexpr int k_kept_bytes = 32 << 20;
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -47,9 +47,10 @@ Capture::Capture(const CapturePlan& plan, Fingerprint fingerprint, Trial& compil
 
 Result<bool> Capture::run(Interrupt& interrupt) {
     interrupt_ = &interrupt;
-    // A frame's memory serves the next frame, instead of going back to the system and being cleared anew.
+    // Reuses a frame's memory for the next frame, instead of returning it to the system, which would clear it
+    // again.
     ::mallopt(M_MMAP_THRESHOLD, k_kept_bytes);
-    ::mallopt(M_TRIM_THRESHOLD, 4 * k_kept_bytes); // with its copies on the way to a file
+    ::mallopt(M_TRIM_THRESHOLD, 4 * k_kept_bytes); // including its copies on the way to a file
     TRY(open_output());
     if (draws_ahead())
         ahead_.emplace(renderer_, watchdog_, plan_.timeout);
@@ -88,17 +89,18 @@ Result<bool> Capture::run(Interrupt& interrupt) {
         TRY(close_loop(interrupt));
     TRY(close_output());
     if (plan_.shard && plan_.state_every > 0 && !plan_.frames.frames.empty() && renderer_.plan().feedback)
-        TRY(saver_.save_buffers(plan_.frames.frames.back() + 1)); // the next shard may begin there
+        TRY(saver_.save_buffers(plan_.frames.frames.back() + 1)); // the next shard may start from it
     return true;
 }
 
-/// Else the frame is in memory as a whole: samples that are one tile each are, as videos want it.
+/// Returns true if frames are written band by band. Otherwise the frame is in memory as a whole, also for
+/// several samples in one tile, as videos need it.
 bool Capture::in_bands() const {
     return renderer_.tiles() && !(plan_.exposure.several() && renderer_.tiles()->count() == 1);
 }
 
-/// Not with --json, which says of each frame what it took by itself; nor where more is read of a frame than
-/// the picture on show, or in another way.
+/// Returns false with --json, which reports each frame's own time, and if more is read of a frame than the
+/// shown picture, or in another way.
 bool Capture::draws_ahead() const {
     const scene::PassKind shown = renderer_.shown_pass().kind;
     const bool whole_in_memory =
@@ -117,9 +119,9 @@ Result<void> Capture::open_output() {
     } else if (plan_.sheet) {
         sheet_.emplace(*plan_.sheet);
     } else if (!plan_.output.standard_output() && !in_bands()) {
-        // The driver keeps the cores busy while it draws: two encoders are enough to keep up with it.
+        // Two encoders are enough: the driver keeps the cores busy while it draws.
         const auto encoders = unsigned(std::min<size_t>(2, plan_.frames.frames.size()));
-        // All passes of a frame are large: few wait.
+        // Frames with all passes are large, so fewer wait.
         writer_ = std::make_unique<FrameWriter>(encoders, plan_.layers ? 1 : encoders + 1);
     }
     return {};
@@ -136,7 +138,8 @@ Result<void> Capture::close_output() {
     return writer_ ? writer_->finish() : Result<void>();
 }
 
-/// What the driver puts off until the first draw, so that no frame pays for it, in time or against its limit.
+/// Does the work that drivers defer until the first draw, so that it does not count for a frame's time or
+/// limit.
 void Capture::prepare(Interrupt& interrupt) {
     const Interrupt::Immediate at_once(interrupt);
     const Watchdog::Watch watch(watchdog_, {"preparing the first frame", plan_.timeout});
@@ -145,7 +148,7 @@ void Capture::prepare(Interrupt& interrupt) {
     prepare_milliseconds_ = milliseconds_since(start);
 }
 
-/// Buffers as the run before left them; what is of no use is passed over.
+/// Restores the buffers of an earlier run; an unusable state is ignored.
 void Capture::restore() {
     if (!start_ || !renderer_.plan().feedback || !renderer_.restore(start_->buffers))
         return;
@@ -154,12 +157,12 @@ void Capture::restore() {
     say(fmt::format("going on from the state before frame {}", start_->frame));
 }
 
-/// Leaves `work` watched. False: interrupted.
+/// Draws the steps up to a frame; `work` stays watched. Returns false if interrupted.
 Result<bool> Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work) {
     std::optional<Progress> steps;
     record.file = plan_.output.of_frame(frame).string();
     record.frame = frame;
-    work.begun = Clock::now(); // the limit is on the frame and on all that lead to it
+    work.begun = Clock::now(); // the limit applies to the frame with all frames that lead to it
     Result<bool> saved = true;
     const auto steps_drawn = stepper_.draw(frame, [&](int step, int last) {
         if (interrupt.requested())
@@ -181,8 +184,8 @@ Result<bool> Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord
     return steps_drawn.complete;
 }
 
-/// Hands over what is drawn before a long way, and saves the state where one is due: it is newer than no
-/// frame in front of it. False: a frame could not be written, and no more are wanted.
+/// Delivers drawn frames before a long series of steps, and saves a state if one is due; a state is saved
+/// only after all frames before it. Returns false if a frame could not be written and drawing is to stop.
 Result<bool> Capture::prepare_for(int frame, bool long_way) {
     const bool due = saver_.is_due(frame);
     if ((due || long_way) && TRY(hand_over_all_ahead()) == Outcome::unwanted)
@@ -195,7 +198,7 @@ Result<bool> Capture::prepare_for(int frame, bool long_way) {
     return true;
 }
 
-/// Nothing where it is interrupted.
+/// Returns nothing if interrupted.
 Result<std::optional<DrawnFrame>> Capture::draw(int frame, const Interrupt& interrupt) {
     DrawnFrame drawn;
     std::optional<Work> work(std::in_place);
@@ -212,7 +215,7 @@ Result<std::optional<DrawnFrame>> Capture::draw(int frame, const Interrupt& inte
     return drawn;
 }
 
-/// Before pixels go anywhere. Those of frames in front are on disk where it fails.
+/// Checks the driver before pixels are used. On failure, earlier frames are written first.
 Result<void> Capture::check_driver(const std::string& doing) {
     return gl::check_work(doing).map_error([&](Error error) {
         if (writer_)
@@ -233,7 +236,7 @@ void Capture::look_at(DrawnFrame& drawn) {
         loop_.see(image);
 }
 
-/// Behind the last frame: one more is drawn, and goes nowhere.
+/// Draws the frame after the last one for the comparison; it is not written.
 Result<bool> Capture::close_loop(const Interrupt& interrupt) {
     return TRY(draw(frame_behind(plan_.frames.frames), interrupt)).has_value();
 }
@@ -247,7 +250,7 @@ Result<Capture::Outcome> Capture::make(int frame, const Interrupt& interrupt) {
     return drawn ? hand_over(*std::move(drawn)) : Outcome::interrupted;
 }
 
-/// The frame is drawn while those before it are read back and handed over.
+/// Draws the frame while earlier ones are read back and delivered.
 Result<Capture::Outcome> Capture::make_ahead(int frame, const Interrupt& interrupt) {
     FrameRecord record;
     Work work;
@@ -261,7 +264,8 @@ Result<Capture::Outcome> Capture::make_ahead(int frame, const Interrupt& interru
     auto outcome = before ? TRY(hand_over_ahead(*std::move(before))) : Outcome::made;
     if (added || outcome == Outcome::unwanted)
         return outcome;
-    outcome = TRY(hand_over_all_ahead()); // the driver has no memory for one more: each waits from now on
+    // The driver has no memory for one more, so frames are read back one by one from now on.
+    outcome = TRY(hand_over_all_ahead());
     ahead_.reset();
     return outcome == Outcome::made ? hand_over_ahead({record, read_back()}) : outcome;
 }
@@ -291,7 +295,7 @@ Result<Capture::Outcome> Capture::hand_over(DrawnFrame drawn) {
     return Outcome::made;
 }
 
-/// The limit is on the frame; what is told to go on for long is a tile.
+/// Draws a frame in tiles. The time limit applies to the frame, the watchdog's messages to a tile.
 Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& interrupt) {
     FrameRecord record;
     Work work;
@@ -339,7 +343,8 @@ Result<std::unique_ptr<BandOutput>> Capture::open_bands(const FrameRecord& recor
     return std::make_unique<BandOutput>(std::move(stream), plan_.json);
 }
 
-/// A cube is saved as the panorama that ShaderToy exports, or as its faces, which are one picture until then.
+/// Reads the picture back: a cube as the panorama that ShaderToy exports, or as its faces in one picture,
+/// which is split later.
 image::Image Capture::read_back() const {
     if (renderer_.shown_pass().kind != scene::PassKind::cubemap)
         return renderer_.read_back();
@@ -347,7 +352,7 @@ image::Image Capture::read_back() const {
     return plan_.output.six_faces() ? image::column_of(cube) : image::equirectangular_of(cube);
 }
 
-/// Nothing where it is interrupted.
+/// Returns nothing if interrupted.
 std::optional<image::Image> Capture::draw_samples(int frame, const Interrupt& interrupt) {
     const render::ExposedFrame exposed = expose(plan_.exposure, states_(frame));
     Progress progress("samples", exposed.samples.size());
@@ -366,10 +371,11 @@ size_t Capture::whole_frames() {
     return plan_.kept.size() + made;
 }
 
-/// On the watchdog's thread, while the main one is stuck in the driver: the frames that were drawn are saved,
-/// half a segment of a video is not.
+/// Saves the frames that were drawn; an incomplete segment of a video is dropped. Runs on the watchdog's
+/// thread while the main thread is stuck in the driver.
 void Capture::rescue_output() {
-    if (video_ && !in_encoder_) // else the main thread is at it, and its process is ended with ours
+    // Otherwise the main thread is using it, and its encoder ends with our process.
+    if (video_ && !in_encoder_)
         video_->drop();
     if (writer_)
         (void)writer_->finish();
@@ -377,7 +383,7 @@ void Capture::rescue_output() {
         say(words);
 }
 
-/// Waits for ffmpeg, which may hang: Ctrl-C ends the process then.
+/// Runs work that waits for ffmpeg, which may hang: Ctrl-C then ends the process.
 Result<void> Capture::encode(std::string what, std::optional<double> limit,
                              const std::function<Result<void>()>& work) {
     const Watchdog::Watch watch(watchdog_, {.what = std::move(what),
@@ -389,7 +395,7 @@ Result<void> Capture::encode(std::string what, std::optional<double> limit,
     return outcome;
 }
 
-/// False when the writer has failed and no more frames are wanted.
+/// Returns false if the writer has failed and drawing is to stop.
 Result<bool> Capture::deliver(const FrameRecord& record, image::Image image) {
     if (video_) {
         auto encoded = encode(fmt::format("encoding frame {}", record.frame), plan_.timeout,
@@ -428,7 +434,7 @@ std::vector<image::PictureLayer> Capture::layers_of(const FrameRecord& record, i
 
 image::PictureFormat Capture::format_of(const FrameRecord& record) const {
     const render::FrameState state = states_(record.frame);
-    // First: a JPEG that has no room for all of it keeps what stands in front.
+    // The fingerprint goes first: a JPEG without room for all metadata keeps the first entries.
     image::PictureFormat format{
         plan_.depth, {{k_fingerprint, fingerprint_.of_frame(state).text()}}, plan_.transfer, plan_.alpha};
     for (auto& fact : metadata_of(renderer_.scene(), moment_of(plan_.request, plan_.frames, state)))
@@ -451,7 +457,7 @@ image::PictureFormat Capture::format_of(const FrameRecord& record) const {
     return format;
 }
 
-/// What its moments share, and which they are.
+/// Returns the metadata that the sheet's moments share, and the list of moments.
 image::PictureFormat Capture::format_of_sheet() const {
     image::PictureFormat format = format_of(records_.first());
     constexpr std::string_view k_of_one[] = {k_fingerprint, k_moment, "Frame", "iTime", "iMouse", "Camera"};

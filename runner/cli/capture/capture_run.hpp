@@ -1,4 +1,4 @@
-// The work of `tidemark capture`: draws the frames of a plan and hands them to the encoders.
+// Runs `tidemark capture`: draws the frames of a plan and passes them to the encoders.
 #pragma once
 
 #include "cli/capture/band_output.hpp"
@@ -32,27 +32,28 @@ public:
     Capture(const CapturePlan& plan, Fingerprint fingerprint, Trial& compiled,
             std::filesystem::path sound = {});
 
-    /// Instead of at the beginning. To be called before `run`.
+    /// Starts from a saved state instead of the beginning. Call it before `run`.
     void start_from(const SavedState& state) { start_ = &state; }
 
-    /// Draws and hands over every frame; true when all were made before an interrupt.
+    /// Draws and delivers every frame; returns false if it was interrupted.
     Result<bool> run(Interrupt& interrupt);
 
-    /// Frames that are whole on disk, those that were kept included: `--resume` goes on from them.
+    /// Returns the number of complete frames on disk, including those kept from before: `--resume` continues
+    /// from them.
     size_t whole_frames();
 
     const FrameRecords& records() const { return records_; }
-    /// Of a sequence that is complete.
+    /// Valid for a complete sequence.
     const LoopCheck& loop() const { return loop_; }
-    /// What `--json` prints.
+    /// Returns the report of `--json`.
     nlohmann::ordered_json report() const;
 
 private:
     using Clock = Watchdog::Clock;
     enum class Outcome { made, interrupted, unwanted };
-    /// On one frame.
+    /// The work on one frame.
     struct Work {
-        Clock::time_point begun = Clock::now(); ///< with all that leads to it
+        Clock::time_point begun = Clock::now(); ///< includes the frames that lead to it
         Clock::time_point start = begun;
         std::optional<Watchdog::Watch> watch;
     };
@@ -90,7 +91,7 @@ private:
     const CapturePlan& plan_;
     Fingerprint fingerprint_; ///< of the run
     render::Renderer& renderer_;
-    bool in_doubt_; ///< whether another run would choose that program
+    bool in_doubt_; ///< another run might choose another program
     gl::Capabilities driver_;
     render::FrameStates states_;
     render::FrameStepper stepper_;
@@ -100,12 +101,13 @@ private:
     std::filesystem::path sound_;
     std::unique_ptr<FrameWriter> writer_; ///< of pictures
     std::optional<SegmentedVideo> video_;
-    std::atomic<bool> in_encoder_ = false; ///< the main thread is at `video_`
+    std::atomic<bool> in_encoder_ = false; ///< the main thread is using `video_`
     const Interrupt* interrupt_ = nullptr; ///< during `run`
-    std::optional<Sheet> sheet_;           ///< none of these: frames go to standard output
+    /// If `writer_`, `video_` and `sheet_` are empty, frames go to standard output.
+    std::optional<Sheet> sheet_;
     LoopCheck loop_;
     FrameRecords records_;
-    Watchdog watchdog_; ///< its thread may use all that stands before it
+    Watchdog watchdog_; ///< its thread may use all members before it
     std::optional<FramesAhead> ahead_;
 };
 

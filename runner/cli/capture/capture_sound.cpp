@@ -34,8 +34,6 @@ Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precisi
     return samples;
 }
 
-/// What the scene plays during the frames of a video. Pictures without it are better than none: what is wrong
-/// is said, and nothing else.
 std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const Interrupt& interrupt) {
     if (!plan.output.video() || plan.shard) // `gather` draws it
         return std::nullopt;

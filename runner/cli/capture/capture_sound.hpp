@@ -1,4 +1,4 @@
-// `tidemark capture SCENE -o sound.wav`: what the Sound pass plays, as a file.
+// `tidemark capture SCENE -o sound.wav`: writes the Sound pass to a file.
 #pragma once
 
 #include "base/file.hpp"
@@ -11,13 +11,13 @@
 
 namespace tidemark::cli {
 
-/// The scene's sound from `start` on, left and right in turn, render::k_sample_rate a second each. An
-/// interrupt cuts it short. A context must be current.
+/// Returns the scene's sound from `start` on (seconds): interleaved left and right samples,
+/// render::k_sample_rate of each a second. After an interrupt the rest is silent. A context must be current.
 Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precision precision, double start,
                                         double duration, const Interrupt& interrupt);
 
-/// What the scene plays during the frames of a video, as a WAV file. Pictures without it are better than
-/// none: what is wrong is said, and nothing else.
+/// Returns the sound during the frames of a video, as a WAV file. Errors are printed and the video is silent,
+/// since pictures without sound are better than none.
 std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const Interrupt& interrupt);
 
 Result<int> capture_sound(const SoundPlan& plan);

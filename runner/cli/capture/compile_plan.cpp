@@ -12,7 +12,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// The size of the tiles; nothing where frames are drawn whole.
+/// Returns the size of the tiles; nothing if frames are drawn whole.
 Result<std::optional<Extent>> choose_tile(const CapturePlan& plan) {
     const int limit = gl::query_capabilities().largest_target;
     if (plan.tile_side)
@@ -23,10 +23,10 @@ Result<std::optional<Extent>> choose_tile(const CapturePlan& plan) {
     const auto tile =
         whole ? std::nullopt
               : render::tile_for(plan.drawing.extent, 4 * image::size_of(plan.drawing.samples), limit);
-    return plan.exposure.several() && !tile ? plan.drawing.extent : tile; // one tile, which is shifted
+    return plan.exposure.several() && !tile ? plan.drawing.extent : tile; // one tile, shifted for each sample
 }
 
-/// What the scene does not allow, whatever the command line says.
+/// Rejects options that the compiled scene does not allow.
 Result<void> check_compiled(const CapturePlan& plan, const render::Renderer& renderer) {
     const auto refuse = [](std::string why) { return fail(ErrorCode::usage, std::move(why)); };
     if (plan.tile_side && !renderer.tiles())
@@ -45,7 +45,8 @@ Result<void> check_compiled(const CapturePlan& plan, const render::Renderer& ren
     return {};
 }
 
-/// Where it pays, the faster of two programs; in tiles too large a picture is drawn to draw it for a trial.
+/// Returns the faster of two programs if a trial is planned. No trial in tiles: the picture is too
+/// large to draw it for one.
 Result<Trial> choose_renderer(const CapturePlan& plan, render::RenderOptions drawing) {
     if (!plan.trial || drawing.tile)
         return Trial{TRY(render::Renderer::create(plan.scene, drawing))};

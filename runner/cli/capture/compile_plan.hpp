@@ -1,5 +1,5 @@
-// The programs that draw a plan: its scene compiled, with tiles where frames are large, and the faster one
-// of two where a trial is planned.
+// Compiles the programs that draw a plan, with tiles for large frames, and the faster of two programs if a
+// trial is planned.
 #pragma once
 
 #include "cli/capture/capture_plan.hpp"
@@ -8,7 +8,7 @@
 
 namespace tidemark::cli {
 
-/// A context must be current. The plan's `timeout` holds.
+/// A context must be current. The plan's `timeout` applies.
 Result<Trial> compile(const CapturePlan& plan, Interrupt& interrupt);
 
 } // namespace tidemark::cli

@@ -1,4 +1,4 @@
-// A frame of a capture: its pixels, and what became of it.
+// A drawn frame of a capture: its pixels and its record.
 #pragma once
 
 #include "cli/capture/frame_records.hpp"

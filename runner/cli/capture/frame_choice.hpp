@@ -1,4 +1,4 @@
-// Some frames for many: those that stand for a sequence, or for a time.
+// Selects frames that represent a sequence or a duration.
 #pragma once
 
 #include <cstddef>
@@ -6,10 +6,10 @@
 
 namespace tidemark::cli {
 
-/// So many of the frames, evenly spread over them, the first and the last among them; no more than there are.
+/// Returns `count` of the frames, evenly spread, including the first and the last; at most all of them.
 std::vector<int> evenly(const std::vector<int>& frames, size_t count);
 
-/// The frames at which so many equal parts of a time begin, from frame 0 on.
+/// Returns the frames at which `count` equal parts of a duration begin, from frame 0 on.
 std::vector<int> beginnings(double seconds, double fps, size_t count);
 
 } // namespace tidemark::cli

@@ -1,5 +1,5 @@
-// What became of the frames of a capture: one by one where --json or a sheet lists them, else as much as is
-// told of them at the end, in the same memory however many they are.
+// The results of a capture's frames: each one where --json or a sheet lists them, otherwise only what the
+// final messages need, in constant memory.
 #pragma once
 
 #include <optional>
@@ -8,38 +8,38 @@
 
 namespace tidemark::cli {
 
-/// What became of one frame. What it showed is asked of its number anew: of 10,000 frames their states would
-/// be 30 MB.
+/// The result of one frame. Its state is not stored but computed again from its number: the states of 10,000
+/// frames would take 30 MB.
 struct FrameRecord {
     int frame = 0;
     std::string file;
     std::string sha256;
     double milliseconds = 0;
     size_t not_finite = 0;   ///< pixels
-    size_t no_coverage = 0;  ///< pixels of an alpha that is kept and below 0 or above 1
-    size_t passes_drawn = 0; ///< on the way to it too; 0: it is the frame before
+    size_t no_coverage = 0;  ///< pixels with an alpha below 0 or above 1, where alpha is kept
+    size_t passes_drawn = 0; ///< including the frames that lead to it; 0: same picture as the frame before
 };
 
 class FrameRecords {
 public:
-    /// Frames that have something: the first of them.
+    /// Frames with a certain property: the first one and their number.
     struct Found {
         std::optional<FrameRecord> first{};
         size_t count = 0;
     };
 
-    /// `listed`: each is kept.
+    /// `listed`: keep each record.
     explicit FrameRecords(bool listed) : listed_(listed) {}
 
     void add(FrameRecord record);
 
     size_t count() const { return count_; }
-    /// There must be one.
+    /// Requires at least one frame.
     const FrameRecord& first() const { return *first_; }
     const FrameRecord& last() const { return *last_; }
     const Found& not_finite() const { return not_finite_; }
     const Found& no_coverage() const { return no_coverage_; }
-    /// All of them where they are listed, else none.
+    /// All records if `listed`, otherwise none.
     const std::vector<FrameRecord>& list() const { return list_; }
 
 private:

@@ -10,13 +10,13 @@
 namespace tidemark::cli {
 namespace {
 
-/// One is drawn while the one before it is copied, and the one before that is encoded.
+/// One frame is drawn while the previous one is copied and the one before that is encoded.
 constexpr size_t k_depth = 2;
 
 } // namespace
 
-/// A driver that draws on the processor copies pixels itself, and waits for the drawing before: nothing
-/// overlaps that did not, and there is one copy more (README.md beside this has figures).
+/// A driver that draws on the CPU copies pixels itself and waits for the drawing before: nothing more
+/// overlaps, and there is one copy more (README.md in this folder has figures).
 bool FramesAhead::pays(std::string_view renderer) {
     const char* const variable = std::getenv("TIDEMARK_READ_BACK");
     const std::string_view wish = variable ? variable : "";

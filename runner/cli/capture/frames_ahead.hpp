@@ -1,5 +1,5 @@
-// Frames that are drawn and whose pixels are on their way back, while the next one is drawn. The driver is at
-// work meanwhile, and so are the encoders.
+// Reads frames back asynchronously: the pixels of earlier frames are copied while the driver draws the next
+// one and the encoders work.
 #pragma once
 
 #include "cli/capture/drawn_frame.hpp"
@@ -15,8 +15,8 @@ namespace tidemark::cli {
 
 class FramesAhead {
 public:
-    /// Whether it gains anything where that renderer draws. The variable TIDEMARK_READ_BACK decides instead
-    /// where it is `ahead` or `at-once`.
+    /// Returns true if reading ahead is faster with this renderer. The environment variable
+    /// TIDEMARK_READ_BACK overrides it with `ahead` or `at-once`.
     static bool pays(std::string_view renderer);
 
     /// `renderer` and `dog` must outlive it. `limit`: seconds for a frame.
@@ -25,9 +25,10 @@ public:
     bool empty() const { return ring_.empty(); }
     bool full() const { return ring_.full(); }
 
-    /// The frame that was just drawn; its work was begun then. False where the driver has no memory for it.
+    /// Adds the frame that was just drawn, whose work began at `begun`. Returns false if the driver has no
+    /// memory for it.
     bool add(const FrameRecord& record, Watchdog::Clock::time_point begun);
-    /// The oldest; waits for it.
+    /// Returns the oldest frame; waits for it.
     DrawnFrame take();
 
 private:
@@ -41,7 +42,9 @@ private:
     std::optional<double> limit_;
     gl::PixelRing ring_;
     std::deque<Waiting> waiting_;
-    Watchdog::Clock::time_point last_taken_; ///< what is behind it was not begun earlier, whoever waited
+    /// The time of a later frame counts from here at the earliest, so that waiting for an earlier one is not
+    /// included.
+    Watchdog::Clock::time_point last_taken_;
 };
 
 } // namespace tidemark::cli

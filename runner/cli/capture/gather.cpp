@@ -41,7 +41,7 @@ Result<CaptureOptions> options_of(const ShardNote& note, const fs::path& file) {
     return options;
 }
 
-/// The plan that all shards share.
+/// Returns the plan that all shards share.
 Result<CapturePlan> shared_plan(const GatherOptions& options, const ShardNote& note) {
     const fs::path file = options.folder / k_shard_note;
     const CaptureOptions capture = TRY(options_of(note, file));
@@ -57,12 +57,12 @@ Result<CapturePlan> shared_plan(const GatherOptions& options, const ShardNote& n
     return plan;
 }
 
-/// Evenly spread; of a scene whose frames need the ones before, the first alone.
+/// Selects frames evenly; if frames may depend on earlier ones, only the first.
 std::vector<int> sample_of(const CapturePlan& plan, int count) {
     return evenly(plan.frames.frames, size_t(may_feed_back(plan.scene) ? std::min(count, 1) : count));
 }
 
-/// The largest difference of a sample, 0..1 in a picture of bytes; infinite where the sizes differ.
+/// Returns the largest difference of a sample, 0..1 for pictures of bytes; infinite if sizes differ.
 double difference_of(const image::Image& a, const image::Image& b) {
     if (a.extent != b.extent || a.channels != b.channels)
         return std::numeric_limits<double>::infinity();
@@ -80,7 +80,7 @@ double difference_of(const image::Image& a, const image::Image& b) {
     return largest;
 }
 
-/// The plan's sample, drawn into another folder: the plan of that.
+/// Draws the plan's sample of frames into another folder; returns the plan for it.
 Result<CapturePlan> draw_sample(const CapturePlan& whole, int count, const fs::path& folder,
                                 Interrupt& interrupt) {
     CapturePlan plan = whole;
@@ -95,7 +95,7 @@ Result<CapturePlan> draw_sample(const CapturePlan& whole, int count, const fs::p
     return plan;
 }
 
-/// What is wrong with the frames that are drawn again; says it where nothing is.
+/// Draws the sample again and returns the differences as messages; prints a message if there is none.
 Result<std::vector<std::string>> compare_sample(const GatherOptions& options, const CapturePlan& whole,
                                                 bool drawn_here, Interrupt& interrupt) {
     const ScratchFolder scratch;
@@ -122,7 +122,7 @@ Result<std::vector<std::string>> compare_sample(const GatherOptions& options, co
     return wrong;
 }
 
-/// Four channels, as an encoder takes them, in bytes or floats.
+/// Converts a picture to four channels of the same type, as encoders require.
 image::Image for_video(const image::Image& picture) {
     if (picture.channels == 4)
         return picture;
@@ -155,7 +155,7 @@ Result<void> make_video(const CapturePlan& pictures, const GatherOptions& option
         return fail(ErrorCode::usage,
                     fmt::format("-o {}: the frames have an alpha that it cannot hold: give a .mov", name));
     if (plan.alpha == image::Alpha::premultiplied)
-        plan.alpha = image::Alpha::straight; // they are, in the files
+        plan.alpha = image::Alpha::straight; // in files, alpha is straight
     plan.segments = segments_of(plan.frames.frames, plan.pace, 0);
     const auto sound = draw_sound_of_video(plan, interrupt);
     std::optional<SegmentedVideo> video;
@@ -170,7 +170,8 @@ Result<void> make_video(const CapturePlan& pictures, const GatherOptions& option
     return {};
 }
 
-/// What the shards made segments of. Nothing of it is drawn again: to compare it had to be decoded.
+/// Joins the segments that the shards made. They are not drawn again for comparison, which would require
+/// decoding.
 Result<void> join_video(const GatherOptions& options, const CapturePlan& plan, const Fingerprint& run,
                         Interrupt& interrupt) {
     const std::string name = plan.output.pattern().string();
@@ -215,7 +216,7 @@ Result<int> gather(const GatherOptions& options) {
         TRY(make_video(plan, options, run, interrupt));
     remove_states(plan.output);
     for (const OutputPath& file : {plan.output.of_frame(0), state_file(plan.output, 0)})
-        StagedFile::remove_abandoned(file, StagedFile::Machines::all); // no shard is at work any more
+        StagedFile::remove_abandoned(file, StagedFile::Machines::all); // no shard is running any more
     return 0;
 }
 

@@ -1,5 +1,6 @@
-// What the shards of a capture made, held against the plan that they share: is every frame there, whole, and
-// drawn by one program on one kind of device; does this machine draw the same; then, if asked, a video of it.
+// Checks the output of a capture's shards against their common plan: whether every frame exists, is complete,
+// and was drawn by one program on one kind of device, and whether this machine draws the same. Then makes a
+// video of it on request.
 #pragma once
 
 #include "cli/capture/capture_plan.hpp"
@@ -12,12 +13,12 @@ namespace tidemark::cli {
 struct GatherOptions {
     std::filesystem::path folder;
     std::optional<std::string> video;
-    std::string codec{};          ///< of it; empty: that of its name
-    int samples = 3;              ///< frames that are drawn again
-    double tolerance = 2.0 / 255; ///< of a sample, where another device draws
+    std::string codec{};          ///< of the video; empty: the default of its file type
+    int samples = 3;              ///< frames that are drawn again for comparison
+    double tolerance = 2.0 / 255; ///< of a sample, if another device drew the frames
 };
 
-/// Exit code 1 where something is missing or another.
+/// Returns exit code 1 if something is missing or different.
 Result<int> gather(const GatherOptions& options);
 
 } // namespace tidemark::cli

@@ -13,14 +13,14 @@
 namespace tidemark::cli {
 namespace {
 
-/// Frames with one thing wrong, the first of them by its file.
+/// Frames with the same problem, with the file of the first one.
 struct Wrong {
     std::string what;
     std::string first;
     size_t count = 0;
 };
 
-/// What is wrong with one file; empty: nothing.
+/// Returns the problem of one file; empty if there is none.
 std::string look_at(const std::filesystem::path& file, const Fingerprint& wanted, Gathered& gathered) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored))
@@ -47,7 +47,7 @@ void note(std::vector<Wrong>& all, std::string what, const std::string& file) {
         all.push_back({std::move(what), file, 1});
 }
 
-/// What is wrong with one segment of a video; empty: nothing.
+/// Returns the problem of one segment of a video; empty if there is none.
 std::string look_at_segment(const std::filesystem::path& file, const Fingerprint& wanted,
                             Gathered& gathered) {
     std::error_code ignored;
@@ -72,7 +72,7 @@ int shard_of_segment(const CapturePlan& plan, int shards, const std::string& fil
     return 0;
 }
 
-/// Which shard makes the frame of that file.
+/// Returns the number of the shard that makes the frame of this file.
 int shard_of(const CapturePlan& plan, int shards, const std::string& file) {
     for (int index = 0; index < shards; ++index)
         for (const int frame : frames_of({index, shards}, plan.frames.frames, plan.scene))

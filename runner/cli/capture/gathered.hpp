@@ -1,4 +1,5 @@
-// Whether the frames that shards made are one sequence: all there, whole, and with one fingerprint.
+// Checks whether the frames that shards made are one sequence: all present, complete, and with one
+// fingerprint.
 #pragma once
 
 #include "cli/capture/capture_plan.hpp"
@@ -11,12 +12,12 @@
 namespace tidemark::cli {
 
 struct Gathered {
-    std::vector<std::string> wrong;          ///< for people, a line each
-    std::map<std::string, size_t> devices{}; ///< that drew frames, and how many
+    std::vector<std::string> wrong;          ///< messages, one line each
+    std::map<std::string, size_t> devices{}; ///< devices that drew frames, and their number of frames
     bool drawn_here = true;                  ///< by a device like this machine's
 };
 
-/// Of the whole plan, not of a shard. `run`: what this machine would draw with.
+/// Checks the whole plan, not one shard. `run` is the fingerprint that this machine would draw with.
 Gathered gathered(const CapturePlan& plan, const Fingerprint& run, int shards);
 
 } // namespace tidemark::cli

@@ -12,8 +12,8 @@ namespace tidemark::cli {
 namespace fs = std::filesystem;
 namespace {
 
-/// What is wrong with the frame's first file with which something is; none: it is kept. An empty text: it is
-/// not there.
+/// Returns the first file that cannot be kept, and why; an empty reason means that it is missing. Returns
+/// nothing if the frame is kept.
 std::optional<std::pair<fs::path, std::string>> objection_to(const std::vector<fs::path>& files,
                                                              const Fingerprint& wanted) {
     std::error_code ignored;
@@ -26,7 +26,7 @@ std::optional<std::pair<fs::path, std::string>> objection_to(const std::vector<f
     return std::nullopt;
 }
 
-/// Frames that are drawn again for one reason.
+/// Frames that are drawn again for the same reason.
 struct Again {
     std::string why;
     fs::path first;

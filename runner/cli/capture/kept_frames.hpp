@@ -1,6 +1,5 @@
-// The frames of a capture that are on disk already, from a run that was cut short: `--resume` is the plan
-// without them. A frame is kept where its file is whole and its fingerprint is the one it would be drawn
-// with.
+// Finds frames of an interrupted capture that are already on disk: `--resume` draws the plan without them. A
+// frame is kept if its file is complete and has the fingerprint that it would be drawn with.
 #pragma once
 
 #include "cli/capture/capture_plan.hpp"
@@ -13,16 +12,16 @@ namespace tidemark::cli {
 
 struct KeptFrames {
     std::vector<int> frames;       ///< in the order of the plan
-    std::vector<std::string> said; ///< for people: what is drawn again, and why
+    std::vector<std::string> said; ///< messages: the frames that are drawn again, and why
 };
 
-/// Takes them out of the plan, and marks the segments of a video. Changes no file.
+/// Removes kept frames from the plan, and marks the kept segments of a video. Changes no file.
 KeptFrames leave_out_kept(CapturePlan& plan, const Fingerprint& run);
 
-/// The files of a frame: a picture, or the six faces of a cube.
+/// Returns the files of a frame: one picture, or the six faces of a cube.
 std::vector<std::filesystem::path> files_of(const OutputName& output, int frame);
 
-/// Why the picture in that file is not the one with this fingerprint; empty: it is.
+/// Returns why the picture in the file does not have this fingerprint; empty if it does.
 std::string why_not_kept(const std::filesystem::path& file, const Fingerprint& wanted);
 
 } // namespace tidemark::cli

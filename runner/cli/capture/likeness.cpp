@@ -34,7 +34,7 @@ Result<Moment> read_moment(const std::string& picture, const image::Metadata& me
     return refuse(picture, "what it says of how it was drawn is damaged");
 }
 
-/// Leaves out paths that lead out of the scene's folder, as they would be in the scene's own text.
+/// Removes paths that lead out of the scene's folder, which the scene's own text could not use either.
 void keep_inside(const std::string& picture, const SceneRequest& typed, Moment& moment) {
     std::error_code ignored;
     const fs::path scene = typed.path;
@@ -61,7 +61,7 @@ void keep_inside(const std::string& picture, const SceneRequest& typed, Moment& 
         moment.sequence.input_file.clear();
 }
 
-/// What the picture says of itself under that name, if it is a number that an option could give.
+/// Returns the metadata value of that name, if it is a number within the limits of its option.
 template <class T>
 std::optional<T> number_in(const image::Metadata& metadata, std::string_view name, T low, T high) {
     const std::string* const text = image::find(metadata, name);
@@ -72,7 +72,7 @@ std::optional<T> number_in(const image::Metadata& metadata, std::string_view nam
     return number;
 }
 
-/// What the picture is the mean of.
+/// Takes --samples and --shutter from the metadata if they are not given.
 void take_exposure(const image::Metadata& metadata, CaptureOptions& options) {
     if (!options.samples)
         options.samples = number_in(metadata, "Samples", 1, render::k_most_samples);
@@ -80,7 +80,7 @@ void take_exposure(const image::Metadata& metadata, CaptureOptions& options) {
         options.shutter = number_in(metadata, "Shutter", 0.0, 1.0);
 }
 
-/// What is typed counts, all else is the moment's.
+/// Fills everything not given on the command line from the moment.
 SceneRequest completed(SceneRequest typed, Moment& moment) {
     SceneRequest& scene = moment.scene;
     typed.sets = merged(std::move(scene.sets), typed.sets);
@@ -91,7 +91,7 @@ SceneRequest completed(SceneRequest typed, Moment& moment) {
     if (!typed.doubles)
         typed.doubles = scene.doubles;
     typed.double_hashes |= scene.double_hashes;
-    typed.knobs_may_go = true; // another text may have others
+    typed.knobs_may_go = true; // another text may have other knobs
     return typed;
 }
 

@@ -1,4 +1,4 @@
-// `--like PICTURE`: the moment that a picture shows, from its metadata, for what the command line leaves
+// `--like PICTURE`: takes the moment from a picture's metadata for everything that the command line leaves
 // open.
 #pragma once
 
@@ -7,12 +7,12 @@
 
 namespace tidemark::cli {
 
-/// The options as they are where no picture is named. Says what of the picture is not followed: a file is
-/// not to have others read that lie outside of the scene's folder. Fails where it holds no moment, or where
-/// no scene is there.
+/// Completes the options from the picture's metadata; without --like they are unchanged. Paths outside the
+/// scene's folder are left out with a message, since a file must not cause others to be read. Fails if the
+/// picture holds no moment, or if its scene does not exist.
 Result<CaptureOptions> with_likeness(CaptureOptions options);
 
-/// A line where that picture was drawn from another text, other inputs, or by another driver.
+/// Prints a line if the picture was drawn from another text, with other inputs, or by another driver.
 void say_what_is_unlike(const CapturePlan& plan, const Fingerprint& fingerprint);
 
 } // namespace tidemark::cli

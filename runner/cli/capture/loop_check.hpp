@@ -1,5 +1,5 @@
-// Whether a sequence goes round: the frame behind its last is held against its first, beside what one frame's
-// step is elsewhere.
+// Checks whether a sequence is a seamless loop: compares the frame after the last with the first, and for
+// scale the second with the first.
 #pragma once
 
 #include "image/image.hpp"
@@ -9,15 +9,15 @@
 
 namespace tidemark::cli {
 
-/// The frame that would come next.
+/// Returns the frame that would come next.
 int frame_behind(const std::vector<int>& frames);
 
 class LoopCheck {
 public:
-    /// Every frame of the sequence, in its order, and the one behind it.
+    /// Adds a frame; call it for each one in order, and for the frame after the last.
     void see(const image::Image& picture);
 
-    /// What the last one that was seen is to the first, and the second to it; PSNR, dB.
+    /// PSNR in dB of the latest frame against the first, and of the second against the first.
     double closing() const { return closing_; }
     double step() const { return step_; }
     std::string words() const;

@@ -40,7 +40,7 @@ std::vector<image::PictureLayer> other_layers(const render::Renderer& renderer, 
     std::vector<image::PictureLayer> layers;
     for (const Source& source : sources(renderer)) {
         const image::Image drawn = renderer.read_floats(source.pass, source.face);
-        // The first row of a face is the top one (image::CubeFaces).
+        // The first row of a face is its top row (image::CubeFaces).
         layers.push_back({source.name, source.cube ? image::flipped(drawn) : drawn, format});
     }
     return layers;

@@ -12,7 +12,8 @@ Json knob_facts(const scene::Scene& scene) {
     return facts;
 }
 
-/// Size and pass are the frame's; tiles, and a trial of two programs that may not differ, change no picture.
+/// Leaves out size and pass, which belong to the frame, and tiles and trials without an allowed difference,
+/// which do not change pictures.
 Json drawing_facts(const CapturePlan& plan) {
     const auto& [extent, samples, pass, precision, specialise, extras, tile, marks, keeps_alpha] =
         plan.drawing;

@@ -1,4 +1,4 @@
-// What all frames of a capture have in common.
+// The fingerprint that all frames of a capture share.
 #pragma once
 
 #include "cli/capture/capture_plan.hpp"

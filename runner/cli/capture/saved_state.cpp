@@ -21,14 +21,14 @@ namespace {
 constexpr std::string_view k_ending = ".state";
 constexpr int k_version_of_format = 1;
 constexpr size_t k_checksum = 64;
-constexpr uint64_t k_most_floats = uint64_t{1} << 40; ///< more than any disk holds
+constexpr uint64_t k_most_floats = uint64_t{1} << 40; ///< larger than any disk
 constexpr size_t k_longest_header = size_t{1} << 20;  ///< bytes
 
 std::span<const std::byte> bytes_of(std::string_view text) {
     return std::as_bytes(std::span(text));
 }
 
-/// One line; the textures follow it, then the checksum of all that stands before.
+/// Returns the header, one line. The textures follow it, then the checksum of everything before.
 std::string header_of(const SavedState& state, const Fingerprint& fingerprint) {
     Json passes = Json::array();
     for (const render::PassState& pass : state.buffers) {
@@ -44,7 +44,7 @@ std::string header_of(const SavedState& state, const Fingerprint& fingerprint) {
            "\n";
 }
 
-/// The floats at the front of `rest`; false where there are fewer.
+/// Takes floats from the front of `rest`; returns false if there are too few.
 bool take(std::string_view& rest, size_t count, render::TextureFloats& texture) {
     if (count > rest.size() / sizeof(float))
         return false;
@@ -54,7 +54,7 @@ bool take(std::string_view& rest, size_t count, render::TextureFloats& texture) 
     return true;
 }
 
-/// Bytes of the whole file, by its header. Throws where that is none of ours.
+/// Returns the size of the whole file in bytes, according to its header. Throws for an unknown header.
 uint64_t size_of(const Json& header, uint64_t header_bytes) {
     uint64_t floats = 0;
     for (const Json& pass : header.at("passes"))
@@ -63,7 +63,7 @@ uint64_t size_of(const Json& header, uint64_t header_bytes) {
     return header_bytes + std::min(floats, k_most_floats) * sizeof(float) + k_checksum;
 }
 
-/// Throws where the header is none of ours.
+/// Throws for an unknown header.
 std::optional<SavedState> parse(const Json& header, std::string_view rest) {
     const auto program = header.at("program").get<unsigned char>();
     if (program > static_cast<unsigned char>(glsl::Specialise::constants))
@@ -79,7 +79,8 @@ std::optional<SavedState> parse(const Json& header, std::string_view rest) {
     return state;
 }
 
-/// Nothing where the last 64 bytes are not the checksum of all others, which are left.
+/// Checks that the last 64 bytes are the checksum of all others, and returns those; nothing if it does not
+/// match.
 std::optional<std::string_view> without_checksum(std::string_view file) {
     if (file.size() < k_checksum)
         return std::nullopt;
@@ -103,7 +104,8 @@ std::vector<fs::path> find_states(const OutputName& output) {
         if (file.extension() != k_ending || !fs::is_regular_file(entry->symlink_status(ignored)))
             continue;
         const fs::path picture = fs::path(file).replace_extension();
-        if (output.of_frame(0).path().filename() == picture.filename()) // one for all, or that of frame 0
+        // One file for all frames, or that of frame 0.
+        if (output.of_frame(0).path().filename() == picture.filename())
             found.emplace(0, file);
         else if (const auto frame = frame_of(picture, output))
             found.emplace(*frame, file);
@@ -133,7 +135,7 @@ Result<void> write_state(const OutputPath& file, const SavedState& state, const 
             TRY(add(std::as_bytes(std::span(texture))));
     TRY(staged.write(bytes_of(hash.digits())));
     if (!state.buffers.empty())
-        ::fsync(staged.descriptor()); // the state before is removed next
+        ::fsync(staged.descriptor()); // the previous state is removed next
     return staged.commit();
 }
 
@@ -155,9 +157,9 @@ std::optional<SavedState> read_state(const fs::path& file,
         const auto content = bytes ? without_checksum(*bytes) : std::nullopt;
         return content && content->starts_with(line) ? parse(header, content->substr(line.size() + 1))
                                                      : std::nullopt;
-    } catch (const Json::exception&) { // a stranger's
+    } catch (const Json::exception&) { // another program's file
         return std::nullopt;
-    } catch (const fs::filesystem_error&) { // it has gone
+    } catch (const fs::filesystem_error&) { // the file was removed
         return std::nullopt;
     }
 }

@@ -1,5 +1,6 @@
-// Where a capture that was cut short goes on: what its buffers held before a frame, and which program draws
-// it. A file beside the frames, `frame_0120.png.state`, whole or not at all, with a checksum at its end.
+// The state for continuing an interrupted capture: the buffers before a frame, and the program that draws it.
+// It is stored next to the frames as `frame_0120.png.state`, written whole or not at all, with a checksum at
+// its end.
 #pragma once
 
 #include "base/output_path.hpp"
@@ -17,28 +18,28 @@
 namespace tidemark::cli {
 
 struct SavedState {
-    int frame = 0; ///< that is drawn next
+    int frame = 0; ///< the next frame to draw
     glsl::Specialise program = glsl::Specialise::nothing;
     render::BufferState buffers{}; ///< empty: as before frame 0
 };
 
-/// The largest buffer of which a state is saved, in bytes: what a driver hands over at once.
+/// The largest buffer that can be saved, in bytes: the most that a driver reads back in one call.
 inline constexpr size_t k_largest_saved_buffer = 0x7fffffff;
 
-/// The file of the state before a frame. A video has one for all.
+/// Returns the file of the state before a frame. A video has one file for all.
 OutputPath state_file(const OutputName& output, int frame);
 
-/// The files of states that are there of an output, the latest frame first.
+/// Returns the existing state files of an output, the latest frame first.
 std::vector<std::filesystem::path> find_states(const OutputName& output);
 
-/// All that `find_states` finds: nobody needs them any more.
+/// Removes all files that `find_states` finds.
 void remove_states(const OutputName& output);
 
-/// On disk, when it comes back (ErrorCode::write).
+/// Writes the state; it is on disk when the function returns. Fails with ErrorCode::write.
 Result<void> write_state(const OutputPath& file, const SavedState& state, const Fingerprint& fingerprint);
 
-/// What is in the file, if it is whole, no larger than `most_bytes`, and `fingerprint_of` its frame is the
-/// one it was written with. No more is read of another than its first line.
+/// Reads the state if the file is complete, at most `most_bytes` long, and was written with the fingerprint
+/// that `fingerprint_of` returns for its frame. Otherwise only the first line is read.
 std::optional<SavedState> read_state(const std::filesystem::path& file,
                                      const std::function<Fingerprint(int frame)>& fingerprint_of,
                                      uint64_t most_bytes);

@@ -14,7 +14,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// As far apart as libx264 sets pictures that depend on no other, so that a long video is no larger for it.
+/// The usual distance of key frames in libx264, so that a long video does not grow by its segments.
 constexpr int k_default_length = 250;
 
 size_t ticks_in(const VideoSegment& segment) {
@@ -56,8 +56,8 @@ Result<SegmentedVideo> SegmentedVideo::create(const CapturePlan& plan, Fingerpri
     return video;
 }
 
-/// Of two that begin in the same moment the one with the lower number goes on. One that was killed may take a
-/// moment to die.
+/// Claims the video for this process. If two begin at the same moment, the one with the lower process ID goes
+/// on. Waits up to a second, since a killed process may take a moment to end.
 Result<void> SegmentedVideo::claim() {
     constexpr std::chrono::milliseconds k_patience(1000), k_pause(20);
     const OutputPath mark = plan_.output.of_frame(0).beside(
@@ -126,7 +126,7 @@ Result<void> join(CapturePlan plan, const Fingerprint& run, const std::filesyste
     return video.finish(sound);
 }
 
-/// Those of a longer capture that was given up, too.
+/// Also removes the segments of a longer, abandoned capture.
 void SegmentedVideo::remove_segments() const {
     std::error_code ignored;
     for (size_t i = 0; std::filesystem::remove(segment_file(plan_.output, i).path(), ignored); ++i) {

@@ -1,5 +1,5 @@
-// A video on its way to disk, in segments that lie beside it until they are joined: what ends a capture costs
-// it one segment at most.
+// Writes a video in segments, which lie next to it until they are joined: an interrupted capture loses at
+// most one segment.
 #pragma once
 
 #include "base/file.hpp"
@@ -12,28 +12,28 @@
 
 namespace tidemark::cli {
 
-/// `length`: frames in each but the last; 0: as nobody said it.
+/// `length`: frames in each segment except the last; 0: the default.
 std::vector<VideoSegment> segments_of(const std::vector<int>& frames, const VideoPace& pace, int length);
 
-/// `wave.mp4.segment-0003.mp4`.
+/// Returns for example `wave.mp4.segment-0003.mp4`.
 OutputPath segment_file(const OutputName& video, size_t index);
 
-/// What a segment's note says.
+/// Returns the fingerprint that a segment stores as its note.
 std::string note_of(const CapturePlan& plan, const VideoSegment& segment, const Fingerprint& run);
 
 class SegmentedVideo {
 public:
-    /// `plan` must outlive it. The first encoder is started, where there is anything to encode. Fails
+    /// `plan` must outlive it. Starts the first encoder if there is anything to encode. Fails
     /// (ErrorCode::write) while another process makes the same video, or the same shard of it.
     static Result<SegmentedVideo> create(const CapturePlan& plan, Fingerprint run, Extent extent);
 
-    /// The next frame of those that are not kept.
+    /// Encodes the next frame of those that are not kept.
     Result<void> push(const image::Image& image);
-    /// The segment in hand is given up.
+    /// Drops the current segment.
     void drop() { writer_.reset(); }
-    /// Frames in segments that are on disk, but for those that were kept.
+    /// Returns the number of frames in segments that this run wrote to disk.
     size_t written() const { return written_; }
-    /// Joins the segments, with a WAV file where `sound` names one, and removes them.
+    /// Joins the segments, with the WAV file `sound` if it is not empty, and removes them.
     Result<void> finish(const std::filesystem::path& sound);
 
 private:
@@ -48,14 +48,14 @@ private:
     const CapturePlan& plan_;
     Fingerprint run_;
     Extent extent_;
-    size_t next_ = 0; ///< segment that is not in hand yet
+    size_t next_ = 0; ///< the next segment to begin
     size_t written_ = 0;
-    size_t pushed_ = 0; ///< frames of the one in hand
+    size_t pushed_ = 0; ///< frames of the current segment
     std::optional<image::SegmentWriter> writer_;
-    std::optional<StagedFile> claim_; ///< tells other processes of this one; never committed
+    std::optional<StagedFile> claim_; ///< marks the video as being made by this process; never committed
 };
 
-/// Of segments that are all there.
+/// Joins segments that all exist.
 Result<void> join(CapturePlan plan, const Fingerprint& run, const std::filesystem::path& sound);
 
 } // namespace tidemark::cli

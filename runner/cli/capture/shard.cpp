@@ -13,7 +13,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// All of the text is a whole number.
+/// Parses the whole text as an integer.
 std::optional<int> number_in(std::string_view text) {
     int number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

@@ -1,4 +1,4 @@
-// A capture that several processes make together, on one machine or on many: which frames are one's own.
+// Divides a capture among several processes, on one or several machines: selects the frames of each shard.
 #pragma once
 
 #include "base/result.hpp"
@@ -18,14 +18,15 @@ struct Shard {
 
 inline constexpr int k_most_shards = 1'000'000;
 
-/// `2/8`, from 1; `slurm`: what Slurm says to a task of an array (ErrorCode::usage where it says nothing).
+/// Parses `2/8`, counted from 1, or `slurm`: the variables of a Slurm array task (ErrorCode::usage if they
+/// are missing).
 Result<Shard> parse_shard(std::string_view text);
 
-/// Every so-manieth frame; of a scene whose passes read passes, which may need the frame before, a run of
-/// them.
+/// Returns every N-th frame; if the scene has buffers, whose frames may depend on earlier ones, a contiguous
+/// run of frames.
 std::vector<int> frames_of(const Shard& shard, const std::vector<int>& frames, const scene::Scene& scene);
 
-/// The same of so many segments of a video, counted from 0.
+/// Does the same for segments of a video, counted from 0.
 std::vector<int> segments_of_shard(const Shard& shard, size_t segments, const scene::Scene& scene);
 
 } // namespace tidemark::cli

@@ -17,7 +17,7 @@ Result<ShardNote> read_note(const std::filesystem::path& file) {
         ShardNote note{json.at("capture").get<std::vector<std::string>>(), json.at("shards").get<int>()};
         if (note.count >= 1 && note.count <= k_most_shards)
             return note;
-    } catch (const Json::exception&) { // said below
+    } catch (const Json::exception&) { // reported below
     }
     return fail(ErrorCode::load, fmt::format("'{}' is not of `capture --shard`", file.string()));
 }

@@ -1,5 +1,5 @@
-// What the shards of a capture leave in their folder for `gather`: the words of the command that all of them
-// were started with.
+// A file that the shards of a capture leave in their folder for `gather`: the arguments of their common
+// command.
 #pragma once
 
 #include "base/output_path.hpp"
@@ -14,16 +14,16 @@ namespace tidemark::cli {
 inline constexpr const char* k_shard_note = "shards.json";
 
 struct ShardNote {
-    std::vector<std::string> words; ///< behind `tidemark capture`, without --shard and --resume
+    std::vector<std::string> words; ///< arguments of `tidemark capture`, without --shard, --resume and --json
     int count = 1;
 
     bool operator==(const ShardNote&) const = default;
 };
 
-/// Fails (ErrorCode::usage) where the folder has the note of another capture.
+/// Writes the note. Fails (ErrorCode::usage) if the folder has the note of another capture.
 Result<void> leave_note(const OutputPath& file, const ShardNote& note);
 
-/// Fails (ErrorCode::load) where there is none, or it is none of ours.
+/// Reads the note. Fails (ErrorCode::load) if there is none, or if it is not a shard note.
 Result<ShardNote> read_note(const std::filesystem::path& file);
 
 } // namespace tidemark::cli

@@ -11,10 +11,11 @@ namespace tidemark::cli {
 namespace {
 
 constexpr int k_gap = 8;         ///< pixels
-constexpr uint8_t k_grey = 0x20; ///< of the gaps: neither black nor white, which scenes have at their edges
+/// Grey of the gaps: neither black nor white, which are common at the edges of scenes.
+constexpr uint8_t k_grey = 0x20;
 constexpr size_t k_most_cells = 1000;
 
-/// Opaque grey all over.
+/// Returns an opaque grey picture.
 image::Image blank(Extent extent, image::SampleType type) {
     image::Image picture(extent, 4, type);
     for (size_t i = 0; i < picture.samples(); ++i) {

@@ -1,4 +1,4 @@
-// A contact sheet: moments of a scene side by side in one picture, from the top left on, row by row.
+// A contact sheet: moments of a scene in one picture, row by row from the top left.
 #pragma once
 
 #include "base/result.hpp"
@@ -13,18 +13,18 @@ struct SheetGrid {
     int rows = 1;
 
     size_t cells() const { return size_t(columns) * size_t(rows); }
-    /// With the gaps between cells of that size.
+    /// Returns the size of the sheet for cells of this size, including the gaps.
     Extent extent(Extent cell) const;
 };
 
-/// `5x4`: columns and rows.
+/// Parses columns and rows, for example `5x4`.
 Result<SheetGrid> parse_sheet(std::string_view text);
 
 class Sheet {
 public:
     explicit Sheet(SheetGrid grid) : grid_(grid) {}
 
-    /// The next cell; all are of one size and type, with four channels.
+    /// Adds the next cell; all have the same size and type and four channels.
     void add(const image::Image& cell);
     const image::Image& picture() const { return picture_; }
 

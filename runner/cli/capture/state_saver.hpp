@@ -1,5 +1,5 @@
-// Saves what a capture needs to go on from, while it draws: which program was chosen, before the first frame,
-// and every so many frames the buffers. The state before is removed when the next one is on disk.
+// Saves the states that `--resume` needs, while a capture draws: the chosen program before the first frame,
+// and the buffers at regular intervals. The previous state is removed once the next one is on disk.
 #pragma once
 
 #include "cli/capture/capture_plan.hpp"
@@ -11,16 +11,17 @@ namespace tidemark::cli {
 
 class StateSaver {
 public:
-    /// All must outlive it but the fingerprint, which is the run's.
+    /// The plan and the renderer must outlive it. `fingerprint` is that of the run.
     StateSaver(const CapturePlan& plan, Fingerprint fingerprint, const render::Renderer& renderer)
         : plan_(plan), fingerprint_(std::move(fingerprint)), renderer_(renderer) {}
 
-    /// Before the first frame: the outcome of a trial, which another run might decide otherwise.
+    /// Saves the result of a trial, which another run might decide differently. Call it before the first
+    /// frame.
     Result<void> save_program();
-    /// Whether the buffers, which are ready for that frame, are to be saved.
+    /// Returns true if the buffers, which are ready for that frame, should be saved.
     bool is_due(int frame) const;
     Result<void> save_buffers(int frame);
-    /// The one that the capture goes on from: it is there already.
+    /// Registers the state that the capture was started from, which already exists on disk.
     void found(int frame) { last_ = frame; }
 
 private:

@@ -6,7 +6,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// From each frame to the next.
+/// Returns the differences of successive frames.
 std::vector<int> strides_of(const std::vector<int>& frames) {
     std::vector<int> strides;
     for (size_t i = 1; i < frames.size(); ++i)

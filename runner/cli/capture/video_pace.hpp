@@ -1,4 +1,4 @@
-// How fast a video shows the frames that were asked for, and how long each of them.
+// The frame rate of a video, and how long each frame is shown.
 #pragma once
 
 #include <string>
@@ -7,18 +7,18 @@
 namespace tidemark::cli {
 
 struct VideoPace {
-    double fps = 60;           ///< of the video: its ticks
-    int tick = 1;              ///< frames of the scene; 0: one after another
-    bool holds = false;        ///< some frame is shown until a later one is due
-    std::string not_in_time{}; ///< why a second of it is not a second of the scene; empty: it is
+    double fps = 60;           ///< ticks a second of the video
+    int tick = 1;  ///< frames of the scene per tick; 0: one frame after another, regardless of time
+    bool holds = false;        ///< some frame is shown for several ticks
+    std::string not_in_time{}; ///< why the video does not run in the scene's time; empty: it does
 };
 
-/// Frames that are ever later are shown when they are due, each until the next one: a second takes a second.
-/// Of those evenly apart, `0-118x2`, each is one tick of the video. Others come one after another, `fps` a
-/// second; backwards ones take as long as forwards.
+/// Chooses the frame rate. Ascending frames are shown at their time, each until the next one; evenly spaced
+/// ones, for example `0-118x2`, take one tick each. Other sequences are shown one after another, `fps` a
+/// second; evenly descending ones take as long as ascending ones.
 VideoPace pace_of(const std::vector<int>& frames, double fps);
 
-/// How long each of them is shown. The last one, behind which nothing is due, one tick.
+/// Returns how many ticks each frame is shown. The last one takes one tick.
 std::vector<int> ticks_of(const std::vector<int>& frames, const VideoPace& pace);
 
 } // namespace tidemark::cli

@@ -11,15 +11,15 @@
 namespace tidemark::cli {
 namespace {
 
-/// A person waits so long without a word, and hears one so often from then on.
+/// The first message comes after this time, the following ones at this interval.
 constexpr std::chrono::seconds k_first_word{3};
 constexpr std::chrono::seconds k_next_word{10};
-/// Between two questions whether work is still wanted, and how long it may go on once it is not.
+/// The interval between two calls of `unwanted`, and how long work may go on once it is unwanted.
 constexpr std::chrono::milliseconds k_look{200};
 constexpr std::chrono::seconds k_unwanted{2};
 
 std::chrono::steady_clock::duration from_seconds(double seconds) {
-    // Beyond a year the clock's own numbers overflow.
+    // Above a year (3e7 s) the clock's integers could overflow.
     return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
         std::chrono::duration<double>(std::min(seconds, 3e7)));
 }
@@ -43,7 +43,7 @@ Watchdog::Watch::Watch(Watchdog& dog, Task task) : dog_(dog) {
     if (work.task.limit_seconds)
         work.deadline = work.task.start + from_seconds(*work.task.limit_seconds);
     const std::lock_guard lock(dog_.mutex_);
-    // Not woken for each frame: it looks at what there is when it wakes by itself.
+    // The thread is not woken for each frame: when it wakes on its own, it reads the current task.
     if (work.wake() < dog_.wakes_)
         dog_.changed_.notify_all();
     dog_.work_ = std::move(work);
@@ -85,8 +85,8 @@ void Watchdog::run() {
     }
 }
 
-/// With the lock held, to the end: work that is done in this very moment waits in ~Watch, and nobody else
-/// uses what `before_exit_` takes down.
+/// Prints a message or ends the process. Holds the lock until the end: work that finishes at this moment
+/// waits in ~Watch, so that nothing else uses what `before_exit_` closes.
 void Watchdog::speak_or_end() {
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - work_->task.start).count();

@@ -1,6 +1,5 @@
-// Keeps an eye on work that may never end: a driver that compiles, a frame that is drawn. Says that it still
-// goes on, and gives up when it takes too long. A driver cannot be interrupted, so giving up ends the
-// process.
+// Watches work that may never end, such as a driver's compile or a frame. Prints that it is still running,
+// and ends the process after a time limit, since a driver's call cannot be interrupted.
 #pragma once
 
 #include <chrono>
@@ -15,8 +14,8 @@ namespace tidemark::cli {
 
 class Watchdog {
 public:
-    /// `before_exit` is called (on the watchdog's thread) before the process ends by a limit: what can be
-    /// finished without the stuck thread is finished there. A Watch that ends meanwhile does not return.
+    /// `before_exit` is called on the watchdog's thread before a limit ends the process, to finish what does
+    /// not need the stuck thread. A Watch that ends meanwhile does not return.
     explicit Watchdog(std::function<void()> before_exit = {});
     ~Watchdog();
     Watchdog(const Watchdog&) = delete;
@@ -29,11 +28,13 @@ public:
         std::optional<double> limit_seconds; ///< from `start` on
         Clock::time_point start = Clock::now();
         const char* how_to_end = "Ctrl-C ends it";
-        /// Asked on the watchdog's thread: once it has said so for two seconds the process ends as by Ctrl-C.
+        /// Called on the watchdog's thread: once it has returned true for two seconds, the process ends as by
+        /// Ctrl-C.
         std::function<bool()> unwanted{};
     };
 
-    /// A frame in hand is made before a capture stops.
+    /// Returns the task of drawing a frame. Its message says that the first Ctrl-C stops the capture after
+    /// this frame.
     static Task frame_task(int frame, std::optional<double> limit_seconds, Clock::time_point start);
 
     /// Watches until it is destroyed.
@@ -55,7 +56,7 @@ private:
         Clock::time_point next_word;
         std::optional<Clock::time_point> unwanted_since{};
 
-        /// When something is due.
+        /// Returns when the next action is due.
         Clock::time_point wake() const;
         bool is_unwanted_for_long(Clock::time_point now);
     };
@@ -68,7 +69,7 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     std::optional<Work> work_;
-    Clock::time_point wakes_ = Clock::time_point::max(); ///< of itself
+    Clock::time_point wakes_ = Clock::time_point::max(); ///< when the thread wakes without being notified
     bool ending_ = false;
     std::thread thread_;
 };

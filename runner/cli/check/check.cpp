@@ -15,7 +15,7 @@ namespace {
 
 struct CheckOptions {
     ProbesRequest probes;
-    TraceOptions trace; ///< its scene, its device and its form are those of the probes
+    TraceOptions trace; ///< `scene`, `device` and `json` are copied from the probes' request
     bool portable = false;
     bool traced = false;
     bool mended = false;
@@ -24,7 +24,7 @@ struct CheckOptions {
     bool list = false;
 };
 
-/// All of them need --trace, which must be there.
+/// Adds options that all need --trace, which must exist already.
 void add_trace_options(Command command, TraceOptions& options) {
     const auto before = command.options();
     add_picture_options(command, options.frames);
@@ -106,7 +106,7 @@ void add_check(Command app, Action& chosen) {
             fail_for_missing("SCENE");
         chosen = [options]() -> Result<int> {
             Interrupt interrupt;
-            const Interrupt::Immediate at_once(interrupt); // what was answered stands there already
+            const Interrupt::Immediate at_once(interrupt); // answers printed so far remain
             return options->list ? list_probes()
                    : options->portable
                        ? check_portable(options->probes.scene, options->probes.device, options->probes.json)

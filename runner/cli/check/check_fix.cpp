@@ -22,7 +22,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// Each byte as the character of its number: JSON's texts hold UTF-8 alone, and files hold any bytes.
+/// Encodes each byte as the character of its code: JSON strings must be UTF-8, and files may hold any bytes.
 std::string characters_of(std::string_view bytes) {
     std::string text;
     for (const char c : bytes) {
@@ -64,14 +64,15 @@ std::vector<ChangedFile> files_of(const Json& json) {
     return files;
 }
 
-/// In a process of its own, for a driver may hang or crash: one line for each cure, and for what remains.
+/// Runs in a child process, since a driver may hang or crash: sends one line for each fix and for each
+/// remaining finding.
 Result<void> mend(const FixOptions& options, const scene::Scene& scene, const lab::Promises& promises,
                   const Tell& tell) {
     const auto context = TRY(platform::HeadlessContext::create(options.device));
     lab::Mending mending;
     mending.hashes = options.hashes;
     CuredFiles cured;
-    std::vector<ChangedFile> files; // of the last cure that can be written
+    std::vector<ChangedFile> files; // changed by the last fix that can be written
     mending.can_be_written = [&](std::span<const glsl::Cure> cures) {
         auto changed = cured.with_last(cures);
         if (!changed)
@@ -79,7 +80,7 @@ Result<void> mend(const FixOptions& options, const scene::Scene& scene, const la
         files = *std::move(changed);
         return true;
     };
-    Result<void> driver; // a cure is offered for what was drawn: by a driver that works
+    Result<void> driver; // a fix is offered only if the driver drew it without an error
     mending.offered = [&](const lab::Offer& offer, std::span<const glsl::Cure> cures) {
         if (driver)
             driver = gl::check_work("drawing cures");
@@ -96,7 +97,7 @@ Result<void> mend(const FixOptions& options, const scene::Scene& scene, const la
     return driver ? gl::check_work("drawing cures") : driver;
 }
 
-/// What was told, shown as it comes.
+/// Shows the child's lines as they arrive.
 class Report {
 public:
     Report(const FixOptions& options, std::optional<OutputPath> folder)
@@ -170,7 +171,7 @@ private:
     Json offers_ = Json::array(), remaining_ = Json::array();
 };
 
-/// Why it came to no end of its own; empty: it did.
+/// Returns why the run did not complete; empty if it did.
 std::string why_cut(const ForkedResult& run, double budget) {
     return run.timed_out ? fmt::format("--budget of {:.3g} s is spent: there may be more", budget)
                          : run.crash;

@@ -1,4 +1,5 @@
-// `tidemark check --fix SCENE`: cures of what the probes find (lab/fix), as differences of the scene's files.
+// `tidemark check --fix SCENE`: fixes for findings of the probes (lab/fix), as differences of the scene's
+// files.
 #pragma once
 
 #include "base/result.hpp"
@@ -12,14 +13,14 @@ namespace tidemark::cli {
 struct FixOptions {
     SceneRequest scene;
     platform::DeviceChoice device;
-    double budget = 60; ///< seconds for all of it
-    bool write = false; ///< into the files, each as soon as it is found better
+    double budget = 60; ///< seconds for everything
+    bool write = false; ///< write each fix into the files as soon as it is confirmed
     bool json = false;
-    bool hashes = false;  ///< of large sines, too
+    bool hashes = false;  ///< also fix hashes of large sines
     std::string output{}; ///< folder for a page; empty: none
 };
 
-/// Exit code 1 where something was found that no cure is offered for.
+/// Returns exit code 1 if there is a finding without a fix.
 Result<int> check_fix(FixOptions options);
 
 } // namespace tidemark::cli

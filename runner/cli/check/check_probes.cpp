@@ -39,7 +39,7 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Of the time that is left, for the trace of one finding.
+/// The share of the remaining time that tracing one finding may take.
 constexpr double k_share_of_trace = 0.9;
 
 constexpr const char* k_not_asked = "--budget is spent: not asked";
@@ -80,7 +80,7 @@ Result<void> keep_page(const OutputPath& folder, const ProbesRequest& request,
     return {};
 }
 
-/// Asks one probe, unless the scene leaves it out and nobody named it.
+/// Runs one probe, unless the scene skips it and it was not named on the command line.
 Result<ProbeResult> ask(const lab::Probe& probe, lab::ProbeBench& bench, bool by_name, bool time_left) {
     ProbeResult asked{&probe, {}};
     const auto skipped = bench.promises().skip.find(std::string(probe.name));
@@ -99,8 +99,8 @@ Result<ProbeResult> ask(const lab::Probe& probe, lab::ProbeBench& bench, bool by
 
 using Probes = std::span<const lab::Probe* const>;
 
-/// In a process of its own: one line for each probe. A driver that was reset, or had no memory, is the answer
-/// of the probe that it met, and the last one: what is drawn after it is no picture.
+/// Runs in a child process and sends one line for each probe. If the driver was reset or out of memory, that
+/// is the result of the current probe and the run stops, since later pictures would be invalid.
 Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, const lab::Promises& promises,
                      Probes probes, Clock::time_point start, const Tell& tell) {
     auto painter = TRY(one_thread_painter(scene, request.device));
@@ -126,11 +126,11 @@ Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, co
     return {};
 }
 
-/// Called with each answer as it comes.
+/// Called with each result as it arrives.
 using Take = std::function<Result<void>(ProbeResult)>;
 
-/// Answers of all probes, in their order. The driver may hang or crash on the way: then the probe it was
-/// asked for has that as its answer.
+/// Runs all probes in order. If the driver hangs or crashes, that is the result of the probe that was
+/// running.
 Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
                         const lab::Promises& promises, Probes probes, Clock::time_point start,
                         const Take& take) {
@@ -143,8 +143,8 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
             continue;
         }
         const Clock::time_point began = Clock::now();
-        double seconds = 0; // of those that answered, and of taking their answers
-        double taking = 0;  // the answer before: the next probe waited
+        double seconds = 0; // time of the finished probes and of handling their results
+        double taking = 0;  // time to handle the previous result, while the next probe waited
         Result<void> heard;
         const size_t before = probes.size();
         const auto run = run_forked(
@@ -175,7 +175,7 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
         if (probes.empty())
             break;
         const bool ended_by_itself = !run->timed_out && run->crash.empty() && probes.size() < before;
-        if (ended_by_itself) // the driver was reset: the next probes get another context
+        if (ended_by_itself) // the driver was reset: the remaining probes get a new context
             continue;
         ProbeResult last{probes.front(), {Verdict::cut, k_not_finished}};
         if (!run->crash.empty())
@@ -188,7 +188,7 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
     return {};
 }
 
-/// The origin of what a probe found not finite.
+/// Finds the origin of a NaN or infinity that a probe found.
 void trace(const ProbesRequest& request, const scene::Scene& scene, ProbeResult& asked, double seconds) {
     const render::FrameState& where = *asked.answer.where;
     const auto set = lab::in_state(scene, where);
@@ -239,13 +239,14 @@ Result<int> check_probes(const ProbesRequest& request) {
     const auto promises = TRY(promises_of(request.scene, scene));
     const OutputPath folder = OutputPath::typed(request.output).sparing(files_read(scene));
     if (!request.output.empty())
-        TRY(make_folder(folder)); // now: one that cannot be made is worth no minute of probes
+        TRY(make_folder(folder)); // before the probes, whose time would be lost if the folder cannot be made
     const bool verdicts_tell = !request.json && ::isatty(STDERR_FILENO) != 1;
     Progress progress("probes", verdicts_tell ? 0 : probes.size(), {.limit = request.budget});
     std::vector<ProbeResult> all;
     const auto done =
         answer_all(request, scene, promises, probes, start, [&](ProbeResult asked) -> Result<void> {
-            if (asked.answer.non_finite) // before the next probe: a finding wants its reason first
+            // Before the next probe, so that the finding is shown with its origin.
+            if (asked.answer.non_finite)
                 trace(request, scene, asked, k_share_of_trace * (request.budget - seconds_since(start)));
             progress.step_aside();
             if (findings_are_diagnostics() && is_finding(asked.answer))

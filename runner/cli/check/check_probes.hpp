@@ -1,4 +1,4 @@
-// `tidemark check SCENE`: asks the probes of lab/check/probe.hpp and reports what they found.
+// `tidemark check SCENE`: runs the probes of lab/check/probe.hpp and reports their findings.
 #pragma once
 
 #include "base/result.hpp"
@@ -16,17 +16,17 @@ struct ProbesRequest {
     std::vector<std::string> probes; ///< --probe; empty: all
     std::string output;              ///< folder for index.html and pictures of failures; empty: none
     platform::DeviceChoice device{};
-    double budget = 60; ///< seconds after which no other probe is begun
+    double budget = 60; ///< seconds after which no further probe is started
     bool json = false;
 };
 
-/// What the file beside a scene promises of it.
+/// Reads the promises from the check.json of a scene.
 Result<lab::Promises> promises_of(const SceneRequest& request, const scene::Scene& scene);
 
-/// What each probe looks at.
+/// Prints a description of each probe.
 Result<int> list_probes();
 
-/// Exit code 1 when a probe fails.
+/// Returns exit code 1 if a probe fails.
 Result<int> check_probes(const ProbesRequest& request);
 
 } // namespace tidemark::cli

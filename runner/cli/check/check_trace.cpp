@@ -13,7 +13,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// At the operation that gave it, in the first line of the words for people.
+/// Places the finding at the operation that produced the value; the message is the first line of the text.
 Finding finding(const TraceFound& run, const scene::Scene& scene) {
     const SourceLocation where = origin_in(run.json).value_or(SourceLocation{scene.file.string()});
     return finding_of({where, Severity::error, run.text.substr(0, run.text.find('\n'))},

@@ -1,4 +1,4 @@
-// `tidemark check --trace`: names the statement where a NaN or an infinity has its origin.
+// `tidemark check --trace`: names the statement where a NaN or an infinity originates.
 #pragma once
 
 #include "cli/options.hpp"
@@ -11,14 +11,14 @@ namespace tidemark::cli {
 struct TraceOptions {
     SceneRequest scene;
     FrameOptions frames;
-    std::string pixel; ///< `x,y`; empty: the first bad one
+    std::string pixel; ///< `x,y`; empty: the first pixel that is not finite
     platform::DeviceChoice device{};
     double timeout = 60;
     bool hidden = false;
     bool json = false;
 };
 
-/// Exit code 1 when something that is not finite was found.
+/// Returns exit code 1 if something not finite was found.
 Result<int> check_trace(const TraceOptions& options);
 
 } // namespace tidemark::cli

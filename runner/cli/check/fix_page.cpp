@@ -14,7 +14,7 @@ namespace {
 using report::escaped;
 using report::escaped_lines;
 
-/// The first line is the finding, which is the heading.
+/// Returns the text after its first line, which is the finding and serves as the heading.
 std::string measured(const CureCard& cure) {
     return cure.text.substr(std::min(cure.text.size(), cure.finding.size() + 1));
 }

@@ -1,5 +1,4 @@
-// The cures of `tidemark check --fix -o` as a page for people: each with what was measured and the difference
-// that it is. Text out.
+// The page of `tidemark check --fix -o`: each fix with its measurements and its difference. Returns text.
 #pragma once
 
 #include <span>
@@ -7,20 +6,20 @@
 
 namespace tidemark::cli {
 
-/// A cure as it was told (cli/check/fix_text.hpp), and what it changes in files.
+/// A fix as text (cli/check/fix_text.hpp), and its change of the files.
 struct CureCard {
     std::string finding;
-    std::string text; ///< the finding's sentence, then what was measured
+    std::string text; ///< the finding's sentence, then the measurements
     std::string difference;
 };
 
-/// What is not mended, and why.
+/// A finding without a fix, and why.
 struct RemainingCard {
     std::string finding;
     std::string why;
 };
 
-/// `cut`: why there may be more; empty: it came to its end.
+/// `cut`: why there may be more findings; empty: the run was complete.
 std::string fix_page(const std::string& scene, std::span<const CureCard> cures,
                      std::span<const RemainingCard> remaining, const std::string& cut);
 

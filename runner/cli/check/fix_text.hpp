@@ -1,4 +1,4 @@
-// A cure that is offered, in words and as JSON: what was measured before and after.
+// Formats an offered fix as text and as JSON: what was measured before and after.
 #pragma once
 
 #include "cli/json_dump.hpp"

@@ -23,7 +23,7 @@ Result<image::Image> picture(const scene::Scene& scene, const platform::DeviceCh
     return lab::ProbeBench(scene, {}).picture(state);
 }
 
-/// By their bits: JSON knows no NaN.
+/// Encodes the bit patterns, since JSON has no NaN.
 Json bits_of(const image::Image& picture) {
     Json bits = Json::array();
     for (const float sample : picture.f32())
@@ -35,7 +35,7 @@ Json bits_of(const image::Image& picture) {
 
 Result<ForkedHelper> one_thread_painter(const scene::Scene& scene, const platform::DeviceChoice& device) {
     return ForkedHelper::start([&](const std::string& question, const Tell& tell) {
-        ::setenv("LP_NUM_THREADS", "0", 1); // none beside the one that asks
+        ::setenv("LP_NUM_THREADS", "0", 1); // no threads in addition to the calling one
         const auto drawn = picture(scene, device, frame_state_of(parse_json(question)));
         tell(dump(drawn ? bits_of(*drawn) : to_json(drawn.error())));
     });

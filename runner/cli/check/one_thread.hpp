@@ -1,4 +1,4 @@
-// Pictures drawn by one thread, in a process of its own: llvmpipe reads how many it may have when it starts.
+// Draws pictures with one thread, in a child process: llvmpipe reads its number of threads when it starts.
 #pragma once
 
 #include "cli/forked.hpp"
@@ -9,13 +9,13 @@
 
 namespace tidemark::cli {
 
-/// A process that sleeps until `drawn_by` wakes it. To be made before this one has a context.
+/// Starts a process that sleeps until `drawn_by`. Call it before this process has a context.
 Result<ForkedHelper> one_thread_painter(const scene::Scene& scene, const platform::DeviceChoice& device);
 
-/// Whether the driver of the context that is current lets itself be set to one thread.
+/// Returns true if the driver of the current context can be limited to one thread.
 bool counts_threads();
 
-/// Once: RGB of Image as ProbeBench::picture has it.
+/// Draws the picture, once: RGB of Image as ProbeBench::picture returns it.
 Result<image::Image> drawn_by(ForkedHelper& painter, const render::FrameState& state, double seconds);
 
 } // namespace tidemark::cli

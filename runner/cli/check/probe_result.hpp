@@ -1,4 +1,4 @@
-// A probe that was asked, with its answer, and its way from the process that asks to the one that reports.
+// The result of one probe, and its JSON form, by which the child process sends it to its parent.
 #pragma once
 
 #include "cli/check/trace_apart.hpp"
@@ -14,10 +14,10 @@ namespace tidemark::cli {
 
 struct ProbeResult {
     const lab::Probe* probe;
-    lab::Answer answer; ///< its picture does not come along: it is in a file
+    lab::Answer answer; ///< without its picture, which is in a file
     double seconds = 0;
-    std::filesystem::path picture{}; ///< empty: none was written
-    /// The origin of what is not finite, or why that is not known. For people, whole lines; for scripts.
+    std::filesystem::path picture{}; ///< empty: no picture was written
+    /// The origin of a NaN or infinity, or why it is unknown: as text with whole lines, and as JSON.
     std::string trace{};
     Json trace_json{};
 };

@@ -22,7 +22,7 @@ Json message_of(const lab::NanTrace& trace) {
     return {{"text", to_text(trace)}, {"trace", to_json(trace)}};
 }
 
-/// In the child.
+/// Runs in the child.
 Result<std::optional<lab::NanTrace>> trace(const scene::Scene& scene, const TraceJob& job, const Tell& tell) {
     const auto context = TRY(platform::HeadlessContext::create(job.device));
     const render::FrameState state = job.request.states(job.request.frame);
@@ -41,7 +41,7 @@ Result<std::optional<lab::NanTrace>> trace(const scene::Scene& scene, const Trac
     return found;
 }
 
-/// The last of what was found, and the frame that was sent last.
+/// The last result and the last frame number that the child sent.
 struct Heard {
     Json line;
     int frame = -1;

@@ -1,5 +1,5 @@
-// A trace of a NaN (lab/trace/nan_trace.hpp) in a process of its own, so that neither a crash of the driver
-// nor a shader without end is more than an answer.
+// Traces a NaN (lab/trace/nan_trace.hpp) in a child process, so that a crash of the driver or an endless
+// shader is only an error.
 #pragma once
 
 #include "cli/error_json.hpp"
@@ -13,22 +13,22 @@
 
 namespace tidemark::cli {
 
-/// What to trace, and where to draw.
+/// The pixel or frame to trace, and the device to draw on.
 struct TraceJob {
     platform::DeviceChoice device{};
     lab::TraceRequest request;
 };
 
-/// The best that was reported until the end.
+/// The best result reported before the end.
 struct TraceFound {
-    bool found = false;  ///< something is not finite
-    std::string text{};  ///< for people, whole lines
-    Json json{};         ///< for scripts; null where nothing was found
-    std::string ended{}; ///< why it did not come to its end; empty: it did
+    bool found = false;  ///< something is NaN or infinite
+    std::string text{};  ///< report as text, whole lines
+    Json json{};         ///< report as JSON; null if nothing was found
+    std::string ended{}; ///< why the trace is incomplete; empty: it is complete
 };
 
-/// To be called before this process has a context (cli/forked.hpp). Fails where the scene does not compile,
-/// or nothing was found in time.
+/// Traces in a child process; call it before this process has a context (cli/forked.hpp). Fails if the scene
+/// does not compile, or if nothing was found in time.
 Result<TraceFound> trace_apart(const scene::Scene& scene, const TraceJob& job, double seconds);
 
 } // namespace tidemark::cli

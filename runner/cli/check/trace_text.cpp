@@ -28,7 +28,7 @@ std::string operands(const NanOrigin& origin) {
     return text;
 }
 
-/// Whether the statement does nothing but store or return what the operation gives.
+/// Returns true if the statement only stores or returns the operation's value.
 bool says_all(const NanOrigin& origin) {
     if (!origin.statement.ends_with(origin.operation))
         return false;
@@ -39,7 +39,7 @@ bool says_all(const NanOrigin& origin) {
     return before.empty() || before.ends_with('=') || before == "return";
 }
 
-/// "`d = a / b` gave +Inf: a = 0.31, b = 0 (division by zero)".
+/// Returns for example "`d = a / b` gave +Inf: a = 0.31, b = 0 (division by zero)".
 std::string sentence(const NanOrigin& origin) {
     const std::string_view value = origin.value ? lab::worst_of(*origin.value) : std::string_view{};
     std::string text = fmt::format("`{}` {}", origin.statement,

@@ -1,4 +1,4 @@
-// A trace as people and as scripts read it.
+// Formats the trace of a NaN as text and as JSON.
 #pragma once
 
 #include "lab/trace/nan_trace.hpp"
@@ -13,7 +13,8 @@ namespace tidemark::cli {
 std::string to_text(const lab::NanTrace& trace);
 nlohmann::ordered_json to_json(const lab::NanTrace& trace);
 
-/// Where such a JSON says that the first operation stands; nothing where it names none, or none of a file.
+/// Returns the place of the first operation in the JSON of a trace; nothing if there is none, or if it is not
+/// in a file.
 std::optional<SourceLocation> origin_in(const nlohmann::ordered_json& trace);
 
 } // namespace tidemark::cli

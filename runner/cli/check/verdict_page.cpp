@@ -24,7 +24,7 @@ struct Group {
     const char* heading;
 };
 
-/// What wants a person's eye first.
+/// The most urgent group first.
 constexpr Group k_groups[] = {{Verdict::fail, "fail", "Failures"},
                               {Verdict::warn, "warn", "Warnings"},
                               {Verdict::cut, "cut", "Cut off by the budget"},
@@ -41,7 +41,7 @@ Results of_verdict(std::span<const ProbeResult> all, Verdict verdict) {
     return found;
 }
 
-/// Probes draw small pictures: all of them find room in the page.
+/// Embeds the picture; probes draw small ones, so all fit into the page.
 std::string picture(const ProbeResult& asked) {
     if (asked.picture.empty())
         return {};
@@ -71,7 +71,7 @@ std::string article(const ProbesRequest& request, const ProbeResult& asked, cons
                        shown);
 }
 
-/// Those that one sentence is about stand in one row.
+/// Lists results, with probes that have the same sentence in one row.
 std::string short_rows(const Results& results) {
     std::vector<std::pair<std::string, std::string>> rows; // probes, sentence
     for (const ProbeResult* asked : results) {

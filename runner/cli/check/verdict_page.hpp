@@ -1,5 +1,5 @@
-// The verdicts of `tidemark check -o` as a page for people: failures first, each with its picture and the
-// command that draws it. Text out; pictures are read from where they were written.
+// The page of `tidemark check -o`: failures first, each with its picture and the command that draws it.
+// Returns text; pictures are read from the files written before.
 #pragma once
 
 #include "cli/check/verdicts.hpp"

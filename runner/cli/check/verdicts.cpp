@@ -19,7 +19,7 @@ namespace {
 
 using lab::Verdict;
 
-/// Where sentences begin.
+/// The column in which sentences begin.
 constexpr int k_margin = 18;
 
 bool waits(const ProbeResult& asked) {
@@ -35,7 +35,7 @@ std::string line(Verdict verdict, const std::string& probes, const std::string& 
     return fmt::format("{:4}  {:10}  {}\n", lab::to_string(verdict), probes, sentence);
 }
 
-/// Each line behind the margin.
+/// Indents each line to the margin.
 std::string indented(const std::string& text) {
     std::string result;
     std::istringstream lines(text);
@@ -44,7 +44,8 @@ std::string indented(const std::string& text) {
     return result;
 }
 
-/// `: horizon 40 %, rays 22 %`: the shares of the time that are a percent or more, the largest first.
+/// Returns for example `: horizon 40 %, rays 22 %`: the probes that took at least 1 % of the time, the
+/// largest first.
 std::string shares(std::span<const ProbeResult> all, double seconds) {
     std::vector<ProbeResult> dear(all.begin(), all.end());
     std::ranges::stable_sort(dear, std::greater(), &ProbeResult::seconds);

@@ -1,4 +1,4 @@
-// What probes answered, as people and as scripts read it.
+// Formats the results of probes as text, as JSON and as findings.
 #pragma once
 
 #include "cli/check/check_probes.hpp"
@@ -10,30 +10,31 @@
 
 namespace tidemark::cli {
 
-/// Whether there is something to show.
+/// Returns true for a failure or a warning.
 bool is_finding(const lab::Answer& answer);
 
-/// The command that draws the frame in which a probe found something; empty: it found nothing, or in no
-/// frame.
+/// Returns the command that draws the frame in which a probe found something; empty if it found nothing, or
+/// in no particular frame.
 std::string reproduction(const ProbesRequest& request, const ProbeResult& asked);
 
-/// `2 fail, 1 warn, 14 pass, 12 n/a`.
+/// Returns the counts, for example `2 fail, 1 warn, 14 pass, 12 n/a`.
 std::string counted(std::span<const ProbeResult> all);
 
-/// A verdict with all that belongs to it. Empty for those that wait for `rest`.
+/// Returns a result with all its details; empty for those that are listed in `summary`.
 std::string row(const ProbesRequest& request, const ProbeResult& asked);
 
-/// The same for --diagnostics: at the operation that a trace found, else at the pass's mainImage.
+/// Returns the same for --diagnostics, placed at the operation that a trace found, otherwise at the pass's
+/// mainImage.
 Finding finding(const scene::Scene& scene, const ProbeResult& asked);
 
-/// Those that did not apply or were cut, one line for each reason, and the sum of it all, which took so many
-/// `seconds`.
+/// Returns the probes that did not apply or were cut, one line for each reason, and the counts; `seconds` is
+/// the total time.
 std::string summary(std::span<const ProbeResult> all, double seconds);
 
-/// All of it as JSON.
+/// Returns all results as JSON.
 std::string report(const ProbesRequest& request, std::span<const ProbeResult> all);
 
-/// Of the command. A failure is one even where other probes were cut.
+/// Returns the exit code of the command: a failure takes precedence over probes that were cut.
 int exit_code(std::span<const ProbeResult> all);
 
 } // namespace tidemark::cli

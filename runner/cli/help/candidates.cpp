@@ -18,7 +18,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// The command that the words call, innermost.
+/// Returns the innermost command named in `before`.
 const CLI::App& command_of(const CLI::App& app, const Words& before) {
     const CLI::App* command = &app;
     for (const std::string& word : before)
@@ -28,7 +28,7 @@ const CLI::App& command_of(const CLI::App& app, const Words& before) {
                 break;
             }
     if (command == &app && !before.empty() && !before.front().starts_with('-'))
-        return *app.get_subcommand("view"); // `tidemark SCENE` is short for it
+        return *app.get_subcommand("view"); // `tidemark SCENE` is short for `tidemark view SCENE`
     return *command;
 }
 
@@ -45,7 +45,7 @@ Words commands_and_options(const CLI::App& command) {
     return names;
 }
 
-/// Knobs, or what --define replaces, of the first word that is a scene.
+/// Returns the knobs, or the names for --define, of the first argument that is a scene.
 Words names_in_scene(const Words& before, bool knobs) {
     Words names;
     for (const std::string& word : before) {
@@ -80,7 +80,8 @@ Words device_names() {
     return names;
 }
 
-/// `single|double`, as help shows it; nothing of `[PASS:]N=FILE|noise|none`.
+/// Splits choices such as `single|double`; returns nothing for other forms, such as
+/// `[PASS:]N=FILE|noise|none`.
 Words choices(const std::string& type) {
     const bool plain = std::all_of(type.begin(), type.end(), [](unsigned char c) {
         return c == '|' || std::islower(c) || std::isdigit(c);

@@ -1,4 +1,4 @@
-// What a word of a command line may become: commands, options, and the values that we know. Prints nothing.
+// Completes the last argument of a command line: commands, options, and known values. Prints nothing.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ class App;
 
 namespace tidemark::cli {
 
-/// What begins as the last of the `words` does, which may be empty; the words before it tell the command, the
-/// option and the scene. Names of files are the shell's to complete.
+/// Returns what starts with the last of `words`, which may be empty; the arguments before it determine the
+/// command, the option and the scene. The shell completes file names itself.
 std::vector<std::string> candidates(const CLI::App& app, const std::vector<std::string>& words);
 
 } // namespace tidemark::cli

@@ -9,7 +9,7 @@
 namespace tidemark::cli {
 namespace {
 
-// Each asks the program what the word may become, and adds the names of files.
+// Each script calls `tidemark completion words` for the candidates, and adds file names.
 
 constexpr std::string_view k_bash = R"sh(# Completion of tidemark for bash: source <(tidemark completion)
 _tidemark() {

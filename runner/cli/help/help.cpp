@@ -36,7 +36,7 @@ Result<int> help(const std::string& name) {
                                                               : fmt::format("did you mean '{}'?", nearest)));
 }
 
-/// One page a command, and that of the program.
+/// Writes one page for each command, and one for the program.
 Result<int> write_man_pages(Command program, const std::filesystem::path& folder) {
     TRY(make_folder(folder));
     std::vector<Command> all = program.subcommands();

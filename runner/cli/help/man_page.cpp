@@ -15,7 +15,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// Text as roff takes it: its own signs escaped, no line a request.
+/// Escapes text for roff, so that no line is a request.
 std::string plain(std::string_view text) {
     std::string roff;
     for (const char c : text) {
@@ -31,7 +31,7 @@ std::string plain(std::string_view text) {
     return roff;
 }
 
-/// "tidemark bake noise", its words joined by `glue`.
+/// Returns the full command name, for example "tidemark bake noise", joined by `glue`.
 std::string words_of(const CLI::App& command, std::string_view glue) {
     const CLI::App* parent = command.get_parent();
     return parent ? fmt::format("{}{}{}", words_of(*parent, glue), glue, command.get_name())
@@ -50,7 +50,7 @@ std::string synopsis(const CLI::App& command) {
     return line;
 }
 
-/// Each as --help has it: the name, the value, the meaning.
+/// Lists the options as --help does: name, value, meaning.
 std::string options(const CLI::App& command) {
     const HelpFormatter words;
     std::string roff;
@@ -80,7 +80,7 @@ std::string inner_commands(const CLI::App& command) {
     return roff;
 }
 
-/// A section of the manual.
+/// Returns a section of the manual by its name.
 std::string_view section(std::string_view name) {
     for (const Topic& topic : topics_of(help_pages()))
         if (topic.name == name)
@@ -88,13 +88,13 @@ std::string_view section(std::string_view name) {
     return "";
 }
 
-/// Less the heading, line by line.
+/// Returns the section without its heading, line by line.
 std::string exit_codes() {
     const std::string text = plain_text(section("exit-codes"));
     return fmt::format(".SH EXIT STATUS\n.nf\n{}.fi\n", plain(text.substr(text.find('\n') + 1)));
 }
 
-/// The command's sentence, and what the manual's table of commands says of it, form by form.
+/// Returns the command's description, and each of its forms in the manual's table of commands.
 std::string description(const CLI::App& command) {
     const std::string sentence = command.get_description();
     std::string roff =
@@ -106,7 +106,7 @@ std::string description(const CLI::App& command) {
     return roff;
 }
 
-/// All that the manual has of it.
+/// Lists all examples of the command in the manual.
 std::string examples(const CLI::App& command) {
     std::vector<std::string> lines;
     for (const std::string_view page : help_pages())
@@ -128,7 +128,7 @@ ManPage man_page(const CLI::App& command) {
         fmt::format(".TH \"{}\" 1 \"\" \"Tidemark {}\" \"User Commands\"\n", plain(name), k_version);
     roff += fmt::format(".SH NAME\n{} \\- {}\n", plain(name), plain(command.get_description()));
     roff += fmt::format(".SH SYNOPSIS\n{}\n", synopsis(command));
-    if (whole) // as `view` does
+    if (whole) // short for `tidemark view SCENE`
         roff += fmt::format(".br\n\\fB{}\\fR \\fISCENE\\fR\n", plain(words_of(command, " ")));
     roff += description(command);
     roff += ".SH OPTIONS\n" + options(command);

@@ -1,4 +1,4 @@
-// Pages for man(1) from the options that the program parses. Writes nothing.
+// Makes pages for man(1) from the options that the program parses. Writes no files.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@ class App;
 namespace tidemark::cli {
 
 struct ManPage {
-    std::string name; ///< "tidemark-capture"
+    std::string name; ///< for example "tidemark-capture"
     std::string roff;
 };
 
-/// The page of the program or of one of its commands, whose own sub-commands stand in it.
+/// Returns the page of the program or of one of its commands, including its sub-commands.
 ManPage man_page(const CLI::App& command);
 
 } // namespace tidemark::cli

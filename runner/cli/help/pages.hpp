@@ -1,4 +1,4 @@
-// The pages that lie beside the code, as they were when the program was built (runner/CMakeLists.txt).
+// The manual pages next to the code, embedded when the program is built (runner/CMakeLists.txt).
 #pragma once
 
 #include <span>
@@ -6,7 +6,7 @@
 
 namespace tidemark::cli {
 
-/// The Markdown of each, those of the command line first.
+/// Returns the Markdown of each page, the command line's pages first.
 std::span<const std::string_view> help_pages();
 
 } // namespace tidemark::cli

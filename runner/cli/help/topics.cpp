@@ -7,7 +7,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// Columns up to here stand beside each other.
+/// Tables are set in columns if all but the last are at most this wide together.
 constexpr size_t k_widest_columns = 40;
 
 constexpr std::string_view k_section = "\n## ";
@@ -23,19 +23,19 @@ std::string name_of(std::string_view title) {
     return name;
 }
 
-/// Of a text that begins with its heading.
+/// Returns the topic of a text that begins with its heading.
 Topic topic_of(std::string_view markdown, bool whole_page) {
     const std::string_view heading = markdown.substr(0, markdown.find('\n'));
     const std::string_view title = heading.substr(heading.find(' ') + 1);
     return {name_of(title), markdown, whole_page};
 }
 
-/// Code points, which are columns in what the pages are written in.
+/// Counts code points; each is one column in the characters that the pages use.
 size_t width_of(std::string_view text) {
     return size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
-/// `[text](target)` is text, `**text**` too.
+/// Replaces `[text](target)` and `**text**` by the text.
 std::string without_marks(std::string_view line) {
     std::string text;
     while (!line.empty()) {
@@ -66,7 +66,7 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 
 using Row = std::vector<std::string>;
 
-/// The cells of `| a | b |`; `\|` is part of a cell.
+/// Splits `| a | b |` into cells; `\|` is part of a cell.
 Row cells_of(std::string_view line) {
     Row cells;
     std::string cell;
@@ -105,7 +105,7 @@ std::string table_text(const std::vector<Row>& rows) {
     return text;
 }
 
-/// Reads a text line by line; the rows of a table are kept until it ends.
+/// Converts a text line by line; the rows of a table are kept until it ends.
 class PlainText {
 public:
     void add(std::string_view line) {

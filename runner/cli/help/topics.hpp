@@ -1,4 +1,4 @@
-// Sections of Markdown pages, by name, and their text as a terminal shows it. Prints nothing.
+// Finds sections of Markdown pages by name, and formats them for a terminal. Prints nothing.
 #pragma once
 
 #include <span>
@@ -8,24 +8,25 @@
 
 namespace tidemark::cli {
 
-/// A page, or a section of one. Views into the page.
+/// A page or one of its sections. Views into the page's text.
 struct Topic {
-    std::string name;          ///< its title, as in "exit-codes"
-    std::string_view markdown; ///< with its heading
+    std::string name;          ///< its title in lower case, for example "exit-codes"
+    std::string_view markdown; ///< includes the heading
     bool whole_page = false;
 };
 
-/// Every page and the sections of it, in the order of the pages.
+/// Returns every page and its sections, in the order of the pages.
 std::vector<Topic> topics_of(std::span<const std::string_view> pages);
 
-/// Without pictures, comments and the targets of links; tables in columns, or, where those are wide, with the
+/// Removes pictures, comments and link targets. Tables are set in columns, or, if these are wide, with the
 /// cells of a row below each other.
 std::string plain_text(std::string_view markdown);
 
-/// The cells of its tables, row by row, headings too, without the targets of links.
+/// Returns the cells of all tables, row by row, including headings, without link targets.
 std::vector<std::vector<std::string>> rows_of(std::string_view markdown);
 
-/// Lines of its shell examples, each with the comment behind it; what goes on in a second line is one.
+/// Returns the lines of the shell examples, each with the comment after it; a line with its continuation
+/// lines is one element.
 std::vector<std::string> example_lines(std::string_view markdown);
 
 } // namespace tidemark::cli

@@ -13,7 +13,7 @@ namespace {
 
 using platform::HeadlessDevice;
 
-/// A driver that has not started until then hangs.
+/// A driver that needs longer to start hangs.
 constexpr double k_patience_seconds = 30;
 
 std::string told(const HeadlessDevice& device, bool tried) {

@@ -1,5 +1,5 @@
-// Where OpenGL contexts can be had, asked in processes of their own: a driver that crashes or hangs when it
-// starts is an entry like the others.
+// Lists devices that can have an OpenGL context. Runs in child processes: a driver that crashes or hangs when
+// it starts is listed with that as its reason.
 #pragma once
 
 #include "base/result.hpp"
@@ -9,8 +9,8 @@
 
 namespace tidemark::cli {
 
-/// As platform::list_headless_devices; before this process has a driver. Fails (ErrorCode::no_context) where
-/// already to list them crashes or hangs.
+/// Lists devices like platform::list_headless_devices; call it before this process has a driver. Fails
+/// (ErrorCode::no_context) if the listing itself crashes or hangs.
 Result<std::vector<platform::HeadlessDevice>> list_devices_apart();
 
 } // namespace tidemark::cli

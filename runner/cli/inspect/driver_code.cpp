@@ -23,7 +23,7 @@ const DriverCode& of(const CompiledSizes& sizes, Specialise how) {
     return sizes[size_t(how)];
 }
 
-/// The program lives no longer than this: a driver that still has its like would not compile the next one.
+/// The program is deleted on return: a driver that still has an equal one would not compile the next.
 std::optional<DriverCode> code_of(const scene::Scene& scene, const scene::Pass& pass,
                                   glsl::Precision precision, Specialise how) {
     gl::CompilerMessages messages;
@@ -44,7 +44,7 @@ std::optional<CompiledSizes> sizes_of(const scene::Scene& scene, const scene::Pa
         auto code = code_of(scene, pass, precision, Specialise(i));
         if (!code)
             return std::nullopt;
-        // A driver that has spoken and is silent now finds the code that it made before.
+        // A driver that reported counts before and reports none now reuses code that it compiled before.
         if (code->instructions.empty() && i > 0)
             code->instructions = sizes[i - 1].instructions;
         sizes[i] = *std::move(code);
@@ -70,7 +70,7 @@ std::string bytes_of(const DriverCode& code) {
     return fmt::format("{}", code.bytes);
 }
 
-/// A line of what each of the four has.
+/// Formats one figure of the four levels as a line.
 std::string to_line(std::string_view what, const CompiledSizes& sizes,
                     std::string (*figure)(const DriverCode&)) {
     return fmt::format(

@@ -1,6 +1,5 @@
-// What the driver makes of a scene's passes: how large a linked program is, in bytes of the driver's own form
-// and in instructions where its compiler tells them, with and without what specialising takes out of the
-// text.
+// The size of a scene's compiled passes, in bytes of the driver's own program format and in instructions if
+// its compiler reports them, for each level of specialisation.
 #pragma once
 
 #include "base/scratch_folder.hpp"
@@ -19,15 +18,15 @@
 namespace tidemark::cli {
 
 struct DriverCode {
-    size_t bytes = 0; ///< 0: the driver has no such form
+    size_t bytes = 0; ///< 0: the driver has no program binaries
     std::vector<glsl::InstructionCount> instructions{};
 };
 
-/// Of one pass, for each value of glsl::Specialise.
+/// The sizes of one pass, for each value of glsl::Specialise.
 using CompiledSizes = std::array<DriverCode, 4>;
 
-/// While it lives, the driver compiles instead of remembering: one that remembers tells no counts. To be made
-/// before the process has a context.
+/// Gives the driver an empty shader cache, so that it compiles: from its cache it would report no counts.
+/// Construct it before the process has a context.
 class FreshDriverCache {
 public:
     FreshDriverCache();
@@ -36,7 +35,8 @@ private:
     ScratchFolder folder_;
 };
 
-/// For each pass of the scene, nothing where it does not link. A context must be current.
+/// Returns the sizes of each pass of the scene; nothing for a pass that does not link. A context must be
+/// current.
 std::vector<std::optional<CompiledSizes>> compiled_sizes(const scene::Scene& scene,
                                                          glsl::Precision precision);
 

@@ -62,7 +62,7 @@ std::string to_line(const glsl::LeftOut& left_out) {
     return text + '\n';
 }
 
-/// By pass.
+/// One entry per pass.
 using Sizes = std::vector<std::optional<CompiledSizes>>;
 
 Json json_of(const render::Renderer& renderer, const gl::Capabilities& driver, const Sizes& sizes) {
@@ -124,7 +124,7 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
     return text;
 }
 
-/// The text of a pass, Image when none is named.
+/// Prints the text of a pass, Image if no name is given.
 Result<int> put_source(const scene::Scene& scene, const std::string& name, glsl::Precision precision,
                        glsl::Specialise how) {
     for (const scene::Pass& pass : scene.passes) {
@@ -155,7 +155,7 @@ Result<int> inspect_scene(const InspectOptions& options) {
     target.pass = options.pass;
     target.precision = precision_of(options.scene);
     target.specialise = glsl::Specialise::unreachable;
-    const Sizes sizes = compiled_sizes(scene, target.precision); // before the driver has seen any of it
+    const Sizes sizes = compiled_sizes(scene, target.precision); // before the driver has compiled any of it
     const auto renderer = TRY(render::Renderer::create(std::move(scene), target));
     const gl::Capabilities driver = gl::query_capabilities();
     return put(options.json ? dump(json_of(renderer, driver, sizes), 2) + "\n"

@@ -52,7 +52,7 @@ std::string to_line(const platform::HeadlessDevice& device) {
     return text;
 }
 
-/// All checks take some seconds on a processor of two cores.
+/// All checks take some seconds on a CPU with two cores.
 constexpr double k_self_test_seconds = 120;
 
 lab::DeviceAnswer ask(const lab::DeviceCheck& check) {
@@ -66,7 +66,7 @@ Json told(const lab::DeviceCheck& check, const lab::DeviceAnswer& answer) {
 
 void ask_all(const HeadlessDevice& device, const Tell& tell) {
     const auto context = platform::HeadlessContext::create({device.name});
-    if (!context) { // it was there when the devices were listed
+    if (!context) { // it worked when the devices were listed
         tell(dump({{"check", "context"}, {"verdict", "fail"}, {"says", to_string(context.error())}}));
         return;
     }
@@ -74,7 +74,7 @@ void ask_all(const HeadlessDevice& device, const Tell& tell) {
         tell(dump(told(check, ask(check))));
 }
 
-/// The verdicts on a device, whatever it does to who asks.
+/// Checks a device in a child process; a crash or a hang is a failed check.
 Result<Json> verdicts_on(const HeadlessDevice& device) {
     Json verdicts = Json::array();
     const auto run = TRY(run_forked([&](const Tell& tell) { ask_all(device, tell); }, k_self_test_seconds,

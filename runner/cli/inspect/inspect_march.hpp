@@ -8,9 +8,9 @@
 
 namespace tidemark::cli {
 
-/// A line for each loop; nothing of a text that has none or cannot be followed.
+/// Returns one line for each loop; empty if the pass has none or cannot be analysed.
 std::string march_lines(const scene::Scene& scene, const scene::Pass& pass);
-/// [{"file", "line", "kind"}], or {"not_followed": why}.
+/// Returns [{"file", "line", "kind"}], or {"not_followed": reason}.
 Json marches_of(const scene::Scene& scene, const scene::Pass& pass);
 
 } // namespace tidemark::cli

@@ -25,11 +25,11 @@ using lab::Saving;
 
 constexpr std::string_view k_libraries = "libraries";
 constexpr std::string_view k_all = "all";
-/// Of the time that is left.
+/// The share of the remaining time for one library.
 constexpr double k_share_of_library = 0.1;
 constexpr double k_mebibyte = 1024.0 * 1024.0;
 
-/// Things that are put back together.
+/// Parts that are put back together.
 struct Question {
     std::string name;
     std::vector<Omission> things;
@@ -77,7 +77,7 @@ Result<std::vector<LoadedLibrary>> load_libraries(const SavingsOptions& options,
     return loaded;
 }
 
-/// Each gets its part of the time that is left.
+/// Divides the remaining time evenly among the questions.
 Result<std::vector<Answer>> ask(const SavingsOptions& options, const scene::Scene& scene,
                                 const render::RenderOptions& target, const std::vector<Question>& questions,
                                 const lab::Stopwatch& watch) {
@@ -93,7 +93,7 @@ Result<std::vector<Answer>> ask(const SavingsOptions& options, const scene::Scen
     return answers;
 }
 
-/// To the microsecond, as far as three digits tell it.
+/// Formats with about three significant digits, at most to the microsecond.
 std::string milliseconds(double value) {
     return fmt::format("{:+.{}f}", value, std::abs(value) < 1 ? 3 : std::abs(value) < 10 ? 2 : 0);
 }

@@ -1,4 +1,4 @@
-// `tidemark inspect --with`: what leaving a thing out saves, measured by putting it back.
+// `tidemark inspect --with`: measures what leaving a part out saves, by putting it back.
 #pragma once
 
 #include "cli/requests.hpp"
@@ -14,16 +14,16 @@ struct SavingsOptions {
     std::string size = "640x360";
     std::string pass;
     platform::DeviceChoice device{};
-    std::vector<std::string> things; ///< "all": every one by itself, then all together
+    std::vector<std::string> things; ///< "all": each one separately, then all together
     double budget = 20;              ///< seconds
     bool json = false;
 };
 
-/// The words that `things` may hold.
+/// Returns the names that `things` may contain.
 std::vector<std::string> things_left_out();
 
-/// A table, or one JSON object. Exit code 1 where putting a thing back changed a pixel; else 5 where the
-/// budget did not suffice.
+/// Prints a table or one JSON object. Returns exit code 1 if putting a part back changed a pixel, otherwise 5
+/// if the budget was too short.
 Result<int> inspect_savings(const SavingsOptions& options);
 
 } // namespace tidemark::cli

@@ -1,4 +1,4 @@
-// What loading a library costs that a scene without such inputs does not load.
+// Measures what it costs to load a library that a scene without such inputs does not load.
 #pragma once
 
 #include "base/result.hpp"
@@ -14,7 +14,7 @@ struct OptionalLibrary {
     std::string_view file; ///< part of the name of its shared object
     void (*load)();
 
-    /// In this process.
+    /// Returns true if it is loaded in this process.
     bool is_loaded() const;
 };
 
@@ -25,8 +25,8 @@ struct LibraryCost {
     double mebibytes = 0;
 };
 
-/// In processes of their own: a library is loaded once. To be called before there is an OpenGL context.
-/// Once at least, and again as long as `seconds` last.
+/// Loads the library in child processes, since a process loads it only once: at least once, and repeatedly
+/// for up to `seconds`. Call it before there is an OpenGL context.
 Result<LibraryCost> measure_loading(const OptionalLibrary& library, double seconds);
 
 } // namespace tidemark::cli

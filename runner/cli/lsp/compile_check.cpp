@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 using Diagnostics = std::vector<Diagnostic>;
 
-/// One place is told once: Common stands in front of every pass.
+/// Adds diagnostics that are not in the list yet: Common is compiled with every pass, so its errors repeat.
 void add(Diagnostics& all, Diagnostics more) {
     for (Diagnostic& each : more)
         if (std::ranges::find(all, each) == all.end())
@@ -36,14 +36,14 @@ Diagnostics diagnostics_of(const Error& error) {
     return {{{}, Severity::error, error.message}};
 }
 
-/// Told as the error that it would be on the command line.
+/// Formats a line for the parent: the diagnostics in the JSON form of an Error.
 std::string line_of(std::string_view kind, const Diagnostics& diagnostics) {
     return dump(Json{{"kind", kind}, {"found", to_json(Error{.message = {}, .diagnostics = diagnostics})}});
 }
 
-/// In the child. Every pass is compiled, also behind one that fails, and one that no other reads; as capture
-/// compiles it, without the functions that nobody calls. What is wrong with those is a hint: the site
-/// compiles them.
+/// Runs in the child process. Compiles every pass, even after one that fails, and even if no other pass reads
+/// it; removes uncalled functions first, as capture does. Errors in uncalled functions are hints instead,
+/// because ShaderToy's site compiles them.
 Result<void> examine(const fs::path& path, const scene::UnsavedTexts& texts,
                      const platform::DeviceChoice& device, const Tell& tell) {
     const scene::Scene scene = TRY(scene::load_scene(path, {.media = {}, .unsaved = texts}));

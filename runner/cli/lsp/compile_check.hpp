@@ -1,5 +1,5 @@
-// What is wrong with a scene, found by the driver that draws it, in a process of its own: neither a driver
-// that crashes or hangs nor a text that takes all memory is more than a diagnostic.
+// Compiles a scene with the driver in a separate process and reports diagnostics. A driver that crashes or
+// hangs, or a scene that exhausts memory, becomes a diagnostic, too.
 #pragma once
 
 #include "base/result.hpp"
@@ -15,15 +15,16 @@ namespace tidemark::cli {
 
 class CompileCheck {
 public:
-    /// Of the scene as the editor holds its files. To be called without threads or a context
-    /// (cli/forked.hpp).
+    /// Starts the check with the texts that the editor holds. Call it while the process has no threads and no
+    /// context (cli/forked.hpp).
     static Result<CompileCheck> start(const std::filesystem::path& scene, const lsp::Documents& documents,
                                       const platform::DeviceChoice& device, const ForkedLimits& limits);
 
     const std::filesystem::path& scene() const { return scene_; }
     int descriptor() const { return helper_.descriptor(); }
 
-    /// The verdicts that came by now, each more than the one before; none where nothing is new.
+    /// Returns the verdicts that have arrived since the last call, each an extension of the one before. Never
+    /// waits.
     std::vector<lsp::Verdict> look();
     bool ended() const { return ended_; }
 
@@ -35,7 +36,7 @@ private:
     ForkedHelper helper_;
     ForkedLimits limits_;
     lsp::Verdict found_{};
-    bool answered_ = false; ///< the problems are known
+    bool answered_ = false; ///< the problems have arrived
     bool ended_ = false;
 };
 

@@ -20,7 +20,7 @@ bool is_error(const Diagnostic& diagnostic) {
 
 } // namespace
 
-/// Lines of our own making have no file.
+/// Adds a hint once. Ignores lines without a file: those are generated.
 void Hints::add(SourceLocation where, std::string message) {
     Diagnostic hint{std::move(where), Severity::note, std::move(message)};
     if (!hint.where.file.empty() && std::ranges::find(found_, hint) == found_.end())
@@ -30,7 +30,7 @@ void Hints::add(SourceLocation where, std::string message) {
 void Hints::read(const scene::Pass& pass, const glsl::Dialect& dialect) {
     const auto text = lab::read_text(scene_, pass, dialect, true);
     if (!text)
-        return; // the driver takes what we cannot follow
+        return; // the driver accepts some texts that the analysis cannot follow
     const glsl::TreeFacts facts = glsl::find_facts(**text);
     for (const glsl::Unassigned& each : glsl::find_unassigned(**text, facts))
         add((*text)->spelled(lab::word_without_value(**text, each)),

@@ -1,5 +1,5 @@
-// What no compiler complains of: values that are read before they are there, derivatives where neighbours may
-// have gone another way, and what ShaderToy's own site will not compile.
+// Finds problems that compilers accept: uninitialised values, derivatives in non-uniform control flow,
+// miscounting float loops, and code that ShaderToy's own site does not compile.
 #pragma once
 
 #include "glsl/dialect.hpp"
@@ -10,15 +10,15 @@
 
 namespace tidemark::cli {
 
-/// Of one scene, which must live as long. A context must be current.
+/// The hints of one scene, which must outlive it. A context must be current.
 class Hints {
 public:
     explicit Hints(const scene::Scene& scene) : scene_(scene) {}
 
-    /// Of a pass that was linked in that dialect.
+    /// Adds the hints of a pass that was linked in that dialect.
     void read(const scene::Pass& pass, const glsl::Dialect& dialect);
-    /// All of them, without those of lines that have a problem. `compile`: the site's dialect is compiled,
-    /// too.
+    /// Returns all hints, except on lines with a problem. `compile`: also compiles for ShaderToy's site,
+    /// unless there are errors.
     std::vector<Diagnostic> take(const std::vector<Diagnostic>& problems, bool compile);
 
 private:

@@ -1,5 +1,5 @@
-// `tidemark lsp`: the language server over standard input and output. One thread, which waits for the editor
-// and for the process that compiles (cli/lsp/compile_check.hpp).
+// `tidemark lsp`: the language server on standard input and output. One thread, which waits for the editor
+// and for the compiling process (cli/lsp/compile_check.hpp).
 #include "base/doing.hpp"
 #include "base/try.hpp"
 #include "cli/command_line.hpp"
@@ -24,9 +24,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-/// Keys of a person who types come closer than this: a text in between is not worth a compiler.
+/// Pause after an edit before a check starts. Keystrokes come closer than this, so texts in between are not
+/// compiled.
 constexpr milliseconds k_quiet{100};
-/// Between two looks at what the compiler takes.
+/// Interval at which the compiling process's time and memory are checked.
 constexpr milliseconds k_look{50};
 
 struct LspOptions {
@@ -46,7 +47,7 @@ public:
                 {{STDIN_FILENO, POLLIN, 0}, {check_ ? check_->descriptor() : -1, POLLIN, 0}}};
             ::poll(inputs.data(), inputs.size(), int(patience().count()));
             if (inputs[0].revents != 0 && !TRY(read()))
-                return 1; // an editor says `exit` before it goes
+                return 1; // an editor sends `exit` before it closes the stream
             TRY(hear());
             TRY(compile());
         }
@@ -58,12 +59,12 @@ private:
         if (check_)
             return k_look;
         if (session_.stale().empty())
-            return milliseconds(-1); // until the editor wants something
+            return milliseconds(-1); // until the editor sends a message
         const auto left = std::chrono::ceil<milliseconds>(quiet_at_ - Clock::now());
         return std::max(left, milliseconds(0));
     }
 
-    /// False at the end of the stream, and where no message can be found in it any more.
+    /// Returns false at the end of the stream. Fails where the stream is not the language server protocol.
     Result<bool> read() {
         std::array<char, 1 << 16> block;
         const ssize_t count = ::read(STDIN_FILENO, block.data(), block.size());
@@ -89,12 +90,12 @@ private:
         return {};
     }
 
-    /// Starts one, or one anew whose texts are old: the newest text wins.
+    /// Starts a check, or restarts one whose texts are out of date.
     Result<void> compile() {
         if (session_.stale().empty() || Clock::now() < quiet_at_)
             return {};
         if (check_ && !session_.stale().contains(check_->scene()))
-            return {}; // one after the other
+            return {}; // one check at a time
         const std::filesystem::path scene = check_ ? check_->scene() : *session_.stale().begin();
         check_.reset();
         session_.begin(scene);
@@ -106,7 +107,7 @@ private:
         if (!check_)
             return {};
         const auto verdicts = check_->look();
-        if (!session_.stale().contains(check_->scene())) // else it is about a text that is gone
+        if (!session_.stale().contains(check_->scene())) // else the result is about an outdated text
             for (const lsp::Verdict& verdict : verdicts)
                 TRY(put_exact(session_.conclude(check_->scene(), verdict)));
         if (check_->ended())
@@ -124,7 +125,7 @@ private:
 
 Result<int> serve(const LspOptions& options) {
     const Limits limits = TRY(resolve(options.limits));
-    Doing::note_on(DoingPage::make()); // what the compiling process is at
+    Doing::note_on(DoingPage::make()); // records the driver call of the compiling process
     return Server(options, {.seconds = options.timeout, .memory = limits.memory}).run();
 }
 

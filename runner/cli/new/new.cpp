@@ -36,10 +36,10 @@ Result<const SceneTemplate*> template_of(const NewOptions& options) {
     return first;
 }
 
-/// NAME is a folder's, or that of a file with or without its ending.
+/// Returns the path of a scene: NAME is a folder, or a file with or without its extension.
 Result<fs::path> scene_path(fs::path name, const SceneTemplate& scene) {
     if (scene.is_folder() && name.filename().empty())
-        name = name.parent_path(); // pond/
+        name = name.parent_path(); // for example pond/
     if (name.filename().empty() || name.filename() == "." || name.filename() == "..")
         return fail(ErrorCode::usage,
                     fmt::format("'{}' is no name: give one as in `tidemark new waves`", name.string()));
@@ -48,7 +48,7 @@ Result<fs::path> scene_path(fs::path name, const SceneTemplate& scene) {
     return name += ".glsl";
 }
 
-/// Also a link that leads nowhere is somebody's.
+/// Fails if the path exists. A dangling link also belongs to the user.
 Result<void> refuse_what_is_there(const fs::path& path) {
     std::error_code error;
     if (fs::symlink_status(path, error).type() == fs::file_type::not_found)

@@ -1,5 +1,6 @@
-// The scenes that `new` begins with, as texts: they are the files of scenes/, and lie in the program
-// (runner/CMakeLists.txt). Another one is its files, their names there, and a row in the table beside this.
+// The scenes that `new` writes, as texts: the files of scenes/, embedded in the program
+// (runner/CMakeLists.txt). A new scene needs its files, their names there, and a row in the table of
+// scene_templates.cpp.in.
 #pragma once
 
 #include <span>
@@ -13,7 +14,7 @@ struct TemplateFile {
 };
 
 struct SceneTemplate {
-    std::string_view flag;    ///< --orbit; empty: what `new` makes where nothing is said
+    std::string_view flag;    ///< for example --orbit; empty: the default scene
     std::string_view meaning; ///< of that flag, for --help
     std::span<const TemplateFile> files;
 

@@ -18,7 +18,7 @@ serve::SharedMessage text_message(std::string text) {
     return std::make_shared<serve::Message>(serve::Message{std::move(text)});
 }
 
-/// A texture as bytes, whatever it holds.
+/// Returns a texture as RGBA bytes, whatever its format.
 image::Image read_texture(unsigned texture, Extent extent) {
     image::Image picture(extent, 4, image::SampleType::u8);
     glGetTextureImage(texture, 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(picture.bytes.size()),
@@ -41,7 +41,7 @@ RemoteScreen::RemoteScreen(Settings settings, platform::HeadlessContext context)
                  .film = settings_.film},
                 inbox_) {}
 
-/// The threads first: they send by way of what goes then.
+/// Stops the threads first: they send through members that are destroyed next.
 RemoteScreen::~RemoteScreen() {
     if (server_)
         server_->stop();
@@ -89,7 +89,7 @@ live::Commands RemoteScreen::take_commands() {
     return std::exchange(commands_, {});
 }
 
-/// What a page has no use for, or should not do on another machine, stays the window's.
+/// Returns whether the key works in a page. The others have no use there, or must not act on another machine.
 bool RemoteScreen::has(platform::Key key) const {
     using platform::Key;
     switch (key) {
@@ -120,12 +120,12 @@ Result<void> RemoteScreen::finish(live::Model model, const ShownMoment& moment) 
 }
 
 void RemoteScreen::send_picture(const live::Model& model, const ShownMoment& moment) {
-    // One that was there already is only read back: since this turn began.
+    // An unchanged picture is only read back, so its time counts from the start of this iteration.
     const double begun = std::exchange(fresh_, false) ? moment.begun : woken_at_;
     large_ = model.large;
     const live::PictureField* large = large_ ? &model.pictures[*large_] : nullptr;
     image::Image picture = large ? read_texture(large->texture, large->extent) : read_target(*picture_);
-    const uint32_t number = 2 * pictures_++ + 1; // the one behind is the encoder's
+    const uint32_t number = 2 * pictures_++ + 1; // the number after it is for the encoder
     serve::PictureHead head{.number = number, .seconds = moment.seconds, .frame = moment.frame};
     for (const live::PictureField& field : model.pictures)
         head.costs.push_back(field.milliseconds);

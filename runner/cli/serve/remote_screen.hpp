@@ -1,4 +1,4 @@
-// Pages of browsers as a Screen: pictures go out as JPEG or VP8, what the steering viewer does comes in.
+// Browser pages as a Screen: pictures go out as JPEG or VP8, the input of the client in control comes in.
 #pragma once
 
 #include "cli/view/screen.hpp"
@@ -19,16 +19,16 @@ public:
     struct Settings {
         serve::ServerSettings server;
         Extent extent;
-        int quality = 85;  ///< JPEG's; a film's is much the same
-        bool film = false; ///< VP8 for whoever can show it, instead of JPEG
-        bool once = false; ///< closed when the last viewer has left
+        int quality = 85;  ///< JPEG's, 1 to 100; VP8's is similar
+        bool film = false; ///< VP8 instead of JPEG for clients that can show it
+        bool once = false; ///< closes when the last client has left
     };
 
-    /// Makes a headless context current, and listens. Fails as HeadlessContext and the plug-in do.
+    /// Makes a headless context current and starts to listen. Fails as HeadlessContext and the plug-in do.
     static Result<std::unique_ptr<RemoteScreen>> open(Settings settings);
     ~RemoteScreen() override;
 
-    /// Where a browser finds it, token included.
+    /// Returns the URL for a browser, including the token.
     std::string address() const;
     bool is_loopback() const { return server_->is_loopback(); }
 
@@ -61,16 +61,16 @@ private:
     serve::Inbox inbox_;
     serve::Audience audience_;
     std::unique_ptr<serve::Server> server_;
-    std::unique_ptr<serve::Film> film_; ///< the encoder's
+    std::unique_ptr<serve::Film> film_; ///< used by the encoder
     std::unique_ptr<serve::PictureEncoder> encoder_;
     live::Commands commands_;
     const gl::RenderTarget* picture_ = nullptr; ///< of the scene, between `begin` and `finish`
-    bool fresh_ = false;                        ///< it is not what was sent last
-    std::optional<size_t> large_;               ///< what was sent last, as the model has it
-    uint32_t pictures_ = 0;                     ///< that were sent
-    std::string told_;                          ///< the state that viewers know
+    bool fresh_ = false;                        ///< it differs from the picture that was sent last
+    std::optional<size_t> large_;               ///< the large picture that was sent last
+    uint32_t pictures_ = 0;                     ///< number of pictures sent
+    std::string told_;                          ///< the state that clients have
     bool was_asked_ = false;
-    double woken_at_ = 0; ///< as now_seconds counts
+    double woken_at_ = 0; ///< by now_seconds
 };
 
 } // namespace tidemark::cli

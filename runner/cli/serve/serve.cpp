@@ -16,7 +16,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// A JPEG file has at most so many pixels on a side.
+/// JPEG's limit of pixels along a side.
 constexpr int k_largest_picture = 65500;
 constexpr const char* k_token_variable = "TIDEMARK_TOKEN";
 
@@ -29,7 +29,7 @@ struct ServeOptions : ViewerOptions {
     bool once = false;
 };
 
-/// Never from the command line, which everybody on the machine can read.
+/// Returns the token. It cannot be a command line argument, because every user of the machine can read those.
 Result<std::string> token_for(const ServeOptions& options) {
     std::string token;
     if (!options.token_file.empty())
@@ -43,7 +43,7 @@ Result<std::string> token_for(const ServeOptions& options) {
     return token;
 }
 
-/// To whoever started it: the address is all that is needed, and all that must be kept.
+/// Prints the address on standard output. It contains the token, so it gives access and must be kept secret.
 Result<void> announce(const RemoteScreen& screen) {
     if (!screen.is_loopback())
         say("warning: everybody who can reach this machine can read along: neither the pictures nor the "
@@ -65,7 +65,7 @@ Result<int> serve_scene(const ServeOptions& options) {
                                 size.width, size.height, k_largest_picture));
     const serve::ServerSettings server{options.host, uint16_t(options.port), TRY(token_for(options)), {}};
     auto settings = TRY(resolve(options, std::move(frames)));
-    settings.plain = true; // knobs may turn at any moment
+    settings.plain = true; // knobs may change at any time
     settings.controls = true;
     settings.sounds = false;
     return show(std::move(settings), [&](const std::string&) -> Result<std::unique_ptr<Screen>> {

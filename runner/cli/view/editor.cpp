@@ -18,7 +18,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// How an editor is told a line and a column.
+/// The argument formats for a line and a column.
 enum class Form { plus_line, file_colon, goto_file_colon, options };
 
 struct KnownEditor {
@@ -44,7 +44,7 @@ constexpr KnownEditor k_editors[] = {
     {"micro", Form::plus_line, true},
 };
 
-/// Others are told the line as most are.
+/// Returns the editor's entry; the most common format for an unknown editor.
 KnownEditor known(std::string_view program) {
     const std::string name = std::filesystem::path(program).filename().string();
     const auto* found = std::ranges::find(k_editors, name, &KnownEditor::name);
@@ -64,7 +64,7 @@ std::vector<std::string> place_words(Form form, const SourceLocation& where) {
     return {};
 }
 
-/// In a session of its own, with nothing of ours to read or write.
+/// Starts the program in a session of its own, without access to our terminal. Returns 0 or an errno value.
 int spawn(const std::vector<std::string>& words, pid_t& child) {
     const std::vector<char*> arguments = argument_pointers(words);
     posix_spawn_file_actions_t files;
@@ -110,7 +110,7 @@ Result<void> open_editor(const SourceLocation& where) {
     if (const int error = spawn(words, child); error != 0)
         return fail(ErrorCode::usage,
                     fmt::format("cannot start the editor '{}': {}", words.front(), std::strerror(error)));
-    std::thread([child] { ::waitpid(child, nullptr, 0); }).detach(); // it leaves no zombie
+    std::thread([child] { ::waitpid(child, nullptr, 0); }).detach(); // prevents a zombie
     return {};
 }
 

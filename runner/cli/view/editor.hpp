@@ -1,4 +1,4 @@
-// A person's own editor at a place in a file: started and left to itself, never through a shell.
+// Opens the user's own editor at a place in a file. Uses no shell and does not wait for it.
 #pragma once
 
 #include "base/error.hpp"
@@ -10,11 +10,11 @@
 
 namespace tidemark::cli {
 
-/// What starts the editor ("code --wait": words between blanks) at that place. One that lives in a terminal
-/// gets one.
+/// Returns the command that opens the editor ("code --wait": split at blanks) at that place. A terminal
+/// editor is opened in x-terminal-emulator.
 std::vector<std::string> editor_words(std::string_view editor, const SourceLocation& where);
 
-/// $VISUAL, else $EDITOR. Fails (ErrorCode::usage) where neither is set or it does not start.
+/// Opens $VISUAL, else $EDITOR. Fails (ErrorCode::usage) if neither is set or it does not start.
 Result<void> open_editor(const SourceLocation& where);
 
 } // namespace tidemark::cli

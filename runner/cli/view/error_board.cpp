@@ -9,7 +9,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// The line as its author has it; empty where it cannot be had.
+/// Returns the source line as the author wrote it; empty if it cannot be read.
 std::string line_at(const SourceLocation& where) {
     const auto file = where.line > 0 ? read_text_file(where.file) : Result<std::string>("");
     const std::string text = file ? text::with_plain_line_ends(*file) : "";
@@ -19,8 +19,9 @@ std::string line_at(const SourceLocation& where) {
     return begin < text.size() ? text.substr(begin, text.find('\n', begin) - begin) : "";
 }
 
-/// The first error comes first, with its notes: what only warns is not what people wait for. Then the others,
-/// and last what is said of the whole scene. A note has no line where that stands above it.
+/// Returns the fields in order of importance: the first error with its notes, then the other diagnostics,
+/// then the message about the whole scene. A diagnostic at the same place as the one before has no source
+/// line.
 std::vector<live::ErrorField> fields_of(const Error& error) {
     std::vector<live::ErrorField> fields;
     const SourceLocation* before = nullptr;

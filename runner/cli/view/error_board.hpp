@@ -1,4 +1,4 @@
-// The error that people see, with the lines of their files that it is about.
+// The error on show, with the source lines it refers to.
 #pragma once
 
 #include "base/error.hpp"
@@ -11,7 +11,8 @@ namespace tidemark::cli {
 
 class ErrorBoard {
 public:
-    /// Null: nothing is wrong. Reads the files when the error is another one than before, and says so.
+    /// Sets the error; null: there is none. Reads the files if the error differs from the last one. Returns
+    /// whether it differs.
     bool show(const Error* error);
     const std::vector<live::ErrorField>& fields() const { return fields_; }
 

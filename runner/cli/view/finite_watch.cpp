@@ -10,7 +10,7 @@ namespace tidemark::cli {
 namespace {
 
 constexpr double k_shortest_pause_seconds = 1;
-/// Looking takes at most a hundredth of the time.
+/// Limits the checks to 1 % of the time.
 constexpr double k_pause_per_second_of_looking = 100;
 
 } // namespace

@@ -1,5 +1,5 @@
-// Looks now and then whether the picture on show is made of numbers: once it was not, no more until another
-// text is on show.
+// Checks at intervals whether all pixels on show are finite. After it has found one that is not, it stops
+// until the scene's text changes.
 #pragma once
 
 #include "render/renderer.hpp"
@@ -8,19 +8,19 @@
 
 namespace tidemark::cli {
 
-/// Told the time by its caller, in seconds.
+/// The caller passes the time, in seconds.
 class FiniteWatch {
 public:
-    /// Another text is on show.
+    /// Starts again, for a changed text.
     void begin_anew();
     void frame_drawn() { unseen_ = true; }
 
-    /// When there is something to `look` at; infinity: nothing.
+    /// Returns the time of the next `look`; infinity: none is due.
     double due() const;
-    /// Looks at the frame that was drawn last, and waits for it. How many of its pixels are not finite.
+    /// Checks the last drawn frame, waiting for it. Returns the number of its pixels that are not finite.
     size_t look(const render::Renderer& renderer, double now);
 
-    /// In the picture that had the first.
+    /// Returns the number in the first picture that had any; 0: none yet.
     size_t found() const { return found_; }
 
 private:

@@ -19,7 +19,7 @@ bool is_edited(const HeldValue& held, const std::vector<HeldValue>& before) {
     return known != before.end() && known->in_file != held.in_file;
 }
 
-/// Whether `NAME=VALUE` sets that name.
+/// Returns whether `NAME=VALUE` sets that name.
 bool names(std::string_view setting, std::string_view name) {
     const auto split = scene::split_setting(setting, k_set);
     return split && split->first == name;

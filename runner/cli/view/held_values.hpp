@@ -1,6 +1,5 @@
-// Values that options or people hold against the file: what the file says of each, and the words for whoever
-// edits it there. A `--define` stays; a `--set` is over as soon as the file has another default. Changes no
-// scene.
+// User overrides of the file's defaults, and the messages for edits of an overridden value in the file. A
+// `--define` stays; a `--set` ends as soon as the file has another default. Changes no scene.
 #pragma once
 
 #include "cli/requests.hpp"
@@ -14,24 +13,25 @@ namespace tidemark::cli {
 struct HeldValue {
     std::string_view option; ///< `--set`, `--define`
     std::string name;
-    std::string value;   ///< as the option has it
-    std::string in_file; ///< as the scene has it
+    std::string value;   ///< as the option gives it
+    std::string in_file; ///< as the file has it
 
     bool is_of(const HeldValue& other) const { return option == other.option && name == other.name; }
 };
 
-/// `scene` is as its files have it: no option has changed it yet. What it does not have is left out.
+/// Returns the overrides in `request`. `scene` must be as its files have it, before options change it. Names
+/// that the scene does not have are left out.
 std::vector<HeldValue> held_values(const SceneRequest& request, const scene::Scene& scene);
 
-/// The request without each `--set` that is over: the file had another default `before`.
+/// Returns the request without each `--set` whose default in the file has changed since `before`.
 SceneRequest without_edited(SceneRequest request, const std::vector<HeldValue>& before,
                             const std::vector<HeldValue>& now);
 
-/// A line for each value that the file had another idea of before.
+/// Returns a message for each overridden value that has changed in the file.
 std::vector<std::string> edits_of_held(const std::vector<HeldValue>& before,
                                        const std::vector<HeldValue>& now);
 
-/// A line for each knob with another default now that was turned by hand, and stays so.
+/// Returns a message for each knob whose default has changed and that keeps the value set in the window.
 std::vector<std::string> edits_of_turned(const std::vector<scene::Knob>& before,
                                          const std::vector<scene::Knob>& now,
                                          const std::vector<scene::Setting>& turned);

@@ -14,7 +14,8 @@
 namespace tidemark::cli {
 namespace {
 
-/// Each sets something: what is set many times between two frames has the last value.
+/// Adds a command and removes an earlier one that sets the same thing: only the last value between two frames
+/// counts.
 void add(live::Commands& commands, live::Command command) {
     std::erase_if(commands, [&](const live::Command& earlier) {
         const auto* turned = std::get_if<live::TurnKnob>(&command);
@@ -24,7 +25,7 @@ void add(live::Commands& commands, live::Command command) {
     commands.push_back(std::move(command));
 }
 
-/// What follows in the same call sees it so.
+/// Updates the knobs, so that later messages of the same call start from the new value.
 void note(const live::Command& command, std::vector<scene::Knob>& knobs) {
     const auto* turned = std::get_if<live::TurnKnob>(&command);
     if (!turned)
@@ -59,7 +60,7 @@ Result<void> LiveInputs::open_osc(const std::string& where) {
     return {};
 }
 
-/// A name with a slash in it is a file's.
+/// Opens a port, or a file if the name contains a slash.
 Result<void> LiveInputs::open_midi(const std::string& what) {
     if (what.find('/') == what.npos)
         midi_port_ = TRY(live::MidiPort::open(what, midi_));

@@ -1,5 +1,5 @@
-// The live inputs of a window: what is asked for is opened, listened to by threads, and handed over as
-// commands when the window asks. Nothing is opened, and no library loaded, for what nobody asked for.
+// The live inputs of a window. Opens those that were requested; threads receive their data, and the window
+// takes it as commands. Opens and loads nothing else.
 #pragma once
 
 #include "cli/view/said_once.hpp"
@@ -19,36 +19,36 @@
 
 namespace tidemark::cli {
 
-/// As they are typed.
+/// The options as typed.
 struct LiveInputRequest {
     std::optional<std::string> osc{};        ///< PORT or HOST:PORT
-    std::optional<std::string> midi{};       ///< a part of a port's name, or a device's file
-    std::optional<std::string> microphone{}; ///< a device of ALSA's
-    std::optional<std::string> webcam{};     ///< a device's file, or a video's
+    std::optional<std::string> midi{};       ///< part of a port's name, or a device file
+    std::optional<std::string> microphone{}; ///< an ALSA device
+    std::optional<std::string> webcam{};     ///< a device file or a video
 
     bool any() const { return osc || midi || microphone || webcam; }
     bool turns_knobs() const { return osc || midi; }
 };
 
-/// For somebody who records.
+/// Prints which inputs a recording does not contain.
 void say_what_is_not_recorded(const LiveInputRequest& request);
 
 class LiveInputs {
 public:
-    /// Wakes the window, which must live longer, and says where it listens. Fails where an input cannot be
-    /// had.
+    /// Opens the inputs and prints the OSC address. `wake` wakes the window, which must outlive this. Fails
+    /// where an input cannot be opened.
     static Result<std::unique_ptr<LiveInputs>> open(const LiveInputRequest& request,
                                                     const std::function<void()>& wake);
 
-    /// Whether `take` has anything to give.
+    /// Returns whether `take` has data to return.
     bool any() { return !osc_.empty() || !midi_.empty(); }
-    /// What was asked for since the last call, of a scene whose knobs are turned so, by controllers that are
-    /// bound so.
+    /// Returns the commands since the last call. `knobs` have their current values; `controllers` are the
+    /// MIDI bindings, which may be changed.
     live::Commands take(std::vector<scene::Knob> knobs, live::ControllerMap& controllers);
 
-    /// What the next frame hears and sees.
+    /// Captures sound and webcam picture for the next frame.
     void hear();
-    /// What the last frame did; null before it.
+    /// Returns the data of the last `hear`; null before the first one.
     const std::shared_ptr<const render::LiveMedia>& media() const { return media_; }
     bool has_midi() const { return midi_port_ || midi_receiver_; }
 
@@ -66,7 +66,7 @@ private:
     live::Inbox osc_;
     live::Inbox midi_;
     live::MidiParser midi_parser_;
-    std::unique_ptr<live::Receiver> osc_receiver_; ///< after what it puts packets into
+    std::unique_ptr<live::Receiver> osc_receiver_; ///< declared after the inboxes it writes to
     std::unique_ptr<live::Receiver> midi_receiver_;
     std::unique_ptr<live::MidiPort> midi_port_;
     SaidOnce words_;

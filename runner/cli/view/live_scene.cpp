@@ -17,11 +17,11 @@ namespace tidemark::cli {
 namespace fs = std::filesystem;
 namespace {
 
-/// How long a scene that does not load may still be in the middle of being saved. An editor's pause between
-/// two writes is shorter, a person's patience longer.
+/// Time in which a scene that does not load may still be half saved. It is longer than an editor's pause
+/// between two writes, and short for a person.
 constexpr double k_half_written_seconds = 0.06;
 
-/// The kernel's: file times are no finer.
+/// The kernel's tick, which is the resolution of file times.
 constexpr double k_tick_seconds = 0.02;
 
 double seconds_of(const timespec& time) {
@@ -34,13 +34,13 @@ double file_clock_seconds() {
     return seconds_of(now);
 }
 
-/// Written to or moved into place since then.
+/// Returns whether the file was written, or moved into place, since `file_clock` or up to one tick before.
 bool touched_since(const fs::path& file, double file_clock) {
     struct stat status {};
     return ::stat(file.c_str(), &status) == 0 && seconds_of(status.st_ctim) >= file_clock - k_tick_seconds;
 }
 
-/// No save of a file can help.
+/// Returns whether saving a file cannot fix the error.
 bool is_final(const Error& error) {
     return error.code == ErrorCode::usage || error.code == ErrorCode::no_memory ||
            error.code == ErrorCode::no_context;
@@ -82,7 +82,7 @@ Result<LiveScene> LiveScene::create(SceneRequest request, Loading first, const V
     return live;
 }
 
-/// What a save may mend, or change.
+/// Returns the files whose change may affect the scene or fix it.
 std::vector<fs::path> LiveScene::files_of(const Result<scene::Scene>& scene) const {
     std::vector<fs::path> files = scene ? scene->files : files_;
     files.push_back(request_.path);
@@ -91,7 +91,7 @@ std::vector<fs::path> LiveScene::files_of(const Result<scene::Scene>& scene) con
         files.push_back(request_.path / "");
     if (scene)
         return files;
-    // What is missing or wrong may be a file that the last good scene did not have.
+    // The missing or wrong file may be one that the last good scene did not have.
     files.insert(files.end(), in_folder_.begin(), in_folder_.end());
     files.insert(files.end(), scene.error().files.begin(), scene.error().files.end());
     for (const Diagnostic& diagnostic : scene.error().diagnostics)
@@ -100,10 +100,9 @@ std::vector<fs::path> LiveScene::files_of(const Result<scene::Scene>& scene) con
     return files;
 }
 
-/// Its files are under watch then, and nothing was saved between reading and watching them: else it is read
-/// again.
+/// Watches the files of the loaded scene. Loads it again if a file was saved between loading and watching.
 LiveScene::Loading LiveScene::watched(Loading loading) {
-    constexpr int k_most_rounds = 4; // for files that never come to rest
+    constexpr int k_most_rounds = 4; // for files that change all the time
     for (int round = 0; round < k_most_rounds; ++round) {
         in_folder_ = scene::scene_files_in(request_.path);
         auto files = files_of(loading.scene);
@@ -112,7 +111,7 @@ LiveScene::Loading LiveScene::watched(Loading loading) {
         const auto seen = watcher_.watch(files);
         watched_ = std::move(files);
         if (!seen && loading.scene)
-            say(to_string(seen.error())); // it can still be looked at
+            say(to_string(seen.error())); // the scene can still be shown
         const auto is_new = [&](const fs::path& file) { return touched_since(file, loading.begun); };
         if (std::ranges::none_of(watched_, is_new))
             break;
@@ -126,7 +125,7 @@ LiveScene::Loading LiveScene::watched(Loading loading) {
     return loading;
 }
 
-/// Files that were saved. In a folder many a thing comes and goes that no scene is made of.
+/// Returns the saved files. Ignores changes in a scene folder that add or remove no file of the scene.
 std::vector<platform::FileWatcher::Change> LiveScene::changed() {
     auto changes = watcher_.changed();
     const auto is_folder = [&](const auto& change) { return change.file == request_.path / ""; };
@@ -152,7 +151,7 @@ Result<void> LiveScene::build(scene::Scene scene, const View& view, Settle settl
 }
 
 void LiveScene::build_anew(const scene::Scene& scene, const View& view, Settle settle) {
-    (void)build(scene, view, settle); // where it fails, what shows the scene now goes on doing so
+    (void)build(scene, view, settle); // if it fails, the current Stage stays on show
 }
 
 std::optional<double> LiveScene::building_since() const {

@@ -1,6 +1,5 @@
-// A scene as its files are at the moment, there or not: watched, loaded anew when one is saved, and built
-// beside the picture on show. Whatever goes wrong is kept for people to read until a save mends it, and the
-// last good Stage, if there was one, stays with its user.
+// A scene whose files are watched: loaded again when one is saved, and built while the last picture stays on
+// show. Keeps any error until a save fixes it; the last good Stage stays with its user.
 #pragma once
 
 #include "cli/requests.hpp"
@@ -16,7 +15,7 @@
 
 namespace tidemark::cli {
 
-/// When what happened between saving and seeing, as now_seconds counts.
+/// The times from a save to the new picture, by now_seconds.
 struct ReloadTimes {
     double saved = 0;
     double seen = 0;
@@ -26,63 +25,64 @@ struct ReloadTimes {
 
 class LiveScene {
 public:
-    /// A scene with its overrides, or why there is none.
+    /// A scene with its overrides, or the error.
     struct Loading {
         Result<scene::Scene> scene;
-        std::vector<HeldValue> held{}; ///< what its files say of the values that overrides hold
-        double begun = 0;              ///< by the file system's clock
+        std::vector<HeldValue> held{}; ///< overridden values, as the files have them
+        double begun = 0;              ///< by the file system's clock, in seconds
     };
 
-    /// How the picture is built: what `follow` needs to know of the window.
+    /// The data about the window that building a picture needs.
     struct View {
         std::function<Result<platform::SharedContext>()> make_context;
         render::RenderOptions options;
-        render::FrameInputs inputs; ///< of the next frame, about
+        render::FrameInputs inputs; ///< roughly those of the next frame
         std::shared_ptr<Rehearsal> rehearsal{};
     };
 
-    /// Prints the scene's warnings. Options that do not fit the scene are an ErrorCode::usage. `before`: what
-    /// its files said of held values when it was on show last.
+    /// Loads the scene and prints its warnings. Options that do not fit the scene are an ErrorCode::usage.
+    /// `before`: the overridden values of the scene that was last on show.
     static Loading load(const SceneRequest& request, const std::vector<HeldValue>& before = {});
 
-    /// Watches the files of `request`, of which `first` is the first look, and begins to build it or waits
-    /// for what mends it. `wake` is called, on any thread, when there is something to do.
+    /// Watches the files of `request`, and starts to build `first`, its first load, or waits for a save that
+    /// fixes it. `wake` is called, on any thread, when `follow` has something to do. Fails where no save can
+    /// help.
     static Result<LiveScene> create(SceneRequest request, Loading first, const View& view,
                                     const std::function<void()>& wake);
 
-    /// Looks after changed files and finished work. Gives a Stage once it is good. Fails where no save can
-    /// help: the options do not fit the scene that it was created with, or there is no context.
+    /// Handles changed files and finished builds. Returns a Stage when a new one is ready. Fails where no
+    /// save can help: the initial options do not fit the scene, or no context can be created.
     Result<std::optional<Stage>> follow(const View& view, double now);
 
     enum class Settle { no, yes };
-    /// Begins to build the scene on show again: as it was first, or to look for a quicker program, which
-    /// `follow` gives if there is one. A reload goes first.
+    /// Starts to build the scene on show again: as written, or (Settle::yes) an optimised program, which
+    /// `follow` returns if it is faster. A reload replaces this build.
     void build_anew(const scene::Scene& scene, const View& view, Settle settle);
 
-    /// A quicker program that is looked for is not wanted any more.
+    /// Cancels background optimisation.
     void stop_settling();
 
-    /// Holds a definition at a value as `--define` does; none: it is the files' own again. A reload follows.
+    /// Overrides a definition as `--define` does; none: removes the override. Reloads the scene.
     void define(const std::string& name, const std::optional<std::string>& value, const View& view);
 
-    /// The same of all of them: `NAME=VALUE`.
+    /// Replaces all overrides of definitions by `NAME=VALUE` texts. Reloads the scene.
     void hold(std::vector<std::string> defines, const View& view);
 
-    /// The build under way is not wanted any more.
+    /// Cancels the build in progress.
     void give_up();
 
     const std::string& name() const { return name_; }
-    /// What the scene on show was asked for: options that the file has overruled are gone.
+    /// Returns the request for the scene on show, without options that an edit of the file has ended.
     const SceneRequest& request() const { return request_; }
-    /// What is wrong with the files as they are. Not while it may be the middle of a save.
+    /// Returns the current error of the files; null while it may only be a half-finished save.
     const Error* failure() const { return failure_ && !report_at_ ? &*failure_ : nullptr; }
-    /// Since when there is something being built that people wait for.
+    /// Returns when the current build began; nothing during background optimisation.
     std::optional<double> building_since() const;
-    /// When `follow` wants to be called at the latest.
+    /// Returns the time by which `follow` must be called.
     std::optional<double> wake_at() const { return report_at_; }
-    /// Of the Stage that `follow` gave last, when it was a reload; once.
+    /// Returns the times of the last Stage from `follow`, if it was a reload, once.
     std::optional<ReloadTimes> take_times() { return std::exchange(times_of_stage_, std::nullopt); }
-    /// A driver is at work that cannot be stopped: StageBuilder::busy.
+    /// Returns whether a driver call is running that cannot be cancelled: StageBuilder::busy.
     bool busy() const { return builder_.busy(); }
 
 private:
@@ -102,19 +102,19 @@ private:
     platform::FileWatcher watcher_;
     std::string name_;
     std::vector<std::filesystem::path> files_;     ///< of the scene that loaded last
-    std::vector<std::filesystem::path> watched_;   ///< what the watcher was asked for
-    std::vector<std::filesystem::path> in_folder_; ///< of a scene that is a folder: what makes it one
+    std::vector<std::filesystem::path> watched_;   ///< the files given to watcher_
+    std::vector<std::filesystem::path> in_folder_; ///< for a folder scene: the files it consists of
     std::vector<HeldValue> held_;                  ///< of the scene that was built last
     std::vector<HeldValue> held_on_show_;
-    std::optional<Error> failure_;     ///< of the last load or build, until mended
-    std::optional<double> report_at_;  ///< when the failure is news; before, a file may be half-written
-    std::optional<ReloadTimes> times_; ///< of the build under way
+    std::optional<Error> failure_;     ///< of the last load or build, until it is fixed
+    std::optional<double> report_at_;  ///< when to report the failure; before, a file may be half saved
+    std::optional<ReloadTimes> times_; ///< of the build in progress
     std::optional<ReloadTimes> times_of_stage_;
     double building_since_ = 0;
-    bool saved_ = false;    ///< a file was, since the start
+    bool saved_ = false;    ///< a file was saved since the start
     bool shown_ = false;    ///< there was a Stage
-    bool waits_ = false;    ///< it was said that there is none yet
-    bool settling_ = false; ///< what is being built, if anything, is a settled Stage
+    bool waits_ = false;    ///< the message that it waits for a save was printed
+    bool settling_ = false; ///< the build in progress is background optimisation
     StageBuilder builder_;
 };
 

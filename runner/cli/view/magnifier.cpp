@@ -8,7 +8,7 @@ namespace {
 
 constexpr Extent k_cells{15, 9};
 
-/// `part` around the pixel in its middle, as far as the texture has it.
+/// Fills the cells with `part`, as far as it lies within the texture.
 void show_cells(const gl::Texture& texture, const Rectangle& part, live::MagnifierField& field) {
     const Rectangle known = part.within({0, 0, texture.extent});
     const std::vector<float> values = gl::read_part(texture, 0, known);

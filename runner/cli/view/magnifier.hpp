@@ -1,4 +1,4 @@
-// The magnifier of the window: reads the pixels around the pointer, and only while it is open.
+// The magnifier of the window. Reads the pixels around the pointer, only while it is open.
 #pragma once
 
 #include "live/magnifier_field.hpp"
@@ -14,13 +14,13 @@ class Magnifier {
 public:
     void toggle() { open_ = !open_; }
     bool is_open() const { return open_; }
-    /// Follows the pointer; whether that changes what it shows.
+    /// Follows the pointer. Returns whether the magnifier must be shown again.
     bool follow(const platform::InputEvent& event);
 
-    /// The pixel of a picture that the pointer is on, when that picture fills the window.
+    /// Returns the pixel under the pointer, for a picture that fills the window.
     Rectangle pixel(Extent picture, Extent window) const;
-    /// Of the frame on show, which `inputs` drew, in a window of that size. Nothing where the pointer is
-    /// beside the window.
+    /// Returns the magnifier of the frame on show, which was drawn with `inputs`. Returns nothing while it is
+    /// closed or the pointer is outside the window.
     std::optional<live::MagnifierField> field(const render::Renderer& renderer,
                                               const render::FrameInputs& inputs, Extent window,
                                               render::ShownFloats& floats) const;

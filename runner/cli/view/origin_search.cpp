@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* k_this_program = "/proc/self/exe";
 
-/// Its standard output goes into `pipe`; zero, or what is wrong.
+/// Starts this program with its standard output connected to `pipe`. Returns 0 or an errno value.
 int spawn(const std::vector<std::string>& words, int pipe, pid_t& child) {
     const std::vector<char*> arguments = argument_pointers(words);
     posix_spawn_file_actions_t files;
@@ -93,7 +93,7 @@ OriginSearch::OriginSearch(int process, int pipe, std::function<void()> wake)
       }) {}
 
 OriginSearch::~OriginSearch() {
-    ::kill(process_, SIGKILL); // what it has started ends with it
+    ::kill(process_, SIGKILL); // its children end with it
     reader_.join();
     ::waitpid(process_, nullptr, 0);
 }

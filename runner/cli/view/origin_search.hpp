@@ -1,5 +1,4 @@
-// The search for where a NaN has its origin, beside the window: `check --trace` in a process of its own, one
-// at a time.
+// Traces the origin of a NaN: runs `check --trace` in a separate process while the window goes on.
 #pragma once
 
 #include "base/error.hpp"
@@ -15,21 +14,21 @@
 
 namespace tidemark::cli {
 
-/// What `check --trace --json` printed, as an error at the line to mend.
+/// Returns the output of `check --trace --json` as an error at the line to fix.
 Error origin_of(const std::string& json);
 
 class OriginSearch {
 public:
-    /// Starts this program with those words. `wake` is called on another thread when there is something to
-    /// `take`. Fails where no process is to be had.
+    /// Starts this program with those arguments. `wake` is called on another thread when `take` has a result.
+    /// Fails where the process cannot be started.
     static Result<std::unique_ptr<OriginSearch>> start(const std::vector<std::string>& words,
                                                        std::function<void()> wake);
-    /// Ends the process.
+    /// Kills the process.
     ~OriginSearch();
     OriginSearch(const OriginSearch&) = delete;
     OriginSearch& operator=(const OriginSearch&) = delete;
 
-    /// What the process printed, when it is done.
+    /// Returns the output of the process once it has ended.
     std::optional<std::string> take();
 
 private:

@@ -1,4 +1,4 @@
-// Parts of the overlay's model that a scene decides.
+// Parts of the overlay's model that depend on the scene.
 #pragma once
 
 #include "cli/moment.hpp"
@@ -10,13 +10,13 @@ namespace tidemark::cli {
 std::vector<live::KnobField> knob_fields(const scene::Scene& scene,
                                          const std::vector<scene::Setting>& turned);
 
-/// For each of the fields, where a MIDI device turns knobs.
+/// Adds the MIDI binding of each component to the fields.
 void add_controllers(std::vector<live::KnobField>& fields, const live::ControllerMap& map);
 
-/// The numbers that the scene's texts define, as they are after `request`.
+/// Returns the numeric definitions in the scene's texts, with the overrides of `request`.
 std::vector<live::DefinitionField> definition_fields(const scene::Scene& scene, const SceneRequest& request);
 
-/// `2.500 s, height = 2`.
+/// Returns labels such as `2.500 s, height = 2`.
 std::vector<std::string> view_labels(const std::vector<Moment>& views);
 
 } // namespace tidemark::cli

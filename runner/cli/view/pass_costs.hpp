@@ -1,4 +1,5 @@
-// What each pass of a window's frames takes, by the driver's timer: only while somebody looks.
+// The times of each pass in a window's frames, by the driver's timer. Used only while they are shown or
+// needed.
 #pragma once
 
 #include "render/renderer.hpp"
@@ -11,21 +12,23 @@ namespace tidemark::cli {
 
 class PassCosts {
 public:
-    /// For the next frame. Takes what the timers of the frame before say, which is drawn by now.
+    /// Returns the timers for the next frame, after it has read those of the frame before, which is complete
+    /// by now.
     std::vector<render::PassTimer>* next_frame();
-    /// A pass of the frame before was drawn in parts: no timer knows them.
+    /// Records the time of a pass of the last frame that was drawn in parts, without timers.
     void took(size_t pass, double milliseconds);
     void forget();
-    /// Milliseconds, when it was drawn last.
+    /// Returns the milliseconds of the pass when it was last drawn.
     std::optional<double> of(size_t pass) const;
-    /// All passes of the frame before the one that `next_frame` was called for; none: nothing was drawn.
+    /// Returns the milliseconds of the frame before the one that `next_frame` was called for; none: nothing
+    /// was drawn.
     std::optional<double> frame_before() const { return frame_before_; }
 
 private:
     std::vector<render::PassTimer> timers_;
     std::map<size_t, double> milliseconds_;
     std::optional<double> frame_before_;
-    std::optional<double> in_parts_; ///< of the frame that is the one before next
+    std::optional<double> in_parts_; ///< of a frame drawn in parts, for the next call of next_frame
 };
 
 } // namespace tidemark::cli

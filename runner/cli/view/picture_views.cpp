@@ -10,11 +10,12 @@
 namespace tidemark::cli {
 namespace {
 
-/// Pixels along a side of a cube's face in a small picture, and at most in a large one.
+/// Pixels along a side of a cube's face in a thumbnail, and the most in a large picture.
 constexpr int k_small_face = 64;
 constexpr int k_large_face = 512;
 
-/// Of which the window has four by three: more would cost time, and not be seen.
+/// Returns the side of a cube's face for the window, which shows four by three. More pixels cost time and
+/// cannot be seen.
 int face_in(Extent window) {
     return std::clamp(std::min(window.width / 4, window.height / 3), 1, k_large_face);
 }
@@ -22,7 +23,7 @@ int face_in(Extent window) {
 struct Source {
     std::string name;
     const gl::Texture* texture;
-    std::optional<size_t> pass{}; ///< that draws it
+    std::optional<size_t> pass{}; ///< the pass that draws it
 };
 
 std::vector<Source> sources_of(const render::Renderer& renderer) {
@@ -55,7 +56,7 @@ render::Look look_of(const live::LookField& field) {
 
 } // namespace
 
-/// Null where it cannot be shown.
+/// Returns the flat view of a texture; null where it cannot be shown.
 const gl::Texture* PictureViews::flat(const gl::Texture& picture, int face, std::optional<int> slice) {
     auto view = flat_.find(picture.id());
     if (view == flat_.end()) {

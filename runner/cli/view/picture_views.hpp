@@ -1,5 +1,5 @@
-// What passes draw and read, as flat pictures that the overlay shows: cubes unfolded, a slice of a volume,
-// the large one as it is looked at. Draws nothing of the scene, and nothing while the controls are hidden.
+// The textures that passes draw and read, as flat pictures for the overlay: cubes unfolded, a slice of a
+// volume, the large one with its view settings. Draws no pass; does nothing while the controls are hidden.
 #pragma once
 
 #include "cli/view/pass_costs.hpp"
@@ -16,17 +16,17 @@
 
 namespace tidemark::cli {
 
-/// Of one Renderer, in its context.
+/// The pictures of one Renderer, in its context.
 class PictureViews {
 public:
-    /// The one that is seen large, and how; the automatic exposure is told there.
+    /// The large picture and its view settings, into which the automatic exposure is written.
     struct Large {
-        std::optional<size_t> index{}; ///< of `fields`; beyond them: none
+        std::optional<size_t> index{}; ///< index into `fields`; beyond the end: none
         live::LookField look{};
         Extent window{};
     };
 
-    /// What passes draw, then what they read. `floats` and `inputs`: the numbers of the shown pass.
+    /// Returns the outputs of passes, then their inputs. `floats` and `inputs` give the shown pass in floats.
     std::vector<live::PictureField> fields(const render::Renderer& renderer, const PassCosts& costs,
                                            Large& large, render::ShownFloats& floats,
                                            const render::FrameInputs& inputs);
@@ -35,7 +35,7 @@ private:
     const gl::Texture* flat(const gl::Texture& picture, int face, std::optional<int> slice);
     const gl::Texture& looked_at(const gl::Texture& picture, live::LookField& look);
 
-    std::map<GLuint, render::FlatView> flat_{}; ///< of textures that are not
+    std::map<GLuint, render::FlatView> flat_{}; ///< views of the textures that are not flat
     std::optional<render::PictureLook> look_{};
 };
 

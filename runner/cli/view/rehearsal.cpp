@@ -25,11 +25,12 @@ namespace tidemark::cli {
 namespace {
 
 constexpr int k_look_ms = 50;
-/// One message is one question, or one answer.
+/// Bytes of a message, which is one request or one answer.
 constexpr size_t k_longest_message = 1 << 16;
-/// How the window's question begins, what it says where it wants no answer any more, and that all is well.
+/// First byte of a request (k_try), the message that cancels it (k_enough), and the answer for success
+/// (k_well).
 constexpr char k_try = '?', k_enough = '!', k_well = '\n';
-/// A question lists the values: each is a mark, `NAME=VALUE` and a zero byte.
+/// Marks of the values in a request: each value is a mark, `NAME=VALUE` and a zero byte.
 constexpr char k_set = 's', k_define = 'd';
 
 std::string question(const HeldTexts& held) {
@@ -51,19 +52,20 @@ HeldTexts held_in(std::string_view question) {
     return held;
 }
 
-/// A driver has its own words on standard error, and warnings were said by the window's own load.
+/// Silences standard error: drivers print there, and the window's own load has printed the warnings.
 void be_quiet() {
     if (const int nothing = ::open("/dev/null", O_WRONLY | O_CLOEXEC); nothing >= 0)
         ::dup2(nothing, STDERR_FILENO);
 }
 
-/// While a try is under way the window has nothing to say but that it is enough, or that it is gone.
+/// Returns whether a message waits or the window has closed the socket. During a try both mean that it is
+/// cancelled.
 bool has_word(int socket) {
     pollfd wait{socket, POLLIN, 0};
     return ::poll(&wait, 1, 0) != 0;
 }
 
-/// What is wrong, if anything.
+/// Returns what is wrong; empty: nothing.
 std::string tried(const Rehearsal::Play& play, const HeldTexts& held, uint64_t memory, int socket) {
     ForkedLimits limits{.seconds = std::numeric_limits<double>::infinity(), .memory = memory};
     limits.unwanted = [socket] { return has_word(socket); };
@@ -85,7 +87,7 @@ std::string tried(const Rehearsal::Play& play, const HeldTexts& held, uint64_t m
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent)
         ::_exit(128 + SIGKILL);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) // the window decides when it ends
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) // the window decides when this process ends
         std::signal(signal, SIG_IGN);
     Doing::note_on(DoingPage::make());
     while (true) {
@@ -93,7 +95,7 @@ std::string tried(const Rehearsal::Play& play, const HeldTexts& held, uint64_t m
         const ssize_t count = ::recv(socket, message.data(), message.size(), 0);
         if (count == 0 || (count < 0 && errno != EINTR))
             ::_exit(0);
-        if (count < 0 || message.front() != k_try) // it came when the answer was on its way
+        if (count < 0 || message.front() != k_try) // the cancellation crossed the answer
             continue;
         message.resize(size_t(count));
         std::string answer = tried(play, held_in(message), memory, socket);
@@ -127,7 +129,7 @@ std::shared_ptr<Rehearsal> Rehearsal::start(const Play& play, uint64_t memory) {
 
 Rehearsal::~Rehearsal() {
     ::close(socket_);
-    ::kill(child_, SIGKILL); // what it has under way ends with it
+    ::kill(child_, SIGKILL); // kills the try in progress, too
     while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
     }
 }
@@ -143,7 +145,7 @@ Result<void> Rehearsal::try_out(const HeldTexts& held, const std::function<bool(
     const auto gone = [] { return fail(ErrorCode::load, "the process that tries scenes out is gone"); };
     if (::send(socket_, asked.data(), asked.size(), MSG_NOSIGNAL) < 0)
         return gone();
-    for (bool told = false;;) { // that it is enough
+    for (bool told = false;;) { // whether it was cancelled
         pollfd wait{socket_, POLLIN, 0};
         if (::poll(&wait, 1, k_look_ms) <= 0) {
             told = told || (unwanted() && ::send(socket_, &k_enough, 1, MSG_NOSIGNAL) > 0);

@@ -1,5 +1,5 @@
-// A process beside the window's that tries out what may be too much for a driver: in one more process for
-// each try, which may crash, take all the memory it is allowed, or be given up.
+// A helper process that first tries what may be too much for the driver. Each try runs in a further process,
+// which may crash, use all of its allowed memory, or be cancelled.
 #pragma once
 
 #include "base/result.hpp"
@@ -13,7 +13,7 @@
 
 namespace tidemark::cli {
 
-/// Values of --set and --define at the moment, `NAME=VALUE` each.
+/// Current values of --set and --define, `NAME=VALUE` each.
 struct HeldTexts {
     std::vector<std::string> sets;
     std::vector<std::string> defines;
@@ -22,17 +22,18 @@ struct HeldTexts {
 class Rehearsal {
 public:
     using Play = std::function<void(const HeldTexts& held)>;
-    /// To be called before this process has an OpenGL context or threads. `play` is what each try does, in a
-    /// process that shares nothing with this one; `memory` in bytes, 0: no limit. nullptr where no process
-    /// can be had.
+    /// Starts the helper. Call it before this process has an OpenGL context or threads. `play` is the work of
+    /// each try, in a process that shares nothing with this one; `memory` in bytes, 0: no limit. Returns
+    /// nullptr where no process can be started.
     static std::shared_ptr<Rehearsal> start(const Play& play, uint64_t memory);
     Rehearsal(const Rehearsal&) = delete;
     Rehearsal& operator=(const Rehearsal&) = delete;
-    /// Ends it, and what it has under way.
+    /// Kills the helper and the try in progress.
     ~Rehearsal();
 
-    /// Waits for one try; fails (ErrorCode::load) where it crashed or took too much. Ends early, with any
-    /// outcome, once `unwanted` says so. From any thread, one after the other.
+    /// Runs one try and waits for it; fails (ErrorCode::load) if it crashed or used too much memory. Returns
+    /// early, with any result, once `unwanted` returns true. May be called from any thread; calls run one at
+    /// a time.
     Result<void> try_out(const HeldTexts& held, const std::function<bool()>& unwanted);
 
 private:

@@ -21,10 +21,10 @@ namespace fs = std::filesystem;
 
 constexpr int k_version_of_format = 1;
 constexpr size_t k_digits = 16;
-/// Farther out no screen is.
+/// Bound of plausible screen coordinates, in pixels.
 constexpr int k_farthest = 1 << 15;
 
-/// Empty: nobody says where.
+/// Returns the state folder; empty if neither $XDG_STATE_HOME nor $HOME is an absolute path.
 fs::path state_folder() {
     const auto folder_in = [](const char* variable) {
         const char* value = std::getenv(variable);
@@ -85,7 +85,7 @@ std::vector<live::Binding> bindings_of(const Json& json) {
     return bindings;
 }
 
-/// Nothing where it is another's.
+/// Returns nothing if the text is not valid or belongs to another scene or format version.
 std::optional<Remembered> parse(const std::string& text, const fs::path& scene) {
     try {
         const Json json = parse_json(text);
@@ -94,7 +94,7 @@ std::optional<Remembered> parse(const std::string& text, const fs::path& scene) 
         Remembered state;
         state.moment = moment_of(json.at("moment"));
         state.place = place_of(json.at("window"));
-        state.scale = render::RenderScale::named(json.value("scale", "")); // files before it had none
+        state.scale = render::RenderScale::named(json.value("scale", "")); // older files have none
         state.controls_open = json.at("controls").get<bool>();
         state.views = moments_of(json.at("views"));
         state.controllers = bindings_of(json.value("controllers", Json::array()));

@@ -1,5 +1,5 @@
-// What a window leaves for the next one of the same scene, in a file of the person's own state folder
-// ($XDG_STATE_HOME/tidemark, else ~/.local/state/tidemark). No command but `view` reads it.
+// The state that a window saves for the next window of the same scene, in a file in the user's state folder
+// ($XDG_STATE_HOME/tidemark, else ~/.local/state/tidemark). Only `view` reads it.
 #pragma once
 
 #include "cli/moment.hpp"
@@ -14,21 +14,22 @@
 namespace tidemark::cli {
 
 struct Remembered {
-    std::optional<Moment> moment{}; ///< on show at last: its knobs, camera and time count
+    std::optional<Moment> moment{}; ///< last on show: its knobs, camera and time are used
     std::optional<platform::WindowPlace> place{};
     std::optional<render::RenderScale> scale{};
     bool controls_open = false;
     std::vector<Moment> views{};
-    std::vector<live::Binding> controllers{}; ///< of a MIDI device
+    std::vector<live::Binding> controllers{}; ///< bindings of a MIDI device
 };
 
-/// Nothing where there is none, which is not said, or where it cannot be used, which is.
+/// Returns the saved state. Returns nothing where there is none, or where it cannot be used, which is
+/// reported in a line.
 std::optional<Remembered> recall(const std::filesystem::path& scene);
 
-/// Whole or not at all; where it cannot be written, a line says so.
+/// Writes the state, completely or not at all; prints a line if it cannot be written.
 void remember(const std::filesystem::path& scene, const Remembered& state);
 
-/// `height = 2, camera 70,10,4, 2.500 s, 3 views`: what somebody may wonder about.
+/// Returns a summary for the user: `height = 2, camera 70,10,4, 2.500 s, 3 views`.
 std::string words_of(const Remembered& state);
 
 } // namespace tidemark::cli

@@ -1,5 +1,4 @@
-// Lines about what comes from outside, which may come a thousand times a second: each is said once, and not
-// too many.
+// Prints messages about live inputs, which may repeat a thousand times a second: each once, and at most 32.
 #pragma once
 
 #include <set>
@@ -14,7 +13,7 @@ public:
 
 private:
     static constexpr size_t k_most_lines = 32;
-    static constexpr size_t k_longest = 300; ///< bytes
+    static constexpr size_t k_longest = 300; ///< bytes; the rest of a message is cut off
 
     std::set<std::string, std::less<>> said_;
 };

@@ -1,5 +1,5 @@
-// Where a scene is seen, and where people act on it: a window, or pages of browsers. Pictures and what lies
-// over them go in, events and commands come out.
+// A place where a scene is shown and controlled: a window, or browser pages. Takes pictures and overlay
+// models; returns events and commands.
 #pragma once
 
 #include "base/extent.hpp"
@@ -19,12 +19,12 @@
 
 namespace tidemark::cli {
 
-/// What the picture on show has beside its pixels.
+/// The facts about the picture on show, apart from its pixels.
 struct ShownMoment {
     double seconds = 0; ///< iTime
     int frame = 0;
-    bool reads_keyboard = false; ///< keys are the scene's
-    double begun = 0;            ///< when drawing it was, as now_seconds counts
+    bool reads_keyboard = false; ///< the scene gets the keys
+    double begun = 0;            ///< when drawing it began, by now_seconds
 };
 
 class Screen {
@@ -34,29 +34,30 @@ public:
     Screen& operator=(const Screen&) = delete;
     virtual ~Screen() = default;
 
-    /// Beside the screen's own, which is current on the thread that made it.
+    /// Creates a context that shares with the screen's own, which is current on the thread that made it.
     virtual Result<platform::SharedContext> create_context() = 0;
 
-    /// What people did since the last call, in order. Sleeps until there is something, `wake` is called or
-    /// the seconds have passed; 0 never waits.
+    /// Returns the events since the last call, in order. Sleeps until there is one, `wake` is called or the
+    /// seconds have passed; 0 never waits.
     virtual std::vector<platform::InputEvent> wait(double seconds) = 0;
-    /// Ends the `wait` under way, or else the next one. From any thread.
+    /// Ends the current `wait`, or else the next one. May be called from any thread.
     virtual void wake() = 0;
-    /// Whether the event is that of a panel: the scene should not learn of it.
+    /// Returns whether the event belongs to a panel; it must not reach the scene then.
     virtual bool take(const platform::InputEvent& event) = 0;
-    /// What was asked for in panels since the last call.
+    /// Returns the panels' commands since the last call.
     virtual live::Commands take_commands() = 0;
-    /// Whether a key of the window's means something here.
+    /// Returns whether this screen supports one of the window's keys.
     virtual bool has(platform::Key key) const = 0;
 
-    /// Of the picture, in pixels.
+    /// Returns the size of the picture, in pixels.
     virtual Extent extent() const = 0;
-    /// Somebody looks, and another picture would reach them.
+    /// Returns whether the screen is visible and ready for another picture.
     virtual bool is_watched() const = 0;
-    /// The panels would look otherwise if they were shown again.
+    /// Returns whether the panels must be shown again to be up to date.
     virtual bool wants_frame() const = 0;
-    /// In two steps: the picture as it was drawn last (null: none yet), `fresh` where it is another one than
-    /// before; then, over what the caller draws on top of it, the panels. Fails where these cannot be shown.
+    /// Shows a frame in two steps: `begin` the last drawn picture (null: none yet; `fresh`: it has changed),
+    /// `finish` the panels over it. In between the caller may draw on the picture. Fails where the panels
+    /// cannot be shown.
     virtual void begin(const gl::RenderTarget* picture, bool fresh) = 0;
     virtual Result<void> finish(live::Model model, const ShownMoment& moment) = 0;
 
@@ -65,11 +66,11 @@ public:
     virtual void toggle_full_screen() = 0;
     virtual std::optional<platform::WindowPlace> place() const = 0;
 
-    /// While the result lives `act` is called, once and on any thread, when the screen is lost.
+    /// Registers `act`, which is called once, on any thread, if the screen is lost while the result lives.
     virtual std::shared_ptr<void> when_lost(std::function<void(std::string_view what)> act) = 0;
 };
 
-/// Opens one that has that title.
+/// Opens a screen with that title.
 using OpenScreen = std::function<Result<std::unique_ptr<Screen>>(const std::string& title)>;
 
 } // namespace tidemark::cli

@@ -16,13 +16,13 @@ namespace tidemark::cli {
 namespace {
 
 constexpr auto k_rate = int64_t(render::k_sample_rate);
-/// Handed to the device ahead of its time.
+/// Samples written to the device ahead of time: 0.25 s.
 constexpr int64_t k_ahead = k_rate / 4;
-/// Nobody hears that sound and picture are so far apart; beyond, the sound jumps.
+/// Tolerated difference of sound and picture, which is not audible: 0.1 s. Beyond it the sound jumps.
 constexpr int64_t k_unheard = k_rate / 10;
-/// How often the device is given more.
+/// Interval between writes to the device.
 constexpr std::chrono::milliseconds k_turn{20};
-/// Drawn at a time: 0.19 s.
+/// Rows drawn at a time: 0.19 s.
 constexpr int k_rows_at_once = 16;
 
 std::string text_to_play(const scene::Scene& scene, const scene::Pass& pass) {
@@ -31,13 +31,13 @@ std::string text_to_play(const scene::Scene& scene, const scene::Pass& pass) {
 
 } // namespace
 
-/// A Sound pass and the device it is heard on; lives on the player's thread.
+/// A Sound pass and its audio device; used on the player's thread only.
 class SoundPlayer::Voice {
 public:
     Voice(platform::SharedContext context, render::SoundRenderer renderer, sound::Playback device)
         : context_(std::move(context)), renderer_(std::move(renderer)), device_(std::move(device)) {}
 
-    /// Hands over what is to be heard next, `time` being iTime now.
+    /// Writes the next samples; `time` is iTime now.
     void keep_up(double time) {
         const auto now =
             int64_t(std::clamp(time, 0.0, render::SoundRenderer::k_longest_seconds) * double(k_rate));
@@ -63,7 +63,7 @@ public:
     }
 
 private:
-    /// From sample `first` to the end of what is drawn of it.
+    /// Returns the samples from `first` to the end of the block that contains it.
     std::span<const int16_t> samples_at(int64_t first) {
         const int64_t begin = first - first % render::SoundRenderer::samples_in(k_rows_at_once);
         if (begin != drawn_from_) {
@@ -78,7 +78,7 @@ private:
     sound::Playback device_;
     std::vector<int16_t> drawn_;
     int64_t drawn_from_ = -1;
-    int64_t next_ = 0; ///< sample
+    int64_t next_ = 0; ///< next sample to write
     bool speaking_ = false;
 };
 
@@ -133,7 +133,7 @@ Result<SoundPlayer::Voice> SoundPlayer::begin(Order order) {
     auto device = TRY(sound::Playback::open(int(k_rate)));
     TRY(order.context.make_current());
     auto renderer = TRY(render::SoundRenderer::create(order.scene, render::local_date(), order.precision));
-    (void)renderer.draw_rows(0, k_rows_at_once); // the driver finishes compiling with the first draw
+    (void)renderer.draw_rows(0, k_rows_at_once); // the driver finishes compiling at the first draw
     return Voice(std::move(order.context), std::move(renderer), std::move(device));
 }
 

@@ -1,5 +1,5 @@
-// Plays the Sound pass of a scene in step with a clock, on a thread with an OpenGL context of its own:
-// neither waits for the picture, nor the picture for it.
+// Plays the Sound pass of a scene in step with a clock, on a thread with an OpenGL context of its own. Sound
+// and picture do not wait for each other.
 #pragma once
 
 #include "base/result.hpp"
@@ -23,14 +23,14 @@ public:
     /// Waits for the thread: see `busy`.
     ~SoundPlayer();
 
-    /// From now on the Sound pass of `scene`, unless it is the one that plays already.
+    /// Starts to play the Sound pass of `scene`, unless the same text is playing already.
     void play(platform::SharedContext context, const scene::Scene& scene, glsl::Precision precision);
-    /// There is nothing to hear.
+    /// Stops playing.
     void stop();
-    /// What iTime is at the moment, and whether it runs.
+    /// Sets iTime at the moment, and whether it runs.
     void follow(double time, bool running);
 
-    /// The driver is compiling for it, perhaps for long.
+    /// Returns whether the driver is compiling the pass, which may take long.
     bool busy() const;
 
 private:
@@ -41,7 +41,7 @@ private:
     };
     struct Clock {
         double time = 0; ///< iTime
-        double at = 0;   ///< when it was that, wall clock
+        double at = 0;   ///< when it had that value, by now_seconds
         bool running = false;
     };
     class Voice;
@@ -51,12 +51,12 @@ private:
 
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::optional<Order> order_; ///< not yet begun
-    std::string playing_;        ///< the text that was ordered last; empty: none
+    std::optional<Order> order_; ///< not started yet
+    std::string playing_;        ///< the text of the last order; empty: none
     Clock clock_;
     bool busy_ = false;
     bool ending_ = false;
-    std::thread thread_; ///< begun by the first order
+    std::thread thread_; ///< started by the first order
 };
 
 } // namespace tidemark::cli

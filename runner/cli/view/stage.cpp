@@ -12,9 +12,10 @@ namespace {
 
 constexpr auto k_settled = glsl::Specialise::invariant_uniforms;
 
-/// Whoever is at work on a scene saves and drags more often.
+/// Idle time before background optimisation: a user who edits a scene saves and drags more often.
 constexpr double k_shortest_rest_seconds = 2;
-/// A trial compiles the scene twice more: that may take a tenth of the time before it.
+/// Idle time for each second of compiling. A trial compiles the scene twice, which is then a tenth of the
+/// idle time.
 constexpr double k_rest_per_second_of_compiling = 20;
 
 } // namespace
@@ -41,7 +42,7 @@ Result<Stage> Stage::settle(platform::SharedContext context, const scene::Scene&
     render::RenderOptions settled = options;
     settled.specialise = k_settled;
     TrialPlan plan{shown, shown, std::numeric_limits<size_t>::max()};
-    plan.first.frame = 0; // buffers begin there
+    plan.first.frame = 0; // buffers begin at frame 0
     plan.first.time = 0;
     plan.first.date = render::later(shown.date, -shown.time);
     plan.in_window = true;
@@ -58,7 +59,7 @@ Stage::~Stage() {
     if (!renderer_)
         return;
     const platform::KeepCurrent current;
-    (void)context_.make_current(); // GL objects are deleted in the context that has them
+    (void)context_.make_current(); // GL objects must be deleted in the context that owns them
     renderer_.reset();
 }
 

@@ -1,5 +1,6 @@
-// A Renderer with the OpenGL context that it lives in: made and warmed up on any thread, then drawn on the
-// window's. A scene's first one compiles the author's text as it is; a settled one is its quicker twin.
+// A Renderer with its OpenGL context: created and warmed up on any thread, then drawn on the window's. The
+// first one of a scene compiles the text as written; after idle time it may be replaced by an optimised
+// program with identical output.
 #pragma once
 
 #include "platform/shared_context.hpp"
@@ -12,29 +13,28 @@ namespace tidemark::cli {
 
 class Stage {
 public:
-    /// Compiles the scene and has the driver finish what it puts off until the first draw. The context is
-    /// current on the calling thread meanwhile, and nowhere afterwards.
+    /// Compiles the scene and makes the driver finish what it defers to the first draw. Meanwhile the context
+    /// is current on the calling thread; afterwards on none.
     static Result<Stage> create(platform::SharedContext context, scene::Scene scene,
                                 const render::RenderOptions& options, const render::FrameInputs& first);
-    /// The same scene by a specialised program, if there is one that draws the same bytes in frame 0 and in
-    /// `shown` and takes clearly less time: else it fails, and there is nothing to tell anybody.
+    /// Returns an optimised program of the same scene that draws the same bytes in frame 0 and in `shown` and
+    /// takes clearly less time; fails if there is none, which need not be reported.
     static Result<Stage> settle(platform::SharedContext context, const scene::Scene& scene,
                                 const render::RenderOptions& options, const render::FrameInputs& shown);
     Stage(Stage&&) = default;
     Stage& operator=(Stage&&) = delete;
-    /// What is current on the calling thread stays so.
+    /// Keeps the calling thread's current context.
     ~Stage();
 
-    /// On the window's thread: what is drawn from now on is for the window.
+    /// Makes the context current on the window's thread, to draw into the window.
     Result<void> enter() { return context_.make_current_in_window(); }
 
     render::Renderer& renderer() { return *renderer_; }
     const render::Renderer& renderer() const { return *renderer_; }
 
-    /// For how many seconds nobody should touch the scene before it is worth the work to settle it; none
-    /// where there is nothing to gain.
+    /// Returns the idle time, in seconds, before background optimisation is worth trying; none: it never is.
     std::optional<double> seconds_to_settle() const { return seconds_to_settle_; }
-    /// What a frame of a settled one takes of the plain one's time.
+    /// Returns the frame time of an optimised program as a share of the original's.
     std::optional<double> share() const { return share_; }
 
 private:

@@ -15,20 +15,20 @@
 namespace tidemark::cli {
 namespace {
 
-/// A driver may not bear that two threads compile and draw at once in contexts that share (Dolphin's pull
-/// request 7276 tells of some): then the window waits for what it compiles.
+/// Returns whether threads may compile. Some drivers cannot compile and draw at once in shared contexts (see
+/// Dolphin's pull request 7276); with TIDEMARK_ASYNC_COMPILE=off the window waits for the compiler instead.
 bool compiles_on_threads() {
     const char* const wish = std::getenv("TIDEMARK_ASYNC_COMPILE");
     return !wish || std::string_view(wish) != "off";
 }
 
-/// Compiling keeps a core busy, and the picture on show wants one too.
+/// Concurrent builds. Each keeps a core busy, and drawing needs one, too.
 constexpr size_t k_most_at_once = 3;
 
 Result<Stage> build(StageBuilder::Order order, const std::function<bool()>& unwanted) {
     if (order.rehearsal && !order.settle && !glsl::is_modest(order.scene, order.options.precision))
         TRY(order.rehearsal->try_out(order.held, unwanted));
-    if (unwanted()) // what was tried out in vain must not reach the driver here
+    if (unwanted()) // a cancelled try was not completed, so the scene must not reach the driver here
         return fail(ErrorCode::load, "the scene is not wanted any more");
     if (order.settle && !compiles_on_threads())
         return fail(ErrorCode::check_failed, "the window would stand still for a trial");
@@ -37,7 +37,7 @@ Result<Stage> build(StageBuilder::Order order, const std::function<bool()>& unwa
     return Stage::create(std::move(order.context), std::move(order.scene), order.options, order.first);
 }
 
-/// The picture on show goes on, whatever becomes of the next one.
+/// Turns exceptions into errors, so that the picture on show stays.
 Result<Stage> build_or_say_why(StageBuilder::Order order, const std::function<bool()>& unwanted) {
     try {
         return build(std::move(order), unwanted);
@@ -81,7 +81,7 @@ void StageBuilder::launch(Order order) {
             const std::lock_guard lock(job->mutex);
             if (!job->abandoned)
                 job->outcome.emplace(std::move(built));
-        } // one that nobody wants ends here
+        } // destroys an abandoned Stage, before `done` is set
         const std::lock_guard lock(job->mutex);
         job->done = true;
         wake();
@@ -130,7 +130,7 @@ std::optional<Result<Stage>> StageBuilder::take() {
     return outcome;
 }
 
-/// Threads that are done are no more.
+/// Removes threads that have finished.
 void StageBuilder::sweep() {
     std::erase_if(running_, [](auto& running) {
         {

@@ -1,5 +1,5 @@
-// Builds Stages on threads of their own, so that a window goes on while the driver compiles. A driver cannot
-// be interrupted: what is not wanted any more is abandoned, and ends by itself.
+// Builds Stages on worker threads, so that the window goes on while the driver compiles. Driver calls cannot
+// be interrupted: an abandoned build ends by itself, and its result is discarded.
 #pragma once
 
 #include "cli/view/rehearsal.hpp"
@@ -15,43 +15,45 @@ namespace tidemark::cli {
 
 class StageBuilder {
 public:
-    /// What a Stage is made of.
+    /// The input of a build.
     struct Order {
         platform::SharedContext context;
         scene::Scene scene;
         render::RenderOptions options;
-        render::FrameInputs first;              ///< inputs of its first frame
+        render::FrameInputs first;              ///< inputs of the first frame
         bool settle = false;                    ///< Stage::settle instead of Stage::create
-        std::shared_ptr<Rehearsal> rehearsal{}; ///< of what is no modest scene; none: nothing is tried out
-        HeldTexts held{};                       ///< that are in the scene
+        std::shared_ptr<Rehearsal> rehearsal{}; ///< tries heavy scenes first; null: no tries
+        HeldTexts held{};                       ///< the overrides in the scene
     };
 
-    /// `wake` is called on another thread when there is something to `take`.
+    /// `wake` is called on another thread when `take` has a result.
     explicit StageBuilder(std::function<void()> wake) : wake_(std::move(wake)) {}
-    /// Waits for everything under way: see `busy`.
+    /// Waits for all builds: see `busy`.
     ~StageBuilder();
     StageBuilder(StageBuilder&&) = default;
     StageBuilder& operator=(StageBuilder&&) = delete;
 
-    /// Abandons what is under way. Where several abandoned ones still keep the driver busy, the order waits.
+    /// Abandons the current build and starts another. The order waits if several abandoned builds still
+    /// occupy the driver.
     void start(Order order);
     void abandon();
 
-    /// What the last order gave, once.
+    /// Returns the result of the last order, once.
     std::optional<Result<Stage>> take();
 
-    /// An order is under way or waits.
+    /// Returns whether an order is in progress or waits.
     bool building() const { return newest_ != nullptr || waiting_.has_value(); }
-    /// A thread is in the driver, perhaps for long; whoever wants to end now must end the process.
+    /// Returns whether a thread is in the driver, perhaps for long. To exit at once then, the process must be
+    /// ended.
     bool busy() const;
 
 private:
-    struct Job; ///< shared by its thread and by us, whoever lives longer
+    struct Job; ///< shared by its thread and this object
     void launch(Order order);
     void sweep();
 
     std::function<void()> wake_;
-    std::vector<std::pair<std::thread, std::shared_ptr<Job>>> running_; ///< abandoned ones included
+    std::vector<std::pair<std::thread, std::shared_ptr<Job>>> running_; ///< including abandoned ones
     std::shared_ptr<Job> newest_;
     std::optional<Order> waiting_;
 };

@@ -46,7 +46,7 @@ bool SteppingThere::draw(const render::FrameInputs& inputs) {
     frame_.reset();
     if (whole)
         pace_.took(extent, Way::in_parts, took);
-    else // no memory for parts
+    else // not enough memory for parts
         draw_whole(inputs);
     return true;
 }
@@ -54,7 +54,7 @@ bool SteppingThere::draw(const render::FrameInputs& inputs) {
 void SteppingThere::draw_whole(const render::FrameInputs& inputs) {
     const double begun = now_seconds();
     renderer_.draw(inputs);
-    glFinish(); // else a driver takes orders for much longer
+    glFinish(); // else some drivers queue much more work than there is time for
     pace_.took(renderer_.extent(), Way::whole, now_seconds() - begun);
 }
 

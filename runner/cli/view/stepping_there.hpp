@@ -1,5 +1,5 @@
-// On the way to a frame of a scene with feedback: the frames that lead there are drawn a few at a time, and
-// slow ones in parts, so that the window goes on meanwhile.
+// Steps to a frame of a scene with feedback: draws the frames before it, a few at a time and slow ones in
+// parts, so that the window goes on meanwhile.
 #pragma once
 
 #include "live/time_field.hpp"
@@ -11,22 +11,22 @@ namespace tidemark::cli {
 
 class SteppingThere {
 public:
-    /// To the frame before the one at `seconds`. What it is given must outlive it, and `renderer` draws
-    /// nothing else meanwhile.
+    /// Draws all frames up to `frame`, the one before that at `seconds`. The references must outlive it, and
+    /// nothing else may draw with `renderer` meanwhile.
     SteppingThere(render::Renderer& renderer, render::FramePace& pace, render::PartSize& size,
                   render::FrameStates states, int frame, double seconds);
     SteppingThere(const SteppingThere&) = delete;
     SteppingThere& operator=(const SteppingThere&) = delete;
 
-    /// Draws for so long, one frame or a part of one at least; whether the frame is there.
+    /// Draws for that time, at least one frame or a part of one. Returns whether `frame` is drawn.
     bool advance(double seconds);
     double seconds() const { return seconds_; }
-    /// The frame that is being drawn, of those that are drawn.
+    /// Returns the frame being drawn, and the last one.
     const live::Stepping& where() const { return where_; }
 
-    /// What the driver is at, in the parts of a slow frame.
+    /// Returns the slow frame that is drawn in parts at the moment; null: none.
     const render::FrameInParts* frame() const { return frame_ ? &*frame_ : nullptr; }
-    /// It goes no further.
+    /// Cancels the frame in progress; returns the driver's current part, which cannot be stopped.
     std::optional<render::FrameInParts::UnderWay> give_up();
 
 private:
@@ -37,8 +37,8 @@ private:
     render::FramePace& pace_;
     render::PartSize& size_;
     render::FrameStepper stepper_;
-    std::optional<render::FrameInParts> frame_; ///< none: nothing is half drawn
-    double until_ = 0;                          ///< of the call under way
+    std::optional<render::FrameInParts> frame_; ///< none: no frame is half drawn
+    double until_ = 0;                          ///< end of the current call of advance
     double seconds_;
     live::Stepping where_;
 };

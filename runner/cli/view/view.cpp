@@ -14,7 +14,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// X11 counts the pixels of a window in 16 bits, half of them below zero; beyond that it takes another size.
+/// X11's limit: window sizes are signed 16-bit numbers. Larger windows get another size.
 constexpr int k_largest_window = 32767;
 
 struct ViewOptions : ViewerOptions {
@@ -26,7 +26,8 @@ struct ViewOptions : ViewerOptions {
     LiveInputRequest inputs;
 };
 
-/// How the last window was left, less what is typed now. `sized`: a size is, or the file has one.
+/// Returns the saved state of the last window, without what the options override. `sized`: the size is given
+/// by an option or by the file.
 std::optional<Remembered> left_before(const ViewOptions& options, bool sized, FrameSequence& frames) {
     auto state = recall(options.scene.path);
     if (!state)
@@ -46,7 +47,7 @@ render::RenderScale first_scale(const ViewOptions& options, const std::optional<
     return left && left->scale ? *left->scale : render::RenderScale();
 }
 
-/// What was learned counts for somebody who records, or starts anew, too.
+/// Returns the learned MIDI bindings, which also apply while recording and with --fresh.
 std::optional<Remembered> controllers_before(const ViewOptions& options) {
     auto state = options.inputs.midi ? recall(options.scene.path) : std::nullopt;
     if (!state)

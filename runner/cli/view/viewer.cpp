@@ -23,11 +23,11 @@ namespace {
 
 using platform::Key;
 
-/// A frame that holds the window for longer is one that people may want to be rid of.
+/// A frame that blocks the window for longer can be cancelled with Esc.
 constexpr double k_hold_seconds = 1;
-/// Between two such frames people and files are listened to, at least so long.
+/// Shortest pause between two such frames, for events and file changes.
 constexpr double k_breath_seconds = 0.05;
-/// Seconds on show are no older than this.
+/// Largest age of the seconds in the title.
 constexpr double k_title_seconds = 0.25;
 
 render::RenderOptions options_for(Extent drawn, const Viewer::Settings& settings) {
@@ -43,7 +43,7 @@ Viewer::Viewer(Settings settings, std::unique_ptr<Screen> screen, LiveScene scen
     : settings_(std::move(settings)), screen_(std::move(screen)), scene_(std::move(scene)),
       sound_(std::make_unique<SoundPlayer>()), clock_(clock_from(now_seconds())),
       controls_(settings_.frames.state.camera), scale_(settings_.scale), controls_open_(settings_.controls) {
-    // Somebody who records sees the recording: there is nothing that it could show otherwise.
+    // While recording, the recording itself drives the scene, so that a replay shows the same pictures.
     if (settings_.frames.input || recording())
         replay_.emplace(settings_.frames.input.value_or(InputScript{}), settings_.frames.state.camera);
     if (settings_.adaptive)
@@ -52,7 +52,7 @@ Viewer::Viewer(Settings settings, std::unique_ptr<Screen> screen, LiveScene scen
         take_up(*settings_.left);
 }
 
-/// Of frames where they are recorded or replayed: a wall clock never shows the same twice.
+/// Counts frames instead of time while recording or replaying: a wall clock cannot be reproduced.
 render::LiveClock Viewer::clock_from(double now) const {
     const bool by_frames = settings_.frames.input || recording();
     return render::LiveClock(now, by_frames ? std::optional(settings_.frames.state.fps) : std::nullopt);
@@ -69,7 +69,7 @@ Result<Viewer> Viewer::open(Settings settings, const OpenScreen& open_screen) {
         TRY(settings.record.place());
     const std::string name = first.scene ? first.scene->name() : settings.scene.path.stem().string();
     auto screen = open_screen(name + " - tidemark");
-    if (!screen) // nothing can be waited for
+    if (!screen) // without a screen nothing can wait for a save
         return fail(std::move(first.scene ? screen.error() : first.scene.error()));
     const Extent drawn = settings.scale.drawn((*screen)->extent());
     const LiveScene::View view{
@@ -110,7 +110,7 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
     return finish().map([&] { return interrupt.requested() ? Interrupt::k_exit_code : 0; });
 }
 
-/// What is recorded or being saved is written first.
+/// Writes the recording and pending pictures before it reports a driver reset.
 Result<void> Viewer::check_driver() {
     const auto reason = gl::reset_reason();
     if (!reason)
@@ -120,7 +120,8 @@ Result<void> Viewer::check_driver() {
     return fail(ErrorCode::timed_out, fmt::format("the graphics driver was reset: {}", *reason));
 }
 
-/// First to what was done while a frame held the window: it was meant for what people saw then.
+/// Waits for events. Those that came while a frame blocked the window are handled first, as they refer to the
+/// picture shown then.
 void Viewer::listen() {
     double now = now_seconds();
     held_seconds_ = now - listened_at_;
@@ -141,7 +142,8 @@ void Viewer::listen() {
     listened_at_ = now_seconds();
 }
 
-/// What needs the driver waits while that is held by a part of a frame; there is always a way out.
+/// Handles events. While a part of a frame occupies the driver, only Esc and closing the window are handled
+/// at once; the others are kept.
 void Viewer::handle_all(const std::vector<platform::InputEvent>& events) {
     std::vector<platform::InputEvent> happened = std::exchange(events_held_, {});
     happened.insert(happened.end(), events.begin(), events.end());
@@ -162,7 +164,7 @@ void Viewer::handle_all(const std::vector<platform::InputEvent>& events) {
     obey_overlay();
 }
 
-/// Nobody wants another frame that holds the window when its mended successor is nearly there.
+/// Returns whether to wait for a reload: do not start a slow frame while one is compiling.
 bool Viewer::waits_for_better() const {
     return scene_.building_since() && (slow_ || draws_for_long(now_seconds()));
 }
@@ -192,7 +194,7 @@ bool Viewer::wants_frame(double now) const {
     return stale_ || (moving() && now >= next_draw_);
 }
 
-/// Frames follow each other by themselves.
+/// Returns whether frames follow each other without events.
 bool Viewer::moving() const {
     return stage_ && !clock_.paused() && !at_rest_ && !given_up_ && !stepping_;
 }
@@ -216,10 +218,10 @@ double Viewer::seconds_to_sleep(double now) const {
     return std::max(0.0, until - now);
 }
 
-/// The picture as it was drawn last, and what lies over it.
+/// Shows the last drawn picture and the overlay.
 void Viewer::present(bool fresh) {
     stale_overlay_ = false;
-    const gl::Texture* marked = marked_picture(); // draws, as the magnifier does: before the screen's turn
+    const gl::Texture* marked = marked_picture(); // draws, so it must come before begin()
     live::Model model = overlay_model();
     screen_->begin(target_on_show(), fresh);
     if (marked)
@@ -232,7 +234,7 @@ ShownMoment Viewer::shown_moment() const {
     return {shown_.seconds(), shown_.frame, stage_ && reads_keyboard(stage_->renderer()), shown_begun_};
 }
 
-/// Said once of a text: a window shows them as what it likes.
+/// Reports pixels that are not finite, once for each text: a window may show them as any colour.
 void Viewer::look_for_numbers(double now) {
     if (!stage_ || now < finite_.due() || driver_is_at_work())
         return;
@@ -242,7 +244,7 @@ void Viewer::look_for_numbers(double now) {
                         shell_words(trace_words())));
 }
 
-/// Of the frame on show, as far as options can say what people did.
+/// Returns the `check --trace` command for the frame on show, as far as options can express the user's input.
 std::vector<std::string> Viewer::trace_words() const {
     render::FrameState state = shown_;
     state.extent = stage_->renderer().extent();
@@ -297,7 +299,7 @@ void Viewer::obey(Key key, double now) {
     case Key::escape: escape(now); break;
     case Key::c: return copy_moment();
     case Key::k: return keep_moment();
-    case Key::s: return save_picture(); // of the frame on show: nothing is drawn anew
+    case Key::s: return save_picture(); // of the frame on show; draws nothing
     case Key::h:
     case Key::f1: return toggle_help();
     case Key::tab: return toggle_controls();
@@ -315,12 +317,12 @@ void Viewer::obey(Key key, double now) {
     stale_ = true;
 }
 
-/// Whoever cannot get at a window that a frame holds wants to be rid of that frame, and keep the window.
+/// Cancels seeking, slow frames or compiling, whichever is in progress; else closes the window.
 void Viewer::escape(double now) {
     if (stepping_)
         return carry_out(live::GiveUpSeek{});
     if (given_up_ && now - given_up_at_ < k_hold_seconds)
-        return; // pressed again, for the same frame
+        return; // pressed again for the same frame
     if (stage_ && (of_the_hold_ || draws_for_long(now) || (slow_ && (moving() || making_)))) {
         give_frames_up(now);
     } else if (stage_ && compiles_for_long(now)) {
@@ -330,7 +332,7 @@ void Viewer::escape(double now) {
     }
 }
 
-/// Time went backwards: the recording ends at the frame that is next.
+/// Ends the recording at the next frame, because time went backwards.
 void Viewer::forget_what_follows() {
     if (recording())
         replay_->go_back(clock_.next_frame_number());
@@ -341,7 +343,8 @@ LiveScene::View Viewer::view() const {
             inputs_on_show(), settings_.rehearsal};
 }
 
-/// Not while the driver is held: what is on show can be taken over only when it is free.
+/// Takes over a finished reload. Waits while the driver is occupied, because the buffers cannot be copied
+/// then.
 Result<void> Viewer::follow_scene(double now) {
     if (driver_is_held(now))
         return {};
@@ -352,7 +355,7 @@ Result<void> Viewer::follow_scene(double now) {
     return fresh ? show(*std::move(fresh), now) : Result<void>();
 }
 
-/// From now on. One that has settled draws what was drawn before: nothing else changes.
+/// Shows a new Stage from now on. An optimised one draws the same pictures, so everything else stays.
 Result<void> Viewer::show(Stage fresh, double now) {
     const bool first = !stage_;
     if (first)
@@ -374,7 +377,7 @@ Result<void> Viewer::show(Stage fresh, double now) {
     stale_ = true;
     touched_at_ = now;
     if (first && going_to_ && has_feedback()) {
-        going_to_.reset(); // all frames that lead there would be drawn before anything is seen
+        going_to_.reset(); // all earlier frames would be drawn before anything is visible
         say("it begins at 0 s: the scene reads its own last frame");
     }
     if (going_to_)
@@ -382,8 +385,8 @@ Result<void> Viewer::show(Stage fresh, double now) {
     return {};
 }
 
-/// What was on show before goes, its buffers' content stays: as on the site, a text that is changed goes on
-/// from where it was.
+/// Replaces the Stage. The buffers keep their contents: an edited scene continues from where it was, as on
+/// ShaderToy.
 Result<void> Viewer::swap_in(Stage fresh) {
     drop_frame();
     ending_.reset();
@@ -391,13 +394,13 @@ Result<void> Viewer::swap_in(Stage fresh) {
     pace_.doubt();
     part_size_ = {};
     if (stage_)
-        glFinish(); // what it drew is there to be taken over
+        glFinish(); // its drawings must be complete before they are copied
     forget_looking();
     costs_.forget();
     if (adaptive_)
         adaptive_->forget();
     if (frozen_)
-        frozen_->target.framebuffer = {}; // in the context that has it
+        frozen_->target.framebuffer = {}; // deleted in the context that owns it
     const std::optional<Stage> before = std::exchange(stage_, std::nullopt);
     stage_.emplace(std::move(fresh));
     if (auto entered = stage_->enter(); !entered)
@@ -411,12 +414,12 @@ Result<void> Viewer::swap_in(Stage fresh) {
             say(line);
     }
     if (drawn_extent() != stage_->renderer().extent())
-        fit_drawing(); // the window has changed meanwhile
+        fit_drawing(); // the window was resized in the meantime
     return {};
 }
 
-/// Only what moves: a picture that stands still is not drawn anyway. And no slow frames: a trial draws them
-/// whole, and the driver does nothing else meanwhile.
+/// Starts background optimisation after idle time. Not for a still picture, which is not drawn again, and not
+/// for slow frames, because a trial draws them whole and occupies the driver.
 void Viewer::settle_after_rest(double now) {
     constexpr double k_longest_trial_frame = 0.25;
     if (pace_.expected(drawn_extent()).value_or(0) > k_longest_trial_frame)
@@ -441,9 +444,9 @@ void Viewer::play_sound() {
         say(to_string(context.error()));
 }
 
-/// Our share (noticing, loading) and the driver's (compiling, drawing for the first time) side by side.
+/// Prints the times of a reload: Tidemark's share (notice, load) and the driver's (compile, first draw).
 void Viewer::report_reload() {
-    glFinish(); // the picture is on show when the drawing is done
+    glFinish(); // the picture is visible when drawing is complete
     const double shown = now_seconds();
     const auto ms = [](double from, double to) { return (to - from) * 1000; };
     say(fmt::format("reloaded in {:.0f} ms: notice {:.0f}, load {:.1f}, compile {:.0f}, first draw {:.0f}",

@@ -1,5 +1,5 @@
-// A scene on a screen: draws it, feeds it what people do there, and reloads it when its files are saved.
-// Whatever is wrong with the files is said and waited for, with the last good picture running.
+// A scene on a screen: draws it, passes the user's input to it, and reloads it when its files are saved.
+// Reports errors in the files and waits for a fix while the last good picture goes on.
 #pragma once
 
 #include "cli/controls.hpp"
@@ -44,39 +44,41 @@ public:
     struct Settings {
         SceneRequest scene;
         FrameSequence frames;                  ///< size, fps, camera, pass
-        std::optional<render::Date> date = {}; ///< instead of the clock on the wall
-        OutputPath record = {}; ///< where what people do is written; empty: nowhere. Excludes frames.input
-        render::RenderScale scale = {};              ///< at first
-        std::optional<double> adaptive = {};         ///< the rate that it holds; none: it stays
-        bool plain = false;                          ///< never settles
-        bool remembers = false;                      ///< leaves its state for the next window
-        bool controls = false;                       ///< open from the start
-        bool sounds = true;                          ///< its Sound pass is to be heard here
-        std::optional<Remembered> left = {};         ///< by the last one
+        std::optional<render::Date> date = {}; ///< instead of the current date
+        OutputPath record = {}; ///< file for the user's input; empty: none. Excludes frames.input
+        render::RenderScale scale = {};              ///< the initial one
+        std::optional<double> adaptive = {};         ///< frame rate to hold; none: the scale is constant
+        bool plain = false;                          ///< no background optimisation
+        bool remembers = false;                      ///< saves its state for the next window
+        bool controls = false;                       ///< open at the start
+        bool sounds = true;                          ///< plays the Sound pass
+        std::optional<Remembered> left = {};         ///< state of the last window
         std::optional<LiveInputRequest> inputs = {}; ///< excludes frames.input
-        std::shared_ptr<Rehearsal> rehearsal = {};   ///< tries out what may be too much for the driver
+        std::shared_ptr<Rehearsal> rehearsal = {};   ///< tries scenes that may be too much for the driver
     };
 
-    /// Opens the screen and begins to compile. Fails where options are wrong, and as `open_screen` does.
+    /// Opens the screen and starts to compile. Fails where options are wrong, and as `open_screen` does.
     static Result<Viewer> open(Settings settings, const OpenScreen& open_screen);
 
-    /// Until the person closes it or interrupts the program. Fails as LiveScene::follow does.
+    /// Runs until the user closes the screen or interrupts the program. Returns the exit code; fails as
+    /// LiveScene::follow does, and if the graphics driver was reset.
     Result<int> run(const Interrupt& interrupt);
 
-    /// `run` failed because the graphics driver was reset: what it showed goes on in another Viewer.
+    /// Returns whether `run` failed because the graphics driver was reset; another Viewer can continue then.
     bool was_reset() const { return was_reset_; }
-    /// The scene as it was asked for last, and what the next window begins with.
+    /// Return the current request for the scene, and the state for the next window.
     const SceneRequest& request() const { return scene_.request(); }
     std::optional<Remembered> state() const;
 
-    /// Has `run` look after what happened. From any thread.
+    /// Wakes `run`. May be called from any thread.
     void wake() const { screen_->wake(); }
 
-    /// A thread is at work in the driver, which cannot be stopped: whoever wants to end must end the process.
+    /// Returns whether a thread is in a driver call that cannot be stopped. To exit at once then, the process
+    /// must be ended.
     bool busy() const { return scene_.busy() || sound_->busy() || driver_is_at_work(); }
 
 private:
-    /// As it is saved: with all that draws it again.
+    /// A picture to be saved, with the metadata that reproduces it.
     struct Picture {
         int frame = 0;
         image::Image pixels;
@@ -84,7 +86,7 @@ private:
     };
     /// A frame that stays on show.
     struct Frozen {
-        gl::RenderTarget target; ///< in the stage's context
+        gl::RenderTarget target; ///< in the Stage's context
         Picture picture;
         Moment moment;
     };
@@ -93,14 +95,14 @@ private:
         render::FrameState state;
         render::FrameInParts frame;
         double begun;
-        bool wanted;       ///< somebody did something that it shows
-        bool said = false; ///< that it may never end
+        bool wanted;       ///< it shows a change by the user
+        bool said = false; ///< the message that it may never end was printed
     };
     Viewer(Settings settings, std::unique_ptr<Screen> screen, LiveScene scene);
     bool recording() const { return !settings_.record.empty(); }
     render::LiveClock clock_from(double now) const;
 
-    // What people do
+    // User input
     void listen();
     void handle(const platform::PointerMoved& event) { control(event); }
     void handle(const platform::ButtonPressed& event) { control(event); }
@@ -117,7 +119,7 @@ private:
     void handle(const platform::CloseRequested&) { closing_ = true; }
     void handle(const platform::FocusLost&) {}
 
-    // The size of what is drawn: viewer_scale.cpp
+    // The size of the drawn picture: viewer_scale.cpp
     Extent drawn_extent() const;
     void control(const ControlEvent& event);
     void handle(const platform::FramebufferResized& event);
@@ -127,7 +129,7 @@ private:
     void toggle_adaptive();
     std::vector<render::PassTimer>* time_next_frame();
 
-    // A picture that stays while time goes on: viewer_freeze.cpp
+    // The frozen picture: viewer_freeze.cpp
     void toggle_freeze();
     const gl::RenderTarget* target_on_show() const;
 
@@ -188,7 +190,7 @@ private:
     void carry_out(const live::LearnController& command);
     void carry_out(const live::ForgetController& command);
 
-    // Looking into the picture: viewer_looking.cpp
+    // Inspecting the picture: viewer_looking.cpp
     void toggle_magnifier();
     void toggle_marks();
     render::ShownFloats& floats();
@@ -208,7 +210,7 @@ private:
     void play_sound();
     void report_reload();
 
-    // viewer_title.cpp
+    // The title: viewer_title.cpp
     bool compiles_for_long(double now) const;
     void show_title(double now);
 
@@ -244,69 +246,69 @@ private:
     bool moving() const;
 
     Settings settings_;
-    std::unique_ptr<Screen> screen_; ///< owns the first context: first in, last out
+    std::unique_ptr<Screen> screen_; ///< owns the first context, so it is destroyed last
     LiveScene scene_;
-    std::unique_ptr<LiveInputs> inputs_; ///< none: nobody asked for any
-    live::ControllerMap controllers_;    ///< of this scene, with or without a MIDI device
+    std::unique_ptr<LiveInputs> inputs_; ///< null: none were requested
+    live::ControllerMap controllers_;    ///< of this scene, also without a MIDI device
     std::unique_ptr<SoundPlayer> sound_;
     std::optional<Stage> stage_; ///< none before the first picture
     render::LiveClock clock_;
     render::FramePace pace_;
     render::PartSize part_size_;
-    std::optional<Making> making_;                         ///< none: nothing is half drawn
-    std::optional<render::FrameInParts::UnderWay> ending_; ///< of a frame that was given up
-    std::vector<platform::InputEvent> events_held_;        ///< that wait until the driver is free
-    double clock_shown_at_ = 0;                            ///< the one of a frame that is drawn for long
-    bool parts_fail_ = false;                              ///< there is no memory for them
+    std::optional<Making> making_;                         ///< none: no frame is half drawn
+    std::optional<render::FrameInParts::UnderWay> ending_; ///< the driver's part of a cancelled frame
+    std::vector<platform::InputEvent> events_held_;        ///< kept until the driver is free
+    double clock_shown_at_ = 0;                            ///< when a slow frame's progress was last shown
+    bool parts_fail_ = false;                              ///< there is not enough memory for them
     bool save_due_ = false;                                ///< the next frame is to be saved
     bool was_reset_ = false;                               ///< the graphics driver
-    bool has_frame_ = false; ///< of the text on show, and nothing began anew since
+    bool has_frame_ = false; ///< a frame of the current text was drawn, and nothing has restarted since
     Controls controls_;
     render::RenderScale scale_;
-    std::optional<render::AdaptiveScale> adaptive_; ///< none: the scale stays
+    std::optional<render::AdaptiveScale> adaptive_; ///< none: the scale is constant
     std::optional<Replay>
-        replay_; ///< moves the scene instead of the controls: of a recording, or of this one
-    std::unique_ptr<FrameWriter> writer_; ///< made by the first picture that is saved
+        replay_; ///< drives the scene instead of controls_: a given recording, or the one being made
+    std::unique_ptr<FrameWriter> writer_; ///< created by the first saved picture
     FiniteWatch finite_;
-    std::optional<ReloadTimes> reloaded_; ///< until its first frame is on show
+    std::optional<ReloadTimes> reloaded_; ///< until its first frame is shown
     std::string title_;
     render::FrameState shown_; ///< the frame on show
-    double shown_begun_ = 0;   ///< when drawing it was
+    double shown_begun_ = 0;   ///< when drawing it began
     double next_draw_ = 0;
-    double listened_at_ = 0;   ///< to what people do, last
-    double held_seconds_ = 0;  ///< so long nobody listened before that
-    bool of_the_hold_ = false; ///< what people did then is being handled
-    bool drew_ = false;        ///< since then
-    bool slow_ = false;        ///< the frame that was drawn last held the window
+    double listened_at_ = 0;   ///< when events were last handled
+    double held_seconds_ = 0;  ///< time before that without handling events
+    bool of_the_hold_ = false; ///< handling the events that came in that time
+    bool drew_ = false;        ///< a frame was drawn since then
+    bool slow_ = false;        ///< the last drawn frame blocked the window
     double given_up_at_ = 0;
-    bool given_up_ = false; ///< frames take too long: none until somebody asks for one, or saves
+    bool given_up_ = false; ///< slow frames were cancelled: none until the user requests one or saves
     std::optional<double> unwatched_since_;
-    double touched_at_ = 0; ///< when somebody last changed what is drawn, or its size
+    double touched_at_ = 0; ///< when the user last changed the picture or its size
     WindowKeys keys_;
     ErrorBoard errors_;
-    PassCosts costs_; ///< while the controls are open
+    PassCosts costs_; ///< while the controls are open or the scale adapts
     Magnifier magnifier_;
-    std::optional<render::ShownFloats> floats_; ///< of the stage, when somebody looks
+    std::optional<render::ShownFloats> floats_; ///< of the Stage, created on demand
     std::optional<render::NumberMarks> marks_;  ///< likewise
     std::optional<PictureViews> pictures_;      ///< likewise, while the controls are open
     bool marks_shown_ = false;
-    std::optional<Frozen> frozen_;            ///< instead of the frames that follow it
-    std::unique_ptr<OriginSearch> search_;    ///< while one is under way
-    ErrorBoard origin_;                       ///< what it found
-    std::unique_ptr<SteppingThere> stepping_; ///< on the way to a frame
+    std::optional<Frozen> frozen_;            ///< shown instead of later frames
+    std::unique_ptr<OriginSearch> search_;    ///< null: none in progress
+    ErrorBoard origin_;                       ///< its result
+    std::unique_ptr<SteppingThere> stepping_; ///< null: not seeking
     live::SetLoop loop_;                      ///< of time
-    std::vector<Moment> views_;               ///< that somebody kept
+    std::vector<Moment> views_;               ///< kept by the user
     std::optional<double> going_to_;          ///< iTime of the view that the next Stage shows
-    std::optional<size_t> large_;             ///< of the pictures in the overlay
-    live::LookField look_;                    ///< at that one
+    std::optional<size_t> large_;             ///< index into the overlay's pictures
+    live::LookField look_;                    ///< how that one is viewed
     std::optional<std::vector<live::DefinitionField>>
-        defined_;                ///< by the scene on show; none: not looked yet
+        defined_;                ///< of the scene on show; none: not read yet
     bool controls_open_ = false; ///< in the overlay
     bool help_open_ = false;     ///< likewise
-    bool stale_overlay_ = false; ///< it does not show what it should
-    bool stale_ = true;          ///< the window does not show what it should
-    bool at_rest_ = false;       ///< the next frame is this one, until somebody does something
-    bool settled_ = false;       ///< the scene on show was, or it was tried
+    bool stale_overlay_ = false; ///< it is out of date
+    bool stale_ = true;          ///< the picture is out of date
+    bool at_rest_ = false;       ///< the next frame would be the same, until there is input
+    bool settled_ = false;       ///< background optimisation was tried for the scene on show
     bool closing_ = false;
 };
 

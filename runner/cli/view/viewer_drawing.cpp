@@ -1,5 +1,5 @@
-// Frames: one that is quick is drawn whole, one that may not be in parts, over several turns of the event
-// loop. So people are listened to meanwhile, and see the last frame until the next one is whole.
+// Drawing frames: a fast one as a whole, one that may be slow in parts, over several iterations of the event
+// loop. Events are handled in between, and the last frame stays on show until the next one is complete.
 #include "cli/console.hpp"
 #include "cli/view/viewer.hpp"
 
@@ -13,14 +13,15 @@ namespace {
 
 using Way = render::FramePace::Way;
 
-/// Of a turn that draws: two of these and a part are within a tenth of a second.
+/// Drawing time in one iteration: two of these and a part take less than 0.1 s.
 constexpr double k_turn_seconds = 0.03;
-/// A frame that is drawn for longer is one that people may want to be rid of, and so is a part.
+/// A frame or a part that takes longer than k_long_seconds counts as long: Esc cancels the frame. A part that
+/// takes longer than k_too_long_seconds is reported.
 constexpr double k_long_seconds = 1;
 constexpr double k_too_long_seconds = 2;
-/// The clock over the picture is no older.
+/// Interval at which the progress over the picture is updated.
 constexpr double k_clock_seconds = 0.25;
-/// So long drawing goes unmentioned.
+/// Progress is not shown before this time.
 constexpr double k_short_seconds = 0.3;
 
 } // namespace
@@ -43,7 +44,7 @@ void Viewer::draw(double now) {
         begin_frame(state, wanted, now);
 }
 
-/// Of the frame that is drawn now.
+/// Returns the state of the frame to draw now.
 render::FrameState Viewer::next_state(double now) {
     render::FrameState state = clock_.next_frame(now);
     state.date = settings_.date ? *settings_.date : render::later(render::local_date(), -state.seconds());
@@ -52,7 +53,7 @@ render::FrameState Viewer::next_state(double now) {
         replay_->fill(state);
     else
         controls_.fill(state);
-    controls_.frame_drawn(); // what happens from now on is new in the next one
+    controls_.frame_drawn(); // later events belong to the next frame
     return state;
 }
 
@@ -87,8 +88,8 @@ void Viewer::carry_on(double now) {
     say_what_holds(now);
 }
 
-/// What waits for the driver has it between two parts, and no part is begun before: one of them may never
-/// end. Whether the next may be begun.
+/// Lets what waits for the driver run between two parts, and starts no part before that, because one may
+/// never end. Returns whether the next part may start.
 bool Viewer::make_way() {
     const bool due = overlay_due();
     if (!due && events_held_.empty())
@@ -107,14 +108,14 @@ void Viewer::frame_is_made(bool drawn) {
         seconds += took;
         costs_.took(pass, took * 1000);
     }
-    if (drawn) { // else nothing is known of the next one
+    if (drawn) { // else nothing is known about the next one's time
         pace_.took(made.state.extent, Way::in_parts, seconds);
         slow_ = now_seconds() - made.begun > k_long_seconds;
     }
     frame_is_drawn(made.state, made.begun, drawn, made.wanted);
 }
 
-/// It is the one on show from now on.
+/// Makes it the frame on show.
 void Viewer::frame_is_drawn(const render::FrameState& state, double begun, bool drawn, bool wanted) {
     shown_ = state;
     shown_begun_ = begun;
@@ -123,7 +124,7 @@ void Viewer::frame_is_drawn(const render::FrameState& state, double begun, bool 
         present(drawn);
     if (drawn)
         finite_.frame_drawn();
-    // Frames are counted on where somebody writes their numbers down, or reads them.
+    // Frames must keep counting while they are recorded, or while the scene reads iFrame.
     at_rest_ = !drawn && !stage_->renderer().follows_clock() && !replay_;
     if (at_rest_)
         clock_.rest();
@@ -133,7 +134,7 @@ void Viewer::frame_is_drawn(const render::FrameState& state, double begun, bool 
         save_picture();
 }
 
-/// What is half drawn, or on its way, is not wanted any more: the next frame has its number.
+/// Cancels the frame or the seek in progress; the next frame gets the same number.
 void Viewer::drop_frame() {
     auto at = stepping_ ? stepping_->give_up()
               : making_ ? render::FrameInParts::give_up(std::move(making_->frame))
@@ -161,7 +162,8 @@ void Viewer::give_frames_up(double now) {
         say("the driver cannot be stopped: what it is at ends by itself");
 }
 
-/// Once a frame. A loop that never ends looks like this, and nobody can tell it from one that does.
+/// Reports a part that takes too long, once for each frame. An endless loop cannot be distinguished from a
+/// very long one.
 void Viewer::say_what_holds(double now) {
     const auto& at = making_->frame.under_way();
     if (making_->said || !at || now - at->begun < k_too_long_seconds)
@@ -175,7 +177,8 @@ void Viewer::say_what_holds(double now) {
                     k_too_long_seconds));
 }
 
-/// Another place or another setting may take another time: a part of the frame tells.
+/// Discards the estimate of the frame time, as another time or setting may be slower. The first parts of the
+/// next frame measure it.
 void Viewer::doubt_pace() {
     constexpr size_t k_first_parts = 16;
     pace_.doubt();
@@ -186,32 +189,33 @@ bool Viewer::draws_for_long(double now) const {
     return making_ && now - making_->begun > k_long_seconds;
 }
 
-/// Whether the frame on show, drawn once more and whole, would hold the window. That the last one took long
-/// does not say so: it may have waited for others, and where nothing moves none follows it.
+/// Returns whether drawing the frame on show again as a whole would block the window. The time of the last
+/// frame alone does not show that: it may have waited for other work, and without motion it is never updated.
 bool Viewer::drawing_would_hold() const {
     return slow_ && pace_.expected(drawn_extent()).value_or(k_long_seconds) >= k_long_seconds;
 }
 
-/// What the driver is drawing, for this frame, for one that leads to another, or for one that was given up.
+/// Returns the part that the driver is drawing: of this frame, of one that leads to another, or of a
+/// cancelled one.
 const std::optional<render::FrameInParts::UnderWay>& Viewer::driver_at() const {
     if (stepping_ && stepping_->frame())
         return stepping_->frame()->under_way();
     return making_ ? making_->frame.under_way() : ending_;
 }
 
-/// With what will not be done at once. Whoever asks it for anything else waits for as long.
+/// Returns whether the driver is busy for longer than an iteration; any other GL call would wait as long.
 bool Viewer::driver_is_at_work() const {
     const auto& at = driver_at();
     return at && !at->end.wait(k_turn_seconds);
 }
 
-/// At work for so long that people want to know.
+/// Returns whether the driver has been busy with one part for more than k_long_seconds.
 bool Viewer::driver_is_held(double now) const {
     const auto& at = driver_at();
     return at && now - at->begun > k_long_seconds && !at->end.wait(0);
 }
 
-/// The clock of a frame that takes long; empty: none does.
+/// Returns the progress of a slow frame; empty: there is none.
 std::string Viewer::drawing_words(double now) const {
     if (!making_) {
         return driver_is_held(now)

@@ -1,4 +1,4 @@
-// A picture that stays on show while time goes on, and the scene with it.
+// A picture that stays on show while the scene and its time go on.
 #include "cli/console.hpp"
 #include "cli/view/viewer.hpp"
 #include "gl/blit.hpp"

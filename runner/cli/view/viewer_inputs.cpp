@@ -1,5 +1,4 @@
-// What comes from outside: messages, carried out as if a hand had done it in the overlay, so that they are
-// recorded, too; and sound.
+// Live inputs: messages, carried out like commands of the overlay so that they are recorded, too; and sound.
 #include "base/try.hpp"
 #include "cli/view/viewer.hpp"
 
@@ -22,14 +21,14 @@ void Viewer::take_inputs() {
         std::visit([this](const auto& wanted) { carry_out(wanted); }, command);
 }
 
-/// For the frame that is drawn now.
+/// Returns the inputs of the frame to draw now, with fresh sound and webcam data.
 render::FrameInputs Viewer::heard_inputs(const render::FrameState& state) {
     if (inputs_)
         inputs_->hear();
     return inputs_at(state);
 }
 
-/// Of a frame, with what it heard.
+/// Returns the inputs of a frame, with the last sound and webcam data.
 render::FrameInputs Viewer::inputs_at(const render::FrameState& state) const {
     render::FrameInputs inputs = inputs_of(state);
     if (inputs_)
@@ -41,7 +40,7 @@ render::FrameInputs Viewer::inputs_on_show() const {
     return inputs_at(shown_);
 }
 
-/// As they were turned last, which no frame may have shown yet.
+/// Returns the knobs with their latest values, which may not be in a frame yet.
 std::vector<scene::Knob> Viewer::turned_knobs() const {
     render::FrameState state;
     controls_.fill(state);

@@ -1,5 +1,5 @@
-// Looking into the picture: the pictures of passes and inputs, the magnifier, marks where it is not made of
-// numbers, and where they come from.
+// Inspecting the picture: the pictures of passes and inputs, the magnifier, marks of pixels that are not
+// finite or below zero, and the origin of such pixels.
 #include "cli/console.hpp"
 #include "cli/not_finite.hpp"
 #include "cli/view/viewer.hpp"
@@ -34,7 +34,8 @@ std::optional<live::MagnifierField> Viewer::magnifier_field() {
     return magnifier_.field(stage_->renderer(), inputs_on_show(), screen_->extent(), floats());
 }
 
-/// What the marks are drawn from, while there are any: Image once more, and whole.
+/// Returns the texture that the marks are drawn from, after drawing Image once more as a whole; null: no
+/// marks.
 const gl::Texture* Viewer::marked_picture() {
     if (!marks_shown_ || !stage_ || stepping_ || frozen_ || making_ || drawing_would_hold() ||
         stage_->renderer().target().texture.target != GL_TEXTURE_2D)
@@ -62,14 +63,14 @@ void Viewer::look_at_pictures(live::Model& model) {
     model.look = large.look;
 }
 
-/// They live in the stage's context.
+/// Deletes objects that live in the Stage's context.
 void Viewer::forget_looking() {
     pictures_.reset();
     floats_.reset();
     marks_.reset();
 }
 
-/// Of the pixel in the magnifier. Asked for once more it hides the answer.
+/// Traces the NaN of the magnified pixel; a second press hides the result.
 void Viewer::trace_pixel() {
     if (!magnifier_.is_open() || !stage_ || frozen_)
         return;

@@ -1,4 +1,4 @@
-// The moment on show, as a value: copied as a command, saved with pictures, kept and gone back to.
+// The moment on show as a value: copied as a command, saved with pictures, kept and restored.
 #include "cli/console.hpp"
 #include "cli/fingerprint.hpp"
 #include "cli/not_finite.hpp"
@@ -24,7 +24,7 @@ Moment Viewer::moment() const {
     return moment_of(scene_.request(), sequence, std::move(state));
 }
 
-/// Of the frame on show, with all that draws it again.
+/// Returns the format of a saved picture, with the metadata that reproduces the frame on show.
 image::PictureFormat Viewer::format_of_picture() const {
     const scene::Scene& scene = stage_->renderer().scene();
     const auto fingerprint =
@@ -36,11 +36,11 @@ image::PictureFormat Viewer::format_of_picture() const {
 
 Viewer::Picture Viewer::read_picture() const {
     Picture picture{shown_.frame, stage_->renderer().read_back(), format_of_picture()};
-    count_not_finite(stage_->renderer(), picture.pixels); // its marks are no alpha
+    count_not_finite(stage_->renderer(), picture.pixels); // removes the marks from alpha
     return picture;
 }
 
-/// Of the text as it is: else there is no moment.
+/// Returns whether a frame of the current text is on show; prints a line if not.
 bool Viewer::has_frame() const {
     if (!has_frame_ && !frozen_)
         say("no frame is drawn yet");
@@ -63,8 +63,8 @@ void Viewer::save_picture() {
         say(to_string(written.error()));
 }
 
-/// The rate of the window's own clock is nobody's wish, and the date is left to the capture unless somebody
-/// gave one.
+/// Copies the capture command. Leaves out the rate of the window's clock, and the date unless the user gave
+/// one.
 void Viewer::copy_moment() {
     if (!has_frame())
         return;
@@ -85,7 +85,7 @@ void Viewer::keep_moment() {
     say("kept: " + view_labels(views_).back());
 }
 
-/// As the bar of time goes to a moment; definitions are compiled first.
+/// Goes to a kept view as the time bar does; its definitions are compiled first.
 void Viewer::carry_out(const live::GoToView& command) {
     if (command.index >= views_.size())
         return;
@@ -112,7 +112,7 @@ void Viewer::carry_out(const live::ForgetView& command) {
     stale_overlay_ = true;
 }
 
-/// As the last window of the scene was left.
+/// Restores the state of the last window.
 void Viewer::take_up(const Remembered& left) {
     views_ = left.views;
     controls_open_ = left.controls_open;
@@ -132,7 +132,7 @@ std::optional<Remembered> Viewer::state() const {
     return Remembered{moment(), screen_->place(), scale_, controls_open_, views_, controllers_.bindings()};
 }
 
-/// For the next window of the scene.
+/// Saves the state for the next window of the scene.
 void Viewer::leave() const {
     if (settings_.remembers && stage_)
         remember(settings_.scene.path, *state());

@@ -18,11 +18,11 @@ namespace {
 
 constexpr Extent k_played{16, 16};
 
-/// Seconds. A scene whose first frames are too much for the driver would have it reset for ever.
+/// Seconds. A scene whose first frames are too much for the driver would otherwise be reset for ever.
 constexpr double k_shortest_life = 5;
 
-/// In a process of its own: all that the screen will have its driver do, once, small and unseen. What
-/// is wrong otherwise, the screen's own driver says.
+/// Runs in a separate process: does everything once that the screen will do with the driver, in a small size.
+/// Reports no errors; the screen's own driver does.
 void play(SceneRequest request, const HeldTexts& held, const std::string& pass) {
     request.sets = held.sets;
     request.defines = held.defines;
@@ -45,7 +45,7 @@ void play(SceneRequest request, const HeldTexts& held, const std::string& pass) 
     renderer->read_back();
 }
 
-/// Empty: a scene whose driver was reset goes on in another window.
+/// Returns why the window is not opened again after a driver reset; empty: it is.
 std::string why_not_again(const Viewer::Settings& settings, double life) {
     if (!settings.record.empty())
         return fmt::format("what was recorded is in {}", settings.record.path().string());
@@ -80,7 +80,7 @@ Result<Viewer::Settings> resolve(const ViewerOptions& options, FrameSequence fra
     settings.rehearsal = Rehearsal::start(
         [&](const HeldTexts& held) { play(options.scene, held, options.frames.pass); }, limits.memory);
     settings.record = OutputPath::typed(options.record);
-    // What is recorded can be drawn again: its date goes on with iTime, not with the clock.
+    // A recording must be reproducible, so its date advances with iTime.
     if (options.frames.date || options.by_frames())
         settings.date = settings.frames.state.date;
     if (!settings.record.empty())
@@ -92,7 +92,7 @@ Result<int> show(Viewer::Settings settings, const OpenScreen& open_screen) {
     Interrupt interrupt;
     while (true) {
         const double opened = now_seconds();
-        auto opened_viewer = [&] { // a camera may keep one waiting: Ctrl-C ends it
+        auto opened_viewer = [&] { // opening a camera may take long; Ctrl-C ends it
             const Interrupt::Immediate immediate(interrupt);
             return Viewer::open(settings, open_screen);
         }();

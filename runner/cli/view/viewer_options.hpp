@@ -1,4 +1,4 @@
-// What the options of `view` and of `serve` have in common, and what both do with a Viewer.
+// The options that `view` and `serve` share, and the function with which both run a Viewer.
 #pragma once
 
 #include "cli/command_line.hpp"
@@ -17,17 +17,18 @@ struct ViewerOptions {
     std::string record;
     LimitOptions limits;
 
-    /// The scene is moved by frames, not by the clock: nothing of it is remembered.
+    /// Returns whether frames drive the scene instead of the clock; its state is not saved then.
     bool by_frames() const { return frames.input || !record.empty(); }
 };
 
 void add_viewer_options(Command command, ViewerOptions& options);
 
-/// Starts the Rehearsal, which forks: to be called before there are threads or a context.
+/// Resolves the options and starts the Rehearsal, which forks: call it before the process has threads or a
+/// context.
 Result<Viewer::Settings> resolve(const ViewerOptions& options, FrameSequence frames);
 
-/// Opens the screen and shows the scene there to the end. Where a driver is still compiling then, which
-/// cannot be waited for, the process ends in here.
+/// Opens the screen and shows the scene until it is closed. Ends the process if a driver is still compiling
+/// then, because that cannot be cancelled.
 Result<int> show(Viewer::Settings settings, const OpenScreen& open_screen);
 
 } // namespace tidemark::cli

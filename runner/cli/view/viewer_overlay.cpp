@@ -1,4 +1,4 @@
-// What the overlay shows of the window, and what is asked for in it.
+// The contents of the overlay, and its commands.
 #include "base/shell_word.hpp"
 #include "cli/console.hpp"
 #include "cli/view/editor.hpp"
@@ -12,7 +12,8 @@
 
 namespace tidemark::cli {
 
-/// A settled program has the values of knobs in it: while they are turned the text is drawn as it is.
+/// Opens or closes the controls. An optimised program contains the knobs' values, so the text is compiled as
+/// written while they may change.
 void Viewer::toggle_controls() {
     controls_open_ = !controls_open_;
     stale_overlay_ = true;
@@ -24,7 +25,7 @@ void Viewer::toggle_controls() {
         scene_.build_anew(turned_scene(), view(), LiveScene::Settle::no);
 }
 
-/// 1 to 9, of the pictures in the controls; 0 and the same again: the scene's own.
+/// Shows a picture of the controls for digits 1 to 9; 0, or the same digit again, shows the scene's own.
 void Viewer::show_picture_of(platform::Key digit) {
     if (!controls_open_ || digit < platform::Key::digit_0 || digit > platform::Key::digit_9)
         return;
@@ -34,7 +35,7 @@ void Viewer::show_picture_of(platform::Key digit) {
     stale_overlay_ = true;
 }
 
-/// In the terminal, too: that one stays to be read.
+/// Shows the help, in the terminal too, where it remains after the window.
 void Viewer::toggle_help() {
     help_open_ = !help_open_;
     stale_overlay_ = true;
@@ -42,7 +43,8 @@ void Viewer::toggle_help() {
         say(key_table());
 }
 
-/// It is drawn without a new frame of the scene, which brings it along while the scene moves.
+/// Returns whether to draw the overlay without a new frame of the scene. A moving scene draws it along with
+/// its frames.
 bool Viewer::overlay_due() const {
     return screen_->is_watched() && (stale_overlay_ || screen_->wants_frame()) && (making_ || !moving());
 }
@@ -61,7 +63,7 @@ live::Model Viewer::overlay_model() {
         const render::Renderer& renderer = stage_->renderer();
         render::FrameState turned = shown_;
         if (making_ && !replay_)
-            controls_.fill(turned); // which no frame shows yet
+            controls_.fill(turned); // newer than the frame on show
         model.knobs = knob_fields(renderer.scene(), turned.knobs);
         if (inputs_ && inputs_->has_midi())
             add_controllers(model.knobs, controllers_);
@@ -118,7 +120,7 @@ void Viewer::carry_out(const live::CopyKnobs&) {
     say(words.empty() ? "nothing to copy: every knob is as the file has it" : "copied: " + text);
 }
 
-/// The reload that follows finds every knob where it is.
+/// Writes the knobs into their files. The reload that follows finds each at its value.
 void Viewer::carry_out(const live::WriteKnobs&) {
     if (!stage_)
         return;
@@ -142,13 +144,13 @@ void Viewer::carry_out(const live::Undefine& command) {
     scene_.define(command.name, std::nullopt, view());
 }
 
-/// A program that has the values of knobs in it would be wrong soon.
+/// Returns whether knobs may change soon, which would make a program that contains their values useless.
 bool Viewer::knobs_may_turn() const {
     return controls_open_ || (inputs_ && settings_.inputs->turns_knobs()) ||
            (replay_ && turns_knobs(replay_->script()));
 }
 
-/// The scene on show, with its knobs as they are.
+/// Returns the scene on show with the current values of its knobs.
 scene::Scene Viewer::turned_scene() const {
     scene::Scene scene = stage_->renderer().scene();
     for (scene::Knob& knob : scene.knobs)

@@ -1,5 +1,5 @@
-// How large the picture is drawn: as many pixels as the window has, times the render scale. What people do in
-// the window is told to the scene in pixels of what is drawn.
+// The size of the drawn picture: the window's pixels times the render scale. Events are converted to pixels
+// of the drawn picture.
 #include "cli/console.hpp"
 #include "cli/view/viewer.hpp"
 
@@ -30,7 +30,7 @@ Extent Viewer::drawn_extent() const {
     return scale_.drawn(screen_->extent());
 }
 
-/// Uniforms follow the mouse and the keys; a paused picture is drawn anew when they do.
+/// Passes an event to the scene and draws a paused picture again if it has changed.
 void Viewer::control(const ControlEvent& event) {
     const Extent drawn = drawn_extent();
     const ControlEvent seen = in_picture(event, screen_->extent(), drawn);
@@ -50,8 +50,7 @@ void Viewer::handle(const platform::FramebufferResized&) {
     fit_drawing();
 }
 
-/// Whether the scene is drawn in the size that the window and the scale ask for. Else the old picture is
-/// stretched.
+/// Sets the drawn size from window and scale. Returns whether it worked; else the old picture is stretched.
 bool Viewer::fit_drawing() {
     if (screen_->extent().pixels() == 0)
         return true; // minimised
@@ -61,14 +60,14 @@ bool Viewer::fit_drawing() {
         return true;
     if (making_ && drawn_extent() != stage_->renderer().extent())
         drop_frame();
-    stale_overlay_ = true; // the last picture, until there is one of that size
+    stale_overlay_ = true; // the last picture, until one of that size is drawn
     const auto resized = stage_->renderer().resize(drawn_extent());
     if (!resized)
         say(to_string(resized.error()));
     return resized.has_value();
 }
 
-/// The mouse stays at its place of the picture.
+/// Changes the scale; the mouse stays at the same place of the picture. Returns whether it worked.
 bool Viewer::change_scale(render::RenderScale wanted) {
     const Extent before = drawn_extent();
     const render::RenderScale scale_before = std::exchange(scale_, wanted);
@@ -80,7 +79,7 @@ bool Viewer::change_scale(render::RenderScale wanted) {
     return fits;
 }
 
-/// What somebody chooses stays.
+/// Sets the scale and ends adaptive scaling.
 void Viewer::set_scale(render::RenderScale wanted) {
     if (replay_)
         return say("a recording has its places in pixels: the scale stays");
@@ -105,8 +104,9 @@ void Viewer::toggle_adaptive() {
     say(fmt::format("the scale holds {:g} fps", fps));
 }
 
-/// While somebody wants to know. What the frame before took may change the scale of this one; while a thread
-/// compiles beside it, it says nothing.
+/// Returns the timers for the next frame; null while neither the controls nor adaptive scaling need them. The
+/// time of the frame before may change the scale of this one, except while a thread compiles, when it is not
+/// reliable.
 std::vector<render::PassTimer>* Viewer::time_next_frame() {
     if (!controls_open_ && !adaptive_)
         return nullptr;

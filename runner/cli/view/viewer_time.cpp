@@ -1,4 +1,4 @@
-// Time in the window, where the overlay's bar has it: to a moment, at another speed, round and round.
+// Time in the window: seeking, speed and loops.
 #include "cli/view/viewer.hpp"
 
 #include <algorithm>
@@ -20,16 +20,16 @@ live::TimeField Viewer::time_field() const {
     return time;
 }
 
-/// A frame that others lead to is stepped to: its buffers hold then what they always hold there.
+/// Goes to a time. With feedback all earlier frames are drawn, so that the buffers have their usual contents.
 void Viewer::seek(double seconds, double now) {
     const double fps = settings_.frames.state.fps;
     if (!(seconds >= 0 && seconds <= render::k_last_frame / fps))
-        return; // typed
+        return; // a typed number may be out of range
     const int frame = render::frame_at(seconds, fps);
     stale_ = true;
     given_up_ = false;
     if (has_feedback())
-        drop_frame(); // else it ends, so that something is seen while somebody drags
+        drop_frame(); // without feedback it is completed, so that something is visible while dragging
     clock_.seek(seconds, frame, now);
     doubt_pace();
     forget_what_follows();
@@ -53,7 +53,7 @@ void Viewer::seek(double seconds, double now) {
         std::make_unique<SteppingThere>(stage_->renderer(), pace_, part_size_, states, frame - 1, seconds);
 }
 
-/// A few frames at a time, and the bar between. Time goes on from there.
+/// Draws a few more frames of a seek, then the bar. At the end, time continues from there.
 void Viewer::step_there() {
     constexpr double k_seconds = 1 / 30.0;
     if (!stepping_ || !make_way())
@@ -66,7 +66,7 @@ void Viewer::step_there() {
     stale_overlay_ = true;
 }
 
-/// While nobody looks for long no frame is drawn, which is no frame's iTimeDelta.
+/// Leaves a pause of more than a second without a viewer out of iTimeDelta.
 void Viewer::rest_unwatched(double now) {
     constexpr double k_unwatched_seconds = 1;
     if (!screen_->is_watched()) {
@@ -81,7 +81,7 @@ void Viewer::rest_unwatched(double now) {
 void Viewer::carry_out(const live::GiveUpSeek&) {
     if (!stepping_)
         return;
-    // A frame that is half drawn was never drawn.
+    // A half-drawn frame does not count.
     const int next = stepping_->where().frame + (stepping_->frame() ? 0 : 1);
     drop_frame();
     const double now = now_seconds();

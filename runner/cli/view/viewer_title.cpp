@@ -1,4 +1,4 @@
-// The window's title: what it shows, or waits for.
+// The window's title: its state, or the reason why it waits.
 #include "cli/view/viewer.hpp"
 
 #include <fmt/format.h>
@@ -6,9 +6,9 @@
 namespace tidemark::cli {
 namespace {
 
-/// So long compiling goes unmentioned.
+/// Compiling is not mentioned before this time.
 constexpr double k_short_wait_seconds = 0.3;
-/// The first thing that is wrong, in one line.
+/// Returns the first error, on one line.
 std::string headline(const Error& error) {
     for (const Diagnostic& diagnostic : error.diagnostics)
         if (diagnostic.severity == Severity::error)
@@ -23,8 +23,8 @@ bool Viewer::compiles_for_long(double now) const {
     return since && now - *since > k_short_wait_seconds;
 }
 
-/// What is being waited for, else the error while there is one, else the frame rate, which changes twice a
-/// second at most.
+/// Sets the title: the compile time while compiling, else the error if there is one, else the state with the
+/// frame rate, which changes twice a second at most.
 void Viewer::show_title(double now) {
     std::string state = stepping_ ? fmt::format("stepping to frame {}, Esc gives up", stepping_->where().last)
                         : given_up_       ? "given up, space goes on"

@@ -1,4 +1,4 @@
-// Seconds of a clock that never goes back, from an origin of its own.
+// Seconds of a monotonic clock, from an arbitrary origin.
 #pragma once
 
 #include <chrono>

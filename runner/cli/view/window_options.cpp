@@ -11,7 +11,7 @@
 namespace tidemark::cli {
 namespace {
 
-/// Farther out no screen is.
+/// Bound of plausible screen coordinates, in pixels.
 constexpr int k_farthest_place = 1 << 15;
 
 Result<platform::ScreenPoint> parse_position(const std::string& text) {

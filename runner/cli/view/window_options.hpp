@@ -10,7 +10,7 @@
 
 namespace tidemark::cli {
 
-/// As they were typed.
+/// The options as typed.
 struct WindowOptions {
     bool on_top = false;
     std::optional<int> monitor;
@@ -19,10 +19,10 @@ struct WindowOptions {
     std::optional<int> output_monitor;
 };
 
-/// --on-top, --monitor, --position, --output-window, --output-monitor.
+/// Adds --on-top, --monitor, --position, --output-window and --output-monitor.
 void add_window_options(Command command, WindowOptions& options);
 
-/// What they say of the first window.
+/// Returns the placement of the first window.
 Result<platform::WindowWishes> resolve(const WindowOptions& options);
 
 } // namespace tidemark::cli

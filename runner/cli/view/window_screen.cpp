@@ -27,7 +27,7 @@ std::vector<platform::InputEvent> WindowScreen::wait(double seconds) {
     return events;
 }
 
-/// Keys are those of the first window; what is closed here is this one alone.
+/// Takes the events of the output window. Its keys act as in the first window; closing it closes only itself.
 void WindowScreen::listen_to_output(std::vector<platform::InputEvent>& events) {
     if (!output_)
         return;
@@ -52,7 +52,7 @@ void WindowScreen::show_on_output(const gl::RenderTarget& picture) {
     output_->swap();
 }
 
-/// Minimised windows have no pixels on some systems.
+/// Returns false for a minimised window, which has no pixels on some systems.
 bool WindowScreen::is_watched() const {
     return extent().width > 0 && extent().height > 0;
 }

@@ -1,4 +1,4 @@
-// A window as a Screen: the picture, with the overlay's panels over it; and perhaps a second window that
+// A window as a Screen: the picture with the overlay's panels over it, and optionally a second window that
 // shows the picture alone.
 #pragma once
 
@@ -12,7 +12,7 @@ namespace tidemark::cli {
 class WindowScreen : public Screen {
 public:
     struct Output {
-        std::optional<int> monitor; ///< full screen there; none: as large as the window
+        std::optional<int> monitor; ///< full screen on it; none: the size of the window
     };
     static Result<std::unique_ptr<Screen>> open(Extent size, const std::string& title,
                                                 const platform::WindowWishes& wishes,
@@ -42,8 +42,8 @@ private:
     void listen_to_output(std::vector<platform::InputEvent>& events);
     void show_on_output(const gl::RenderTarget& picture);
 
-    platform::Window window_;                      ///< owns the context: first in, last out
-    std::optional<platform::OutputWindow> output_; ///< until somebody closes it
+    platform::Window window_;                      ///< owns the context, so it is destroyed last
+    std::optional<platform::OutputWindow> output_; ///< none after the user has closed it
     live::Overlay overlay_;
 };
 

@@ -1,4 +1,4 @@
-// The values of knobs into the files that declare them, each of them whole or not at all.
+// Writes the values of knobs into the files that declare them, each file completely or not at all.
 #pragma once
 
 #include "base/result.hpp"
@@ -9,8 +9,8 @@
 
 namespace tidemark::cli {
 
-/// Those whose value is not their default. Gives a line for people about each file; fails (ErrorCode::write)
-/// where one cannot be written, or declares no such knob any more.
+/// Writes the knobs that differ from their defaults. Returns a message for each file; fails
+/// (ErrorCode::write) where a file cannot be written or no longer declares the knob.
 Result<std::vector<std::string>> write_knobs(const std::vector<scene::Knob>& knobs);
 
 } // namespace tidemark::cli

@@ -1,4 +1,4 @@
-// How the program can come to an operation: the calls and the loops on every way from main.
+// Finds every path of calls from main to an operation, and the loops along those paths.
 #pragma once
 
 #include "glsl/syntax/tree_facts.hpp"
@@ -8,8 +8,9 @@
 namespace tidemark::glsl {
 
 struct CallPaths {
-    std::vector<NodeId> calls; ///< of functions that come to the operation; ascending
-    std::vector<NodeId> loops; ///< around the operation or around such a call
+    std::vector<NodeId> calls; ///< calls of functions that lead to the operation, ascending; functions that
+                               ///< return arrays are left out
+    std::vector<NodeId> loops; ///< loops around the operation or around one of those calls
 };
 
 CallPaths find_call_paths(const ParsedText& text, const TreeFacts& facts, NodeId operation);

@@ -12,8 +12,8 @@ namespace {
 
 using Names = std::unordered_set<std::string_view>;
 
-/// Finds what may differ between pixels, what is made of such values, or set where they decided the way; and
-/// from that, where neighbours part.
+/// Finds the values that may differ between pixels: those computed from such values, and those assigned under
+/// a condition that depends on them. Derives from that where neighbouring pixels take different paths.
 class DivergentRegions {
 public:
     DivergentRegions(const ParsedText& text, const TreeFacts& facts)
@@ -21,11 +21,11 @@ public:
         names_.insert("gl_FragCoord");
         for (NodeId id = 1; id < tree_.nodes.size(); ++id)
             declare(id);
-        while (round()) { // grows, and so ends
+        while (round()) { // each round only adds entries, so this ends
         }
     }
 
-    /// What parts pixels on their way to the node.
+    /// Returns the branch that separates pixels before they reach the node.
     std::optional<DivergentBranch> before(NodeId node) const {
         const NodeId function = tree_.around(node, NodeKind::function);
         if (const NodeId condition = condition_within(function, node); condition != k_no_node)
@@ -38,7 +38,7 @@ public:
     }
 
 private:
-    /// Of `outer`, where it decides whether, or how often, its child `inner` is run.
+    /// Returns the condition of `outer` that decides whether, or how often, its child `inner` runs.
     NodeId condition_over(NodeId inner, NodeId outer) const {
         const auto first = tree_.child(outer, 0);
         switch (tree_[outer].kind) {
@@ -56,7 +56,7 @@ private:
         }
     }
 
-    /// The innermost condition in `scope` that parts pixels on their way to the node; k_no_node: none does.
+    /// Returns the innermost condition in `scope` that separates pixels before the node; k_no_node: none.
     NodeId condition_within(NodeId scope, NodeId node) const {
         for (NodeId inner = node, outer = tree_[node].parent; inner != scope && inner != k_no_node;
              inner = outer, outer = tree_[outer].parent)
@@ -66,13 +66,13 @@ private:
         return k_no_node;
     }
 
-    /// Some pixels leave `scope`, a function or what a loop repeats, at the statement.
+    /// A statement at which some pixels leave `scope`, which is a function or a loop's body.
     struct Exit {
         NodeId statement;
         NodeId scope;
     };
 
-    /// The first in the function that stands before the node, on its way.
+    /// Returns the function's first exit that precedes the node and leads to it; k_no_node: none.
     NodeId exit_before(NodeId function, NodeId node) const {
         const auto exits = exits_.find(function);
         if (exits != exits_.end())
@@ -83,8 +83,8 @@ private:
         return k_no_node;
     }
 
-    /// Whether who does not leave at `exit` may come to the node behind it: not from one branch to the other,
-    /// nor over a jump.
+    /// Returns whether a pixel that stays at `exit` may reach the later node. It does not if the two are in
+    /// opposite branches or if an unconditional jump is between them.
     bool leads_to(NodeId exit, NodeId node) const {
         NodeId from = exit;
         while (!tree_.is_within(node, tree_[from].parent))
@@ -99,7 +99,7 @@ private:
         return true;
     }
 
-    /// Whether anything new was found. Children have the smaller numbers.
+    /// Returns whether anything new was found. Children have smaller numbers than their parents.
     bool round() {
         const size_t before = found_;
         for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
@@ -118,7 +118,7 @@ private:
         return tree_[id].kind == NodeKind::call && functions_.contains(called_name(text_, id));
     }
 
-    /// What nobody sees outside of its function.
+    /// Records names that are not visible outside their function.
     void declare(NodeId id) {
         const bool handed_out =
             tree_[id].kind == NodeKind::parameter && (has_qualifier(text_, tree_.child(id, 0), "out") ||
@@ -152,14 +152,15 @@ private:
         }
     }
 
-    /// By a condition, or where the function is called.
+    /// Returns whether a condition, or a divergent call of the function, separates pixels before the node.
     bool is_divergent(NodeId id) const {
         const NodeId function = tree_.around(id, NodeKind::function);
         return function != k_no_node && (divergent_functions_.contains(text_.word_of(function)) ||
                                          condition_within(function, id) != k_no_node);
     }
 
-    /// Behind an exit a function's own variables are for those who stayed; behind a `continue` nothing is.
+    /// After an exit, a function's own variables exist only for the pixels that stayed; after a `continue`
+    /// the other pixels come back.
     bool set_by_some(NodeId assignment) const {
         if (is_divergent(assignment))
             return true;
@@ -172,7 +173,8 @@ private:
                !locals->second.contains(text_.word_of(base_of(tree_, tree_.child(assignment, 0))));
     }
 
-    /// Arguments become parameters; what is written through one may be anything.
+    /// Marks parameters with differing arguments. A variable passed to an `out` parameter of an author's
+    /// function is assumed to differ.
     void call(NodeId id) {
         const std::string_view name = called_name(text_, id);
         const FunctionFacts* function = name.empty() ? nullptr : facts_.function(name);
@@ -197,7 +199,8 @@ private:
         }
     }
 
-    /// A way out of a function or a loop: by return, discard, continue, break, or a call that discards.
+    /// Records a statement that leaves a function or a loop: return, discard, continue, break, or a call that
+    /// discards.
     void leave(NodeId id) {
         const NodeId function = tree_.around(id, NodeKind::function);
         if (function == k_no_node)
@@ -217,7 +220,7 @@ private:
             found_ += divergent_loops_.insert(around).second;
     }
 
-    /// `partly`: of itself, whatever is around it.
+    /// Records the exit; `partly`: the statement itself stops only some of the pixels.
     void leave(NodeId id, NodeId scope, bool partly) {
         if (!partly && condition_within(scope, id) == k_no_node)
             return;
@@ -241,7 +244,7 @@ private:
         return tree_[id].kind == NodeKind::call ? called_name(text_, id) : std::string_view{};
     }
 
-    /// The loop that a break or a continue is about; k_no_node: it leaves a switch.
+    /// Returns the loop that a break or a continue refers to; k_no_node: it leaves a switch.
     NodeId left_by(NodeId jump) const {
         for (NodeId around = tree_[jump].parent; around != k_no_node; around = tree_[around].parent) {
             if (is_loop(tree_[around].kind))
@@ -261,15 +264,16 @@ private:
     const ParsedText& text_;
     const SyntaxTree& tree_;
     const TreeFacts& facts_;
-    size_t found_ = 0;          ///< entries of what stands below
-    std::vector<bool> differs_; ///< expressions
-    Names names_;               ///< of variables
-    Names functions_;           ///< by what they give back
-    Names discarding_;          ///< functions that may
-    Names partly_;              ///< functions in which some pixels are discarded
-    std::unordered_map<std::string_view, DivergentBranch> divergent_functions_; ///< by where they are called
-    std::unordered_map<NodeId, std::vector<Exit>> exits_; ///< of a function, as they stand in it
-    std::unordered_map<NodeId, Names> locals_;            ///< of a function
+    size_t found_ = 0;          ///< number of entries in the members below
+    std::vector<bool> differs_; ///< per expression
+    Names names_;               ///< variables that differ
+    Names functions_;           ///< functions whose result differs
+    Names discarding_;          ///< functions that may discard
+    Names partly_;              ///< functions that discard some of the pixels
+    /// Functions that only some of the pixels call, by name.
+    std::unordered_map<std::string_view, DivergentBranch> divergent_functions_;
+    std::unordered_map<NodeId, std::vector<Exit>> exits_; ///< by function, in the order of the text
+    std::unordered_map<NodeId, Names> locals_;            ///< by function
     std::unordered_set<NodeId> divergent_loops_;
 };
 
@@ -287,7 +291,7 @@ std::vector<Divergent> find_divergent(const ParsedText& text, const TreeFacts& f
                            (builtin->is(Trait::implicit_lod) && sampler != k_no_node &&
                             tree[sampler].kind == NodeKind::name && has_mipmaps(text.word_of(sampler))));
     };
-    std::optional<DivergentRegions> regions; // most texts need none
+    std::optional<DivergentRegions> regions; // created on demand: most texts need none
     std::vector<Divergent> found;
     for (NodeId id = 1; id < tree.nodes.size(); ++id) {
         if (tree[id].kind != NodeKind::call || !needs_neighbours(id))

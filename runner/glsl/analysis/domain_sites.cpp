@@ -10,7 +10,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// A number that stands in the text.
+/// Returns the value of a literal, also in parentheses or after a minus sign.
 std::optional<double> number_of(const ParsedText& text, NodeId id) {
     const SyntaxTree& tree = text.tree();
     if (tree[id].kind == NodeKind::parenthesis)
@@ -28,7 +28,7 @@ std::optional<double> number_of(const ParsedText& text, NodeId id) {
     return value;
 }
 
-/// Every number of `2.0`, `vec3(1.0, 2.0, 3.0)`; nothing for what does not stand in the text.
+/// Returns the numbers of a literal or of a constructor of literals, such as `vec3(1.0, 2.0, 3.0)`.
 std::optional<std::vector<double>> numbers_of(const ParsedText& text, NodeId id) {
     if (const auto one = number_of(text, id))
         return std::vector<double>{*one};
@@ -45,7 +45,7 @@ std::optional<std::vector<double>> numbers_of(const ParsedText& text, NodeId id)
     return all;
 }
 
-/// `iResolution.xy`: the host draws nothing without a size.
+/// Returns whether the node is iResolution or a part of it: the host draws nothing at size zero.
 bool is_the_size(const ParsedText& text, NodeId id) {
     const SyntaxTree& tree = text.tree();
     while (tree[id].kind == NodeKind::member || tree[id].kind == NodeKind::parenthesis)
@@ -53,7 +53,7 @@ bool is_the_size(const ParsedText& text, NodeId id) {
     return tree[id].kind == NodeKind::name && text.word_of(id) == "iResolution";
 }
 
-/// `max(x, 0.01)`.
+/// Returns whether the node is a `max` with a positive literal, such as `max(x, 0.01)`.
 bool is_guarded(const ParsedText& text, NodeId id) {
     const SyntaxTree& tree = text.tree();
     if (tree[id].kind != NodeKind::call || called_name(text, id) != "max")
@@ -65,8 +65,8 @@ bool is_guarded(const ParsedText& text, NodeId id) {
     return is_positive(tree.child(id, 1)) || is_positive(tree.child(id, 2));
 }
 
-/// Whether the text itself says that the call is inside of its domain. Numbers on every side of the domains'
-/// edges stand for an argument that it does not tell.
+/// Returns whether the literals in the text keep the call inside its domain. An unknown argument is replaced
+/// by numbers on every side of the domains' edges.
 bool surely_defined(const ParsedText& text, NodeId call, const Domain& domain) {
     const SyntaxTree& tree = text.tree();
     std::vector<double> anything{-2, 0, 2};
@@ -85,7 +85,7 @@ bool surely_defined(const ParsedText& text, NodeId call, const Domain& domain) {
     return true;
 }
 
-/// The same of `a / b`, where only 0 / 0 is undefined.
+/// Returns whether the literals in the text keep `a / b` defined; only 0 / 0 is undefined.
 bool surely_defined(const ParsedText& text, NodeId quotient) {
     const NodeId below = text.tree().child(quotient, 1);
     const auto has_no_zero = [&](NodeId id) {
@@ -100,7 +100,8 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
     return std::ranges::find(words, word) != words.end();
 }
 
-/// A name, or members and elements of one: saying it twice does nothing twice.
+/// Returns whether the node is a name, a literal, or a member or element of a name, so that evaluating it
+/// twice has no side effect.
 bool is_place(const ParsedText& text, NodeId id) {
     const SyntaxTree& tree = text.tree();
     switch (tree[id].kind) {
@@ -134,7 +135,7 @@ private:
         found_.push_back({id, kind, to_unsigned});
     }
 
-    /// Whether `id` is a call or a quotient with a domain, as GLSL's own functions have.
+    /// Returns whether `id` is a call or a quotient that has a domain, as GLSL's own functions have.
     bool is_float_site(NodeId id) const {
         if (tree_[id].kind != NodeKind::call)
             return domain_name(text_, id) == k_quotient && is_float_operation(text_, facts_, id) &&
@@ -168,7 +169,7 @@ private:
             if (!number || *number == 0)
                 add(id, DomainKind::divisor);
         } else if (is_one_of(op, {"/", "/="}) && facts_.surely_whole[tree_.child(id, 0)] && !number) {
-            add(id, DomainKind::quotient); // `7 / s.n`: by what the driver finds it to be
+            add(id, DomainKind::quotient); // `7 / s.n`: the driver's overload resolution finds the type
         } else if (is_one_of(op, {"<", ">", "<=", ">="}) ||
                    (is_one_of(op, {"==", "!="}) && (number || number_of(text_, tree_.child(id, 0))))) {
             if (!counts(id))
@@ -176,7 +177,7 @@ private:
         }
     }
 
-    /// `i < 10` at the head of a loop.
+    /// Returns whether the node is a whole-number comparison in the head of a `for`, such as `i < 10`.
     bool counts(NodeId id) const {
         return facts_.surely_whole[tree_.child(id, 0)] && tree_[tree_[id].parent].kind == NodeKind::loop_for;
     }
@@ -186,7 +187,7 @@ private:
         if (tree_[which].kind == NodeKind::absent || number_of(text_, which) || !is_place(text_, what) ||
             facts_.is_type(text_.word(tree_[what].begin))) // `float[n](…)`
             return;
-        if (text_.is_es()) { // where vectors have no length
+        if (text_.is_es()) { // ES vectors have no length()
             const auto name = facts_.names.find(text_.word_of(what));
             if (tree_[what].kind != NodeKind::name || name == facts_.names.end() || !name->second.array)
                 return;

@@ -7,13 +7,13 @@ bool is_arithmetic(std::string_view op) {
     return op == "+" || op == "-" || op == "*" || op == "/";
 }
 
-/// Evaluating it twice does nothing twice.
+/// Returns whether evaluating the node twice has no side effect.
 bool is_pure(const SyntaxTree& tree, NodeId id) {
     switch (tree[id].kind) {
     case NodeKind::call:
     case NodeKind::assign:
     case NodeKind::postfix:
-    case NodeKind::prefix: return false; // ++ and --; others stand in no target but its index
+    case NodeKind::prefix: return false; // ++ and --; other prefixes appear only in a target's index
     default: break;
     }
     for (NodeId child = tree[id].first_child; child != k_no_node; child = tree[child].next)

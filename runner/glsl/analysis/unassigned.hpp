@@ -1,5 +1,5 @@
-// What a text reads that may not have a value yet, and functions that may come to their end without one:
-// undefined, but where a site begins with zeros.
+// Finds variables that may be read before they have a value, and functions that may end without a return
+// value. Both are undefined in GLSL; ShaderToy's site uses zeros.
 #pragma once
 
 #include "glsl/flow/assigned.hpp"
@@ -11,18 +11,18 @@ namespace tidemark::glsl {
 struct Unassigned {
     enum class Why : unsigned char {
         never,            ///< nothing writes the variable
-        on_some_way,      ///< some way to the read leaves it, or a part of it, without
+        on_some_way,      ///< some path to the read leaves it, or a part of it, unset
         not_given,        ///< an `out` parameter that nothing writes
-        left_on_some_way, ///< an `out` parameter that some way to the function's end leaves without
-        no_return         ///< some way to the function's end gives nothing back
+        left_on_some_way, ///< an `out` parameter that some path to the function's end leaves unset
+        no_return         ///< some path to the function's end returns no value
     };
     Why why = Why::never;
     NodeId what = k_no_node; ///< declarator, parameter or function
-    NodeId at = k_no_node;   ///< the first read; the `return` or the body's block; the function
+    NodeId at = k_no_node;   ///< the first read, the `return` or body, or the function itself
 };
 
-/// In functions that `main` comes to, in the order of the text. Says nothing where overloads leave it open
-/// whether an argument is written.
+/// Returns the faults in functions reachable from `main`, in the order of the text. Reports nothing if
+/// overloads leave it open whether an argument is written.
 std::vector<Unassigned> find_unassigned(const ParsedText& text, const TreeFacts& facts);
 
 } // namespace tidemark::glsl

@@ -1,4 +1,4 @@
-// A look-up in a texture that takes the level of its mipmaps from the text, not from neighbouring pixels.
+// Fixes a texture look-up so that its mipmap level comes from the text, not from neighbouring pixels.
 #pragma once
 
 #include "glsl/analysis/divergence.hpp"
@@ -6,10 +6,12 @@
 
 namespace tidemark::glsl {
 
-/// A call of `texture` with a sampler by its name, in its author's words; nothing where it is no such call.
+/// Returns the tokens of a call of `texture` with a named sampler, as its author wrote them; nothing for
+/// anything else.
 std::optional<WrittenTokens> look_up_by_neighbours(const ParsedText& text, const TreeFacts& facts, NodeId id);
 
-/// The base level. A bias goes: one of -100 means the same, and is no less undefined.
+/// Sets the base level and drops a bias: a bias of -100 would also choose the base level, but it stays
+/// undefined.
 std::optional<Cure> base_level(const ParsedText& text, const TreeFacts& facts, const Divergent& fault);
 
 } // namespace tidemark::glsl

@@ -8,7 +8,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// A wrap at one of the places where its words stand.
+/// A wrap at one of the places where its tokens are.
 struct Placed {
     size_t begin = 0, end = 0;
     const Wrap* wrap = nullptr;
@@ -21,16 +21,15 @@ struct Placed {
     bool overlaps(const Placed& other) const { return begin < other.end && other.begin < end; }
 };
 
-/// One insertion, in the order in which those at one place have to stand: what ends an inner wrap, what ends
-/// an outer one, what begins an outer one, what begins an inner one. Of two around the same words the later
-/// cure is the outer one.
+/// One insertion. Insertions at one place are ordered: end of an inner wrap, end of an outer one, start of an
+/// outer one, start of an inner one. Of two wraps around the same tokens, the later cure is the outer one.
 struct Insertion {
     size_t at = 0;
     bool front = false;
-    size_t other = 0; ///< where its wrap's other half stands
+    size_t other = 0; ///< position of the other half of its wrap
     std::string_view text{};
     size_t cure = 0;
-    size_t until = 0; ///< the words to there go
+    size_t until = 0; ///< the text up to here is removed
 
     bool stands_before(const Insertion& next) const {
         if (at != next.at)
@@ -55,7 +54,8 @@ std::vector<text::Edit> edits_of(const std::vector<Placed>& wraps) {
     return edits;
 }
 
-/// Without those whose words go. False: two overlap, and neither is inside of the other.
+/// Removes wraps whose text another wrap replaces. Returns false if two overlap and neither is inside the
+/// other.
 bool leave_out_replaced(std::vector<Placed>& wraps) {
     const std::vector<Placed> all = wraps;
     std::erase_if(wraps, [&](const Placed& each) {
@@ -70,7 +70,7 @@ bool leave_out_replaced(std::vector<Placed>& wraps) {
     });
 }
 
-/// Where the lines of a text begin, by the lines that their authors know.
+/// Finds the lines of a text by their file and line number in the author's files.
 class Lines {
 public:
     explicit Lines(const text::MappedText& text) : text_(text) {
@@ -81,7 +81,7 @@ public:
         }
     }
 
-    /// Every offset at which a word stands. A file may be in the text more than once.
+    /// Returns every offset of the token. A file may be in the text more than once.
     std::vector<size_t> find(const WrittenWord& wanted) const {
         std::vector<size_t> found;
         const auto lines = lines_.find({wanted.where.file, wanted.where.line});
@@ -106,7 +106,7 @@ private:
     std::map<std::pair<std::string, int>, std::vector<Line>> lines_;
 };
 
-/// Nothing where the ends of a wrap are not as many as its beginnings.
+/// Returns nothing if a wrap's first and last tokens do not occur equally often.
 std::optional<std::vector<Placed>> placed(const Lines& lines, std::span<const Cure> cures) {
     std::vector<Placed> all;
     for (size_t number = 0; number < cures.size(); ++number)
@@ -120,7 +120,7 @@ std::optional<std::vector<Placed>> placed(const Lines& lines, std::span<const Cu
     return all;
 }
 
-/// Lines that end in CR alone, as ours, which end in LF.
+/// Returns the text with LF for every CR that ends a line alone; other line ends stay.
 std::string with_line_feeds(std::string_view text) {
     std::string result(text);
     for (size_t i = 0; i < result.size(); ++i)
@@ -129,7 +129,7 @@ std::string with_line_feeds(std::string_view text) {
     return result;
 }
 
-/// The ends of lines that the original has: of as many lines.
+/// Restores the original's line ends; both texts have the same number of lines.
 void restore_line_ends(std::string& text, std::string_view original) {
     size_t i = 0;
     for (char& c : text) {
@@ -139,7 +139,7 @@ void restore_line_ends(std::string& text, std::string_view original) {
         if (i == original.npos)
             return;
         if (original.substr(i).starts_with("\r\n"))
-            ++i; // the CR before it is in the text
+            ++i; // the text still has the CR before it
         c = original[i++];
     }
 }

@@ -1,5 +1,5 @@
-// A change of a text, as a plain value: what is to be written in front of and behind words of its author's,
-// or in their place; and how that is put into a text. A cure of a fault takes no word away, a cut does.
+// A change of a source text as a plain value: text to insert before and after an author's tokens, or to
+// replace them with. Applies such changes to a text; does not find them.
 #pragma once
 
 #include "base/error.hpp"
@@ -13,34 +13,34 @@
 
 namespace tidemark::glsl {
 
-/// A word where its author wrote it.
+/// A token and its place in the author's file.
 struct WrittenWord {
     SourceLocation where;
     std::string word;
     bool operator==(const WrittenWord&) const = default;
 };
 
-/// `front` before the first word, `behind` after the last. Both may be the same word.
+/// Inserts `front` before the first token and `behind` after the last. Both may be the same token.
 struct Wrap {
     WrittenWord first, last;
     std::string front, behind;
-    bool replaces = false; ///< the words between go
+    bool replaces = false; ///< `front` replaces the tokens
     bool operator==(const Wrap&) const = default;
 };
 
 struct Cure {
     std::vector<Wrap> wraps;
-    std::string reason; ///< a sentence: what it changes, and what stays
+    std::string reason; ///< a sentence that says what changes and what stays
     bool operator==(const Cure&) const = default;
 };
 
-/// The text with all cures in it, each at the places of the text as it is now. Inner wraps come to stand
-/// inside of outer ones, whatever the order; what is changed inside of words that go goes with them. Nothing
-/// where a word is not where it should be, or where two overlap and neither is inside.
+/// Returns the text with all cures applied, each at places of the original text. Inner wraps are nested in
+/// outer ones in any order of cures; a change inside replaced text is dropped. Returns nothing if a token is
+/// not at its place, or if two changes overlap and neither is inside the other.
 std::optional<std::string> cured(std::string_view text, std::string_view file, std::span<const Cure> cures);
 
-/// The same of a text that was put together from files: wherever it holds the words. False, and unchanged,
-/// where it holds some of a wrap's and not the others.
+/// Applies the cures to a text assembled from files, at every place that holds the tokens. Returns false, and
+/// changes nothing, if the text holds some tokens of a wrap but not the others.
 bool apply(text::MappedText& text, std::span<const Cure> cures);
 
 } // namespace tidemark::glsl

@@ -12,15 +12,15 @@
 namespace tidemark::glsl {
 namespace {
 
-/// An argument that is kept within the function's domain.
+/// The text that keeps one argument within the function's domain.
 struct Guard {
     std::string_view function;
     size_t argument;
     std::string_view front, behind;
 };
 
-// The numbers are the last inside of the domain where it has a last one. Else they are so small that nobody
-// computes with them, and so large that what they give can still be squared.
+// Each number is the last one inside the domain if there is a last one. Otherwise it is so small that no
+// shader computes with it, and the function's value there can still be squared.
 constexpr Guard k_guards[] = {
     {"sqrt", 0, "max(", ", 0.0)"},
     {"inversesqrt", 0, "max(", ", 1e-30)"},
@@ -90,7 +90,8 @@ private:
                                 name_, guard.front, guard.behind));
     }
 
-    /// `2.0`, which a power of a negative number has a value for.
+    /// Returns whether the exponent is an even literal, such as `2.0`: the power of a negative number has a
+    /// value then.
     bool has_even_exponent() const {
         const NodeId exponent = argument(1);
         double value = 1;
@@ -131,7 +132,7 @@ private:
             reason);
     }
 
-    /// The call only where it is defined.
+    /// Calls the function only where it is defined.
     void choose_instead() {
         std::array<std::optional<std::string>, 3> words;
         for (size_t i = 0; i < words.size() && argument(i) != k_no_node; ++i)

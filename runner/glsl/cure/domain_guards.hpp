@@ -1,5 +1,5 @@
-// Guards for operations that are outside of their domain somewhere: what a text could say instead, one row
-// for each function. A guard hands on an operand that is inside of the domain as it is, bit by bit.
+// Proposes guards for operations that can be outside of their domain, from one table row per function. A
+// guard passes an operand that is inside the domain unchanged, bit by bit.
 #pragma once
 
 #include "glsl/cure/written.hpp"
@@ -8,8 +8,8 @@
 
 namespace tidemark::glsl {
 
-/// The guards for a call or a quotient of floats, the plainest first; empty: none is known, or its words
-/// cannot be changed where they stand. Whether one helps is for who draws it to say.
+/// Returns the guards for a call or a quotient of floats, the simplest first. Empty if none is known or the
+/// text cannot be changed there. The caller measures whether a guard helps.
 std::vector<Cure> domain_guards(const ParsedText& text, const TreeFacts& facts, NodeId operation);
 
 } // namespace tidemark::glsl

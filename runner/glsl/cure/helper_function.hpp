@@ -1,5 +1,5 @@
-// Cures that call a function of their own, which comes to stand in front of the first function that calls it:
-// one cure for each file.
+// Builds fixes that call a function of their own, which is inserted before the first function that calls it:
+// one fix per file.
 #pragma once
 
 #include "glsl/cure/written.hpp"
@@ -14,21 +14,22 @@ namespace tidemark::glsl {
 
 class HelperFunction {
 public:
-    /// `name` gets a number where a word of the text has it already.
+    /// `name` gets a number if the text already uses it.
     HelperFunction(const ParsedText& text, std::string_view name) : text_(text), wanted_(name) {}
 
-    /// What stands instead of an expression, by the function's name; nothing: it stays.
+    /// Returns the text that replaces an expression, given the function's name; nothing: the expression
+    /// stays.
     using Say = std::function<std::optional<std::string>(const std::string& name)>;
     void use(NodeId expression, const Say& say);
 
-    /// `define` gives the function by its name, on one line.
+    /// `define` returns the function's definition for its name, on one line.
     std::vector<Cure> cures(const std::function<std::string(const std::string& name)>& define,
                             const std::string& reason) const;
 
 private:
     struct Uses {
         std::string name;
-        Wrap first; ///< word of the first function
+        Wrap first; ///< token at the start of the first function that uses it
         std::vector<Wrap> wraps{};
     };
 

@@ -10,19 +10,19 @@
 namespace tidemark::glsl {
 namespace {
 
-/// The statement of the function's body that a node is in; k_no_node: it is in none.
+/// Returns the statement of the function's body that holds the node; k_no_node: none does.
 NodeId outermost_statement(const SyntaxTree& tree, NodeId id) {
     while (id != k_no_node && tree[tree[tree[id].parent].parent].kind != NodeKind::function)
         id = tree[id].parent;
     return id != k_no_node && tree[tree[id].parent].kind == NodeKind::block ? id : k_no_node;
 }
 
-/// Whether a name in `expression` is declared or set from one statement to the other.
+/// Returns whether a name in `expression` is declared or set between the two statements, both included.
 bool changes_between(const ParsedText& text, const TreeFacts& facts, NodeId expression, NodeId first,
                      NodeId last) {
     const SyntaxTree& tree = text.tree();
     std::set<std::string_view> used;
-    for (NodeId id = 1; id <= expression; ++id) // parts stand before what they are parts of
+    for (NodeId id = 1; id <= expression; ++id) // parts come before the node that holds them
         if (tree[id].kind == NodeKind::name && tree.is_within(id, expression))
             used.insert(text.word_of(id));
     for (NodeId id = 1; id <= last; ++id) {

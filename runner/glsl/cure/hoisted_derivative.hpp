@@ -1,4 +1,5 @@
-// A derivative, or a look-up that chooses its mipmap, taken before neighbouring pixels diverge.
+// Fixes a derivative, or a look-up that chooses its mipmap, by moving it before the place where pixels
+// diverge.
 #pragma once
 
 #include "glsl/analysis/divergence.hpp"
@@ -6,9 +7,9 @@
 
 namespace tidemark::glsl {
 
-/// Its value gets a name in front of the statement of the function's body in which neighbours diverge.
-/// Nothing where it is called from a place where they already diverge, where something that it is made of is
-/// declared or set in between, or where its type is not known.
+/// Stores its value in a variable before the body's statement in which neighbouring pixels diverge. Returns
+/// nothing if the function is called where they already diverge, if a name in the expression is declared or
+/// set in between, or if its type is unknown.
 std::optional<Cure> hoisted_derivative(const ParsedText& text, const TreeFacts& facts,
                                        const Divergent& fault);
 

@@ -7,7 +7,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// Where the zero of a variable, a parameter or what a function gives is to be written.
+/// Writes the zero of a variable, of a parameter or of a function's result.
 class Zeros {
 public:
     Zeros(const ParsedText& text, const TreeFacts& facts) : text_(text), facts_(facts), shapes_(text) {}
@@ -18,7 +18,7 @@ public:
         return written ? std::optional(wrapped(text_, *written, "", " = " + *zero)) : std::nullopt;
     }
 
-    /// The first of what the function does.
+    /// Sets the parameter at the start of the function's body.
     std::optional<Wrap> where_it_begins(NodeId parameter) {
         const NodeId body = body_of_function(text_, tree().around(parameter, NodeKind::function));
         const auto zero = zero_of(tree().child(parameter, 0), parameter);

@@ -1,4 +1,4 @@
-// Zeros for what a text reads before it has a value: what ShaderToy's site gives there.
+// Fixes reads of variables without a value by writing the zeros that ShaderToy's site uses.
 #pragma once
 
 #include "glsl/analysis/unassigned.hpp"
@@ -6,7 +6,7 @@
 
 namespace tidemark::glsl {
 
-/// Nothing for an array of unknown length or many numbers, and where the words cannot be changed.
+/// Returns nothing for an array of unknown length or many numbers, and where the text cannot be changed.
 std::optional<Cure> initial_value(const ParsedText& text, const TreeFacts& facts, const Unassigned& fault);
 
 } // namespace tidemark::glsl

@@ -9,7 +9,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// Of the type that the digits have whose place it takes.
+/// Writes the value with the type of the digits that it replaces.
 std::string number_like(std::string_view digits, double value) {
     std::string text = fmt::format("{}", value);
     if (digits.find_first_of(".eE") != digits.npos)

@@ -1,4 +1,4 @@
-// Another number of turns for a loop whose text says one.
+// Changes the number of iterations of a loop whose text states it as a literal.
 #pragma once
 
 #include "glsl/cure/written.hpp"
@@ -8,8 +8,8 @@
 
 namespace tidemark::glsl {
 
-/// The number that `bound` counts to, so that the loop turns `turns` times. Nothing where there is none, or
-/// where it cannot be written.
+/// Replaces the number that `bound` counts to, so that the loop has `turns` iterations. Returns nothing if
+/// there is no such number or if it cannot be changed in the text.
 std::optional<Wrap> with_turns(const ParsedText& text, const LoopBound& bound, double turns);
 
 } // namespace tidemark::glsl

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array k_more{2.0, 4.0, 8.0};
 constexpr std::array k_shorter{0.8, 0.6, 0.4, 0.25, 0.1};
 constexpr std::array k_larger{4.0, 16.0, 64.0, 256.0};
-/// What is compared with more is no threshold.
+/// Larger literals are not taken for a threshold.
 constexpr double k_largest_threshold = 0.1;
 
 bool is_on(const ParsedText& text, size_t word, const SourceLocation& line) {
@@ -34,20 +34,20 @@ bool holds(const ParsedText& text, NodeId id, const SourceLocation& line) {
     return false;
 }
 
-/// The innermost that has both the test and the step; k_no_node: there is none.
+/// Returns the innermost loop that has both the test and the step; k_no_node: none.
 NodeId find_loop(const ParsedText& text, const MarchPlace& place) {
     const SyntaxTree& tree = text.tree();
     const auto fits = [&](NodeId id) {
         return is_loop(tree[id].kind) && holds(text, id, place.test) &&
                std::ranges::all_of(place.updates, [&](const auto& line) { return holds(text, id, line); });
     };
-    for (NodeId id = 1; id < tree.nodes.size(); ++id) // inner ones come first
+    for (NodeId id = 1; id < tree.nodes.size(); ++id) // inner loops come first
         if (fits(id))
             return id;
     return k_no_node;
 }
 
-/// What is added in `t += d` and in `t = t + d`.
+/// Returns the added expression of `t += d` and of `t = t + d`.
 NodeId added_in(const ParsedText& text, NodeId assignment) {
     const SyntaxTree& tree = text.tree();
     if (tree[assignment].kind != NodeKind::assign)
@@ -60,7 +60,7 @@ NodeId added_in(const ParsedText& text, NodeId assignment) {
     return sum ? tree.child(value, 1) : k_no_node;
 }
 
-/// The steps of a march that its lines leave no doubt about.
+/// Returns the steps of a march; empty unless each update line has exactly one.
 std::vector<NodeId> find_steps(const ParsedText& text, NodeId loop, const MarchPlace& place) {
     const SyntaxTree& tree = text.tree();
     std::vector<NodeId> steps;
@@ -80,7 +80,7 @@ std::vector<NodeId> find_steps(const ParsedText& text, NodeId loop, const MarchP
     return steps;
 }
 
-/// `factor` times as many turns; nothing where no number says how often the loop turns.
+/// Multiplies the iterations by `factor`; nothing if the loop has no literal bound.
 std::optional<Cure> turned_more(const ParsedText& text, NodeId loop, double factor) {
     const auto bound = loop == k_no_node ? std::nullopt : loop_bound(text, loop);
     const double turns = bound ? std::ceil(factor * bound->turns) : 0;
@@ -90,7 +90,7 @@ std::optional<Cure> turned_more(const ParsedText& text, NodeId loop, double fact
     return Cure{{*std::move(wrap)}, fmt::format("{:g} turns instead of {:g}", turns, bound->turns)};
 }
 
-/// The one literal of a factor; k_no_node: there is none, or there are more.
+/// Returns the only literal of a product; k_no_node: there is none, or there are several.
 NodeId literal_of(const ParsedText& text, NodeId id) {
     const SyntaxTree& tree = text.tree();
     id = without_brackets(tree, id);
@@ -100,7 +100,7 @@ NodeId literal_of(const ParsedText& text, NodeId id) {
     return left == k_no_node ? right : right == k_no_node ? left : k_no_node;
 }
 
-/// One that may be a threshold; of a name that of its value.
+/// Returns the literal of an operand, or of a name's value, if it is small enough for a threshold.
 NodeId small_literal(const ParsedText& text, const SingleValues& values, NodeId id) {
     const NodeId value = values.of(without_brackets(text.tree(), id));
     const NodeId literal = literal_of(text, value == k_no_node ? id : value);
@@ -108,7 +108,7 @@ NodeId small_literal(const ParsedText& text, const SingleValues& values, NodeId 
     return size && *size > 0 && *size <= k_largest_threshold ? literal : k_no_node;
 }
 
-/// Of the test that looks at the distance; k_no_node where its line leaves a doubt.
+/// Returns the threshold of the distance test; k_no_node if its line is ambiguous.
 NodeId threshold_of(const ParsedText& text, const TreeFacts& facts, NodeId loop, const SourceLocation& line) {
     const SyntaxTree& tree = text.tree();
     const SingleValues values(text, facts);

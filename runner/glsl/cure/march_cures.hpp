@@ -1,5 +1,5 @@
-// For marches that pass over what they should hit, or end in front of it: shorter steps, more of them, or a
-// threshold that they can come to.
+// Fixes marches that step over a surface or end before it: shorter steps, more of them, or a threshold that
+// they can reach.
 #pragma once
 
 #include "glsl/cure/written.hpp"
@@ -8,21 +8,21 @@
 
 namespace tidemark::glsl {
 
-/// Where a marching loop stands in its author's text.
+/// The place of a marching loop in its author's text.
 struct MarchPlace {
-    SourceLocation test;                 ///< of the comparison that looks at the distance
-    std::vector<SourceLocation> updates; ///< where the place on the ray goes on
+    SourceLocation test;                 ///< the comparison that tests the distance
+    std::vector<SourceLocation> updates; ///< the assignments that advance the position on the ray
 };
 
-/// Twice as many turns, four times, eight times; empty where no number in the loop's head says how many.
+/// Returns fixes with 2, 4 and 8 times the iterations; empty if the loop's head has no literal bound.
 std::vector<Cure> more_turns(const ParsedText& text, MarchPlace place);
 
-/// Steps of 0.8, 0.6 and so on of what they were, with as many more turns where a number says how many; empty
-/// where it is not certain what the step is.
+/// Returns fixes with steps of 0.8, 0.6, 0.4, 0.25 and 0.1 of the distance, with as many more iterations
+/// where the bound is a literal; empty if the step is not certain.
 std::vector<Cure> shorter_steps(const ParsedText& text, const MarchPlace& place);
 
-/// A threshold of 4, 16, 64 and 256 times what the distance is compared with; empty where that is not a small
-/// number, by its digits or by the name of a constant.
+/// Returns fixes with 4, 16, 64 and 256 times the threshold, up to 0.1; empty if the threshold is not a small
+/// literal or a constant with such a value.
 std::vector<Cure> larger_threshold(const ParsedText& text, const TreeFacts& facts, const MarchPlace& place);
 
 } // namespace tidemark::glsl

@@ -13,30 +13,31 @@
 namespace tidemark::glsl {
 namespace {
 
-/// A name of a name of a name.
+/// Longest chain of names whose values are names.
 constexpr int k_most_names = 8;
 
-/// Of turns a second, in three parts of 12 bits: the products with both halves of iTime are exact, and lose
-/// nothing by the fraction (T. J. Dekker's splitting, 1971). To 4e-7 of a turn.
+/// GLSL function: the fraction of `rate` times the time, in turns, to 4e-7 of a turn. The rate (turns per
+/// second) comes in three parts of 12 bits, so that the products with both halves of iTime are exact and lose
+/// nothing by `fract` (T. J. Dekker's splitting, 1971).
 constexpr std::string_view k_turns =
     "(vec3 rate) { float upper = uintBitsToFloat(floatBitsToUint(iTime) & 0xfffff000u); "
     "vec3 turns = fract(rate * upper) + fract(rate * (iTime - upper)); "
     "return fract(turns.x + turns.y + turns.z + (rate.x + rate.y + rate.z) * iTimeLow); } ";
 
-/// The nearest number of 12 bits.
+/// Returns the nearest number with 12 bits.
 double upper_part(double value) {
     int exponent = 0;
     const double mantissa = std::frexp(value, &exponent);
     return std::ldexp(std::nearbyint(std::ldexp(mantissa, 12)), exponent - 12);
 }
 
-/// It has all its digits as one.
+/// Returns whether the magnitude is that of a normal float.
 bool is_float(double value) {
     const double size = std::abs(value);
     return size >= std::numeric_limits<float>::min() && size <= std::numeric_limits<float>::max();
 }
 
-/// With all digits: a scene in double reads them as doubles.
+/// Writes the rate's three parts with all digits: a scene in double precision reads them as doubles.
 std::string in_parts(double rate) {
     const double first = upper_part(rate), second = upper_part(rate - first);
     return fmt::format("vec3({}, {}, {})", first, second, upper_part(rate - first - second));
@@ -62,7 +63,7 @@ private:
         return fmt::format("{}float {}{}", declared ? "" : "uniform float iTimeLow; ", name, k_turns);
     }
 
-    /// After how much a function is where it was.
+    /// Returns the period of a periodic function's call.
     std::optional<double> period_of(NodeId id) {
         if (tree_[id].kind != NodeKind::call || facts_.function(called_name(text_, id)))
             return std::nullopt;
@@ -77,10 +78,11 @@ private:
 
     struct Number {
         double value;
-        bool whole; ///< no value but an int's
+        bool whole; ///< an int
     };
 
-    /// Worked out once. Of what is being worked out it is none: a name may stand in its own value.
+    /// Returns the value of a constant expression, computed once per node. A name that occurs in its own
+    /// value is not a constant.
     std::optional<Number> constant(NodeId id, int names = 0) {
         if (!constants_[id].known) {
             constants_[id].known = true;
@@ -116,7 +118,8 @@ private:
         }
     }
 
-    /// None of two ints, which are counted otherwise: 2 / 3 is 0. And none that is not finite.
+    /// Returns nothing for two ints, which divide differently (2 / 3 is 0), and for a result that is not
+    /// finite.
     static std::optional<Number> worked_out(std::string_view sign, const Number& left, const Number& right) {
         if ((sign != "*" && sign != "/") || (left.whole && right.whole))
             return std::nullopt;
@@ -124,7 +127,7 @@ private:
         return std::isfinite(value) ? std::optional(Number{value, false}) : std::nullopt;
     }
 
-    /// The number that iTime is multiplied by in an expression that is nothing else.
+    /// Returns the factor of iTime if the expression is iTime times constants.
     std::optional<double> rate_of(NodeId id, int names = 0) {
         id = without_brackets(tree_, id);
         if (tree_[id].kind == NodeKind::name) {
@@ -143,7 +146,7 @@ private:
         double factor;
     };
 
-    /// `3.0 * x`, `x * 3.0`, `x / 3.0`.
+    /// Splits `3.0 * x`, `x * 3.0` and `x / 3.0` into the part x and its factor.
     std::optional<Scaled> scaled_part(NodeId id) {
         if (tree_[id].kind != NodeKind::binary)
             return std::nullopt;
@@ -159,8 +162,8 @@ private:
                         : std::nullopt;
     }
 
-    /// `turn` times the fraction of `rate` times the time, instead of a term. A macro's words may stand
-    /// elsewhere, too.
+    /// Replaces a term by `turn` times the fraction of `rate` times the time. Leaves terms from a macro: its
+    /// body may be used elsewhere, too.
     void use(NodeId term, double turn, double rate) {
         for (size_t i = tree_[term].begin; i < tree_[term].end; ++i)
             if (text_.words()[i].from_macro())
@@ -170,7 +173,8 @@ private:
         });
     }
 
-    /// The terms of `id`, of which `factor` times are in an argument with that period.
+    /// Replaces the time terms of `id`, which the argument of a function of that period contains `factor`
+    /// times.
     void reduce(NodeId id, double factor, double period) {
         if (const auto rate = rate_of(id)) {
             const double turn = period / factor, turns = *rate * factor / period;
@@ -198,7 +202,7 @@ private:
         bool known = false;
         std::optional<Number> value{};
     };
-    std::vector<Constant> constants_; ///< of each node
+    std::vector<Constant> constants_; ///< per node
     HelperFunction turns_;
 };
 

@@ -11,16 +11,16 @@
 namespace tidemark::glsl {
 namespace {
 
-/// What stands instead of an expression, and why.
+/// The text that replaces an expression, and the reason.
 struct Instead {
     std::string words;
     std::string reason;
 };
 
-/// Of a difference of two calls of one function.
+/// Rewrites the difference of two calls of one function.
 struct Rule {
     std::string_view function;
-    std::string_view instead; ///< {0}, {1}: their arguments
+    std::string_view instead; ///< {0}, {1}: the arguments of the two calls
     std::string_view reason;
 };
 
@@ -83,7 +83,7 @@ private:
         return text_.excerpt(bare(one)) == text_.excerpt(bare(other));
     }
 
-    /// In brackets where it is more than a name; nothing where it cannot be said again.
+    /// Returns the text, in parentheses if it is more than a name; nothing if it cannot be repeated.
     std::optional<std::string> words_of(NodeId id) const {
         const auto written = written_for(text_, id, id);
         auto words = written ? said_again(text_, facts_, id, *written) : std::nullopt;
@@ -97,7 +97,7 @@ private:
         return words_of(bare(tree_.child(call, index + 1)));
     }
 
-    /// The half angle: 1 and a cosine near it have no digits left to differ by.
+    /// Rewrites by the half angle: 1 and a cosine near 1 leave no digits in their difference.
     std::optional<Instead> one_less_cosine(NodeId left, NodeId right) const {
         const auto x = is_one(left) && is_call(right, "cos") ? argument(right, 0) : std::nullopt;
         if (!x)
@@ -106,7 +106,7 @@ private:
                        "1 - cos x is 2 sin² (x / 2), which keeps its digits where x is small"};
     }
 
-    /// The a of `a * a`, of `dot(a, a)`, and 1, which is its own square.
+    /// Returns the a of `a * a` and of `dot(a, a)`; 1 is its own root.
     NodeId root_of(NodeId id) const {
         const bool product = tree_[id].kind == NodeKind::binary && text_.word_of(id) == "*";
         if (product && are_equal(tree_.child(id, 0), tree_.child(id, 1)))
@@ -140,8 +140,9 @@ private:
         return std::nullopt;
     }
 
-    /// `b * b - c` of a ray and a sphere, b = dot(o, d), c = dot(o, o) - r * r, for a direction of length 1
-    /// (E. Haines et al., Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems, 2019).
+    /// Rewrites `b * b - c` of a ray and a sphere, b = dot(o, d), c = dot(o, o) - r * r, for a direction of
+    /// length 1 (E. Haines et al., Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems,
+    /// 2019).
     std::optional<Instead> discriminant(NodeId left, NodeId right) const {
         const NodeId b = root_of(left);
         if (b == k_no_node || is_one(left))
@@ -166,7 +167,7 @@ private:
             "from the sphere"};
     }
 
-    /// Kahan's: an arc cosine near 1 has half of the digits.
+    /// Rewrites by W. Kahan's formula: an arc cosine near 1 has half of the digits.
     std::optional<Instead> angle(NodeId id) const {
         const NodeId cosine = bare(tree_.child(id, 1));
         const auto a = is_call(cosine, "dot") ? argument(cosine, 0) : std::nullopt;
@@ -179,7 +180,7 @@ private:
             "keeps its digits where they nearly point the same way"};
     }
 
-    /// Of a name that has one value only; of anything else it is itself.
+    /// Returns the value of a name that has only one; any other node itself.
     NodeId value_of(NodeId id) const {
         const NodeId value = values_.of(id);
         return value == k_no_node ? id : value;

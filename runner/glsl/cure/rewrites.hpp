@@ -1,6 +1,6 @@
-// Rewrite rules as tools for the accuracy of expressions have them (P. Panchekha et al., Herbie, PLDI 2015):
-// what is written instead is equal in real arithmetic and has no small difference of large numbers. Whether a
-// picture is nearer to that in double by it is for who draws it.
+// Proposes rewrites like those of tools for accurate expressions (P. Panchekha et al., Herbie, PLDI 2015):
+// the new text is equal in real arithmetic and avoids a small difference of large numbers. The caller
+// measures whether it brings the picture nearer to the one in double precision.
 #pragma once
 
 #include "glsl/cure/written.hpp"
@@ -9,7 +9,7 @@
 
 namespace tidemark::glsl {
 
-/// One for each place where a rule applies, in the order of the text.
+/// Returns one fix per place where a rule applies, in the order of the text.
 std::vector<Cure> rewrites(const ParsedText& text, const TreeFacts& facts);
 
 } // namespace tidemark::glsl

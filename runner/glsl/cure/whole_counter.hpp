@@ -1,4 +1,4 @@
-// A loop that counts in whole numbers, and has its float from them.
+// Fixes a loop with a float counter by counting in whole numbers and computing the float from them.
 #pragma once
 
 #include "glsl/cure/written.hpp"
@@ -6,8 +6,9 @@
 
 namespace tidemark::glsl {
 
-/// `for (int x_turn = 0; x_turn < 100; ++x_turn) { float x = 0.0 + 0.01 * float(x_turn); … }`: as many turns
-/// as in real arithmetic, and no rounding added to another. Nothing where the words are not the author's own.
+/// Writes `for (int x_turn = 0; x_turn < 100; ++x_turn) { float x = 0.0 + 0.01 * float(x_turn); … }`: as many
+/// iterations as in real arithmetic, and no accumulated rounding. Returns nothing if the text is not the
+/// author's own.
 std::optional<Cure> whole_counter(const ParsedText& text, const FloatCounter& counter);
 
 } // namespace tidemark::glsl

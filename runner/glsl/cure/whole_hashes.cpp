@@ -13,12 +13,12 @@
 namespace tidemark::glsl {
 namespace {
 
-/// A multiple of a sine from here on keeps nothing but its last digits: that of glsl/double/float_hashes.cpp.
+/// A sine times this or more keeps only its last digits; the same limit as in float_hashes.cpp.
 constexpr double k_large = 90;
 
-/// Of the bits of four floats, one after the other, each mixed as in the finaliser of MurmurHash3 (A.
-/// Appleby, public domain); -0 is made 0. What it gives is a multiple of 2^-24 below 1. Its
-/// type and name stand before.
+/// GLSL hash of the bits of four floats, in sequence, each mixed as in the finaliser of MurmurHash3 (A.
+/// Appleby, public domain); -0 counts as 0. It returns a multiple of 2^-24 below 1. Its type and name are
+/// written before this text.
 constexpr std::string_view k_hash =
     "(vec4 p) { uvec4 b = floatBitsToUint(p + 0.0); uint n = 0u; for (int i = 0; i < 4; ++i) { "
     "n = (n ^ b[i]) + 0x9e3779b9u; n = (n ^ (n >> 16)) * 0x85ebca6bu; n = (n ^ (n >> 13)) * 0xc2b2ae35u; "
@@ -47,7 +47,7 @@ private:
                std::ranges::find(names, called_name(text_, id)) != names.end();
     }
 
-    /// The x of `fract(sin(x) * 43758.5)`; k_no_node of any other node.
+    /// Returns the x of `fract(sin(x) * 43758.5)`; k_no_node for any other node.
     NodeId angle_of(NodeId id) const {
         if (!is_call(id, {"fract"}))
             return k_no_node;
@@ -67,7 +67,7 @@ private:
         return tokens ? said_again(text_, facts_, id, *tokens) : std::nullopt;
     }
 
-    /// `vec4(p, 0.0, 1.0)` of `dot(p, vec2(12.9898, 78.233))`.
+    /// Returns `vec4(p, 0.0, 1.0)` for `dot(p, vec2(12.9898, 78.233))`, with the seed as the last number.
     std::optional<std::string> four_of_dot(NodeId id, int seed) const {
         const NodeId left = bare(tree_.child(id, 1)), right = bare(tree_.child(id, 2));
         for (const auto& [vector, weights] : {std::pair(left, right), std::pair(right, left)}) {
@@ -86,7 +86,7 @@ private:
         return std::nullopt;
     }
 
-    /// Of one float by name, as the function around declares it, once.
+    /// Returns whether the node names one float that its function declares exactly once.
     bool is_float_name(NodeId id) const {
         if (tree_[id].kind != NodeKind::name)
             return false;
@@ -106,7 +106,7 @@ private:
         return function != k_no_node && declared == 1 && single;
     }
 
-    /// What to hash, as four floats.
+    /// Returns the four floats to hash, as text.
     std::optional<std::string> four_of(NodeId angle, int seed) const {
         if (is_call(angle, {"dot"}))
             return four_of_dot(angle, seed);
@@ -115,7 +115,7 @@ private:
                    : std::nullopt;
     }
 
-    /// The whole call, by a hash of that name.
+    /// Returns the text that replaces the whole call, given the hash function's name.
     std::optional<std::string> instead_of(NodeId angle, const std::string& name) const {
         if (!is_call(angle, {"vec2", "vec3", "vec4"})) {
             const auto four = four_of(angle, 0);

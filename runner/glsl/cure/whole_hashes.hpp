@@ -1,5 +1,5 @@
-// Hashes of bits in the place of those of large sines, `fract(sin(dot(p, k)) * c)` and their kind, which are
-// other numbers on every GPU. They are other numbers than the sines', too, and the same everywhere.
+// Replaces hashes of large sines, `fract(sin(dot(p, k)) * c)` and similar, whose values differ between GPUs,
+// by hashes of bits. Their values differ from the sines', too, but are the same on every GPU.
 #pragma once
 
 #include "glsl/cure/written.hpp"
@@ -8,9 +8,8 @@
 
 namespace tidemark::glsl {
 
-/// All that can be written anew, file by file: a function that hashes, in front of the first that calls it,
-/// and the calls. Left are hashes of what is neither a variable of one float nor a dot product, or vectors of
-/// these.
+/// Returns one fix per file: a hash function before the first function that calls it, and the calls. Leaves
+/// hashes whose argument is neither a float variable nor a dot product, nor a vector of dot products.
 std::vector<Cure> whole_hashes(const ParsedText& text, const TreeFacts& facts);
 
 } // namespace tidemark::glsl

@@ -34,7 +34,7 @@ bool has_no_effect(const ParsedText& text, const TreeFacts& facts, NodeId id) {
     return true;
 }
 
-/// An argument is what stands between two signs of its call, whatever macros it is made of.
+/// Returns the tokens between two separators of the call, whatever macros the argument is made of.
 std::optional<WrittenTokens> between_signs(const ParsedText& text, const Node& argument) {
     const Word &before = text.words()[argument.begin - 1], &behind = text.words()[argument.end];
     if (before.from_macro() != behind.from_macro() || before.spelled + 1 >= behind.spelled ||
@@ -65,7 +65,7 @@ std::optional<WrittenTokens> written_for(const ParsedText& text, NodeId id, Node
     if (!tokens)
         return std::nullopt;
     const SourceLocation from = place_of(text, tokens->first), to = place_of(text, tokens->last);
-    // The tokens of one macro's body stand on one line, or on lines that are joined: then they are left.
+    // A macro's body that spans several joined lines is left as it is.
     if (from.file.empty() || from.file != to.file || (in_macro && from.line != to.line))
         return std::nullopt;
     return tokens;

@@ -1,4 +1,5 @@
-// Nodes of a text that is read to its tree, back to where their author wrote them: what a cure is made of.
+// Maps nodes of a parsed text back to the author's tokens, and builds edits of them. Does not apply the
+// edits.
 #pragma once
 
 #include "glsl/cure/cure.hpp"
@@ -12,34 +13,35 @@
 
 namespace tidemark::glsl {
 
-/// Tokens of a ParsedText, both ends included.
+/// A range of tokens of a ParsedText, both ends included.
 struct WrittenTokens {
     size_t first = 0, last = 0;
 };
 
-/// What is written for a node that is `operation` or a part of it. Where a macro's body says the operation it
-/// is that body's tokens, and every use of the macro shares them. Nothing where they are not the author's, or
-/// where the body says only a part of it.
+/// Returns the tokens written for a node that is `operation` or a part of it. If a macro's body contains the
+/// operation, the tokens are those of the body, which every use of the macro shares. Returns nothing if the
+/// tokens are not the author's, or if the body contains only a part of the node.
 std::optional<WrittenTokens> written_for(const ParsedText& text, NodeId id, NodeId operation);
 
 Wrap wrapped(const ParsedText& text, WrittenTokens tokens, std::string front, std::string behind);
-/// `instead` for them.
+/// Replaces the tokens by `instead`.
 Wrap in_place_of(const ParsedText& text, WrittenTokens tokens, std::string instead);
 
-/// Around one word; nothing where it is not its author's own, but a macro's.
+/// Wraps one token; nothing if it comes from a macro or is not the author's.
 std::optional<Wrap> at_word(const ParsedText& text, size_t word, std::string front, std::string behind);
 
-/// k_no_node of a prototype.
+/// Returns the function's block; k_no_node for a prototype.
 NodeId body_of_function(const ParsedText& text, NodeId function);
 std::vector<NodeId> parameters_of(const ParsedText& text, NodeId function);
-/// Where it is defined; k_no_node: nowhere.
+/// Returns the definition of mainImage; k_no_node: none.
 NodeId find_main_image(const ParsedText& text);
 
-/// `wanted`, or that with a number, from `number` on: one that no word of the text has. 1 is not written.
+/// Returns `wanted` followed by a number, the first from `number` on that the text does not use; 1 is not
+/// written.
 std::string fresh_name(const ParsedText& text, std::string_view wanted, size_t number = 1);
 
-/// The tokens of an expression, to be said once more: nothing where that would do something twice, or where
-/// they are long.
+/// Returns the text of an expression to repeat it: nothing if evaluating it twice has side effects, or if it
+/// is long or not on one line.
 std::optional<std::string> said_again(const ParsedText& text, const TreeFacts& facts, NodeId id,
                                       WrittenTokens tokens);
 

@@ -14,15 +14,15 @@
 namespace tidemark::glsl {
 namespace {
 
-/// Less than that is not worth a look: a driver needs no operation for most of it.
+/// Cheaper operations are not tried: a driver needs no instruction for most of them.
 constexpr double k_least_work = 4;
-/// Of the turns that a loop has.
+/// Shares of a loop's iterations that are tried.
 constexpr std::array k_parts{0.9, 0.75, 0.5, 0.25};
 constexpr double k_fewest_turns = 2;
-/// Coarser ones show in nearly any picture.
+/// Coarser levels show in nearly any picture.
 constexpr int k_coarsest_level = 3;
 
-/// What is written from one word to another, where no macro is in the way.
+/// Returns the source tokens from one token to another, unless one of them comes from a macro.
 std::optional<WrittenTokens> between(const ParsedText& text, size_t first, size_t last) {
     const auto& words = text.words();
     for (size_t i = first; i <= last; ++i)
@@ -33,7 +33,7 @@ std::optional<WrittenTokens> between(const ParsedText& text, size_t first, size_
     return WrittenTokens{words[first].used, words[last].used};
 }
 
-/// With no more digits than are worth it.
+/// Writes a number with four digits.
 std::string number_text(double value) {
     return as_float(fmt::format("{:.4g}", value));
 }
@@ -46,7 +46,7 @@ bool has_jump(const ParsedText& text, NodeId id) {
     return false;
 }
 
-/// A call of the author's function with an `out` parameter: what it gives is needed.
+/// Returns whether the call has a result that is needed: an `out` parameter, or an unknown function.
 bool gives_out(const ParsedText& text, const TreeFacts& facts, NodeId call) {
     const FunctionFacts* const function = facts.function(called_name(text, call));
     if (!function)
@@ -59,7 +59,7 @@ bool gives_out(const ParsedText& text, const TreeFacts& facts, NodeId call) {
     return false;
 }
 
-/// Something that is there anyway and goes on as it was: `x += y`, `f(x)`.
+/// Returns whether the statement updates something that exists without it: `x += y`, `f(x)`.
 bool may_be_left_out(const ParsedText& text, const TreeFacts& facts, NodeId expression) {
     const NodeKind kind = text.tree()[expression].kind;
     if (kind == NodeKind::assign)
@@ -81,7 +81,7 @@ Cutter::Cutter(const ParsedText& text, const TreeFacts& facts)
     find_kept();
 }
 
-/// Until no function more is found that such a loop calls: prototypes let one stand anywhere.
+/// Repeats until such a loop calls no further function: prototypes let a definition follow its calls.
 void Cutter::find_kept() {
     for (NodeId id = 1; id < tree_.nodes.size(); ++id)
         if (is_loop(tree_[id].kind) && !loop_bound(text_, id))
@@ -94,12 +94,12 @@ void Cutter::find_kept() {
     } while (called.size() > before);
 }
 
-/// Parents stand behind their children.
+/// Goes from parents to children, which have smaller numbers.
 void Cutter::mark_kept(std::set<std::string_view>& called) {
     for (NodeId id = NodeId(tree_.nodes.size()) - 1; id > 0; --id) {
         const NodeKind kind = tree_[id].kind;
         const NodeId parent = tree_[id].parent;
-        // What a loop counts to is another matter: it is turned as that.
+        // A loop's bound is not cut as an expression: add_turns changes it.
         const bool in_head =
             parent != k_no_node && is_loop(tree_[parent].kind) && loop_condition(text_, parent) == id;
         kept_[id] = kept_[id] || in_head || (parent != k_no_node && kept_[parent]) ||
@@ -131,7 +131,7 @@ void Cutter::add(std::optional<WrittenTokens> tokens, std::string instead, std::
     cuts.push_back({{{in_place_of(text_, *tokens, std::move(instead))}, std::move(reason)}, work});
 }
 
-/// `a + b` without b, without a; the same of `-` and `*`. Of a chain each operand once.
+/// Adds `a + b` without b and without a; likewise for `-` and `*`. Each operand of a chain is added once.
 void Cutter::add_operands(NodeId id, std::vector<Cut>& cuts) const {
     const std::string_view op = text_.word_of(id);
     const bool product = op == "*";
@@ -198,7 +198,7 @@ std::vector<Cut> Cutter::cuts() const {
     return cuts;
 }
 
-/// A look-up itself, without what its coordinates cost.
+/// Returns the work of a look-up itself, without that of its coordinates.
 double Cutter::work_of_call(NodeId id) const {
     double once = work_.once(id);
     for (const NodeId part : tree_.children(id))
@@ -206,8 +206,8 @@ double Cutter::work_of_call(NodeId id) const {
     return work_.of(id) * once / work_.once(id);
 }
 
-/// Left to the neighbours, the level is computed, and the two around it are mixed: about half of the work. A
-/// bias adds to that, so it is no cut.
+/// With an implicit level the driver computes the level and mixes the two nearest, which is about half of the
+/// work. A bias only adds to that level, so it saves nothing.
 std::vector<Cut> Cutter::levels(const std::function<bool(std::string_view)>& has_mipmaps) const {
     std::vector<Cut> cuts;
     for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
@@ -225,8 +225,8 @@ std::vector<Cut> Cutter::levels(const std::function<bool(std::string_view)>& has
     return cuts;
 }
 
-/// Of what says its type: a call of one of the author's functions, a look-up in a texture, the value that a
-/// variable is declared with.
+/// Returns the float type of an expression if the text states it: a call of one of the author's functions, a
+/// texture look-up, or the value in a variable's declaration.
 std::optional<ValueType> Cutter::type_of(NodeId id) const {
     std::string_view name;
     if (tree_[tree_[id].parent].kind == NodeKind::declarator)

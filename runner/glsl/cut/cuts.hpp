@@ -1,6 +1,6 @@
-// What could be left out of a text: terms, factors, statements, turns of loops, the choice of a texture's
-// level, and values that a number could stand for. Places and words only; whether a cut pays, and what it
-// does to the picture, is for who draws it.
+// Proposes what could be left out of a text: terms, factors, statements, iterations of loops, the choice of a
+// texture's level, and values that a number could replace. Returns edits only; the caller measures what a cut
+// saves and what it does to the picture.
 #pragma once
 
 #include "glsl/cure/written.hpp"
@@ -18,11 +18,11 @@ namespace tidemark::glsl {
 
 struct Cut {
     Cure change;
-    double work = 0;            ///< operations a pixel that it may save, estimated
-    bool hangs_on_size = false; ///< what it does to a picture is less the more pixels that has
+    double work = 0;            ///< estimated operations per pixel that it may save
+    bool hangs_on_size = false; ///< the more pixels the picture has, the less the cut changes it
 };
 
-/// An expression of floats that a number could stand for.
+/// A float expression that a number could replace.
 struct Replaceable {
     NodeId node = k_no_node;
     ValueType type{};
@@ -33,16 +33,16 @@ class Cutter {
 public:
     Cutter(const ParsedText& text, const TreeFacts& facts);
 
-    /// The most work first.
+    /// Returns the cuts, those that save the most work first.
     std::vector<Cut> cuts() const;
-    /// One level of its mipmaps for a look-up, whatever its neighbours ask for, of samplers that have any.
+    /// Returns cuts that give a look-up one fixed mipmap level, for samplers that have mipmaps.
     std::vector<Cut> levels(const std::function<bool(std::string_view sampler)>& has_mipmaps) const;
     std::vector<Replaceable> replaceables() const;
-    /// `numbers` are those of the expression's type.
+    /// Returns the cut that replaces the expression; `numbers` has one value per component of its type.
     Cut replaced(const Replaceable& expression, std::span<const double> numbers) const;
 
-    /// Loops that nothing in their heads ends: all that they depend on in their bodies and in the functions
-    /// called there is left alone, for without it they may never end.
+    /// Loops without a bound in their heads. Everything in their bodies, and in the functions called there,
+    /// is kept, because without it they may never end.
     const std::vector<NodeId>& endless() const { return endless_; }
     const WorkEstimate& work() const { return work_; }
 
@@ -65,7 +65,7 @@ private:
     const TreeFacts& facts_;
     WorkEstimate work_;
     std::vector<NodeId> endless_;
-    std::vector<bool> kept_; ///< by node
+    std::vector<bool> kept_; ///< per node
 };
 
 } // namespace tidemark::glsl

@@ -9,7 +9,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// Of its pixels, three of four are not drawn.
+/// Share of the buffer's pixels that are no longer drawn.
 constexpr double k_saved = 0.75;
 
 bool says(const ParsedText& text, std::string_view name) {
@@ -19,7 +19,7 @@ bool says(const ParsedText& text, std::string_view name) {
     return false;
 }
 
-/// The files of which several passes are made.
+/// Returns the files that belong to more than one pass.
 std::set<std::string> shared_files(std::span<const BufferReader> passes) {
     std::map<std::string, size_t> owners;
     std::set<std::string> shared;
@@ -32,14 +32,14 @@ std::set<std::string> shared_files(std::span<const BufferReader> passes) {
     return shared;
 }
 
-/// Wraps that make the look-ups of one sampler find the buffer in its quarter: no nearer to its edge than
-/// what a sampler that repeats would mix with the other edge's.
+/// Collects the edits that redirect one sampler's look-ups to the buffer's drawn quarter. A repeating sampler
+/// would mix in the opposite edge, so its look-ups stay half a pixel away from the edge.
 class LookUps {
 public:
     LookUps(const BufferReader& reader, const BufferSampler& sampler)
         : text_(reader.text), tree_(text_.tree()), facts_(reader.facts), sampler_(sampler) {}
 
-    /// Nothing where one cannot be led there.
+    /// Returns nothing if a look-up cannot be redirected.
     std::optional<std::vector<Wrap>> run() {
         for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
             const bool named = tree_[id].kind == NodeKind::name && text_.word_of(id) == sampler_.name &&
@@ -58,7 +58,7 @@ private:
             return false;
         const auto said = written_for(text_, sampler, call);
         const auto place = written_for(text_, tree_.child(call, 2), call);
-        // Of a macro that is given its sampler, other samplers' look-ups would be led there, too.
+        // A macro that takes its sampler as an argument would redirect the look-ups of other samplers, too.
         if (!said || !place || text_.tokens()[said->first].text != sampler_.name)
             return false;
         const std::string_view name = called_name(text_, call);
@@ -73,7 +73,8 @@ private:
         return true;
     }
 
-    /// By a whole pixel: what is there now lies between four.
+    /// Redirects a fetch of one pixel to a filtered look-up: the pixel's centre now lies between four drawn
+    /// pixels.
     bool lead_fetch(NodeId call, WrittenTokens place) {
         const auto whole = written_for(text_, call, call);
         const auto level = written_for(text_, tree_.child(call, 3), call);
@@ -86,7 +87,7 @@ private:
         return true;
     }
 
-    /// A macro's body is written once, however often it is used.
+    /// Adds an edit once: a macro's body is written once, however often it is used.
     void add(Wrap wrap) {
         if (std::ranges::find(wraps_, wrap) == wraps_.end())
             wraps_.push_back(std::move(wrap));
@@ -99,7 +100,7 @@ private:
     std::vector<Wrap> wraps_{};
 };
 
-/// Of both dimensions half, and one pixel more: look-ups at the edge mix it in.
+/// Draws half of both dimensions and one pixel more, which look-ups at the edge mix in.
 std::optional<Wrap> drawn_small(const ParsedText& text, NodeId main) {
     const std::vector<NodeId> parameters = parameters_of(text, main);
     if (parameters.size() != 2 || has_qualifier(text, text.tree().child(parameters[1], 0), "const"))

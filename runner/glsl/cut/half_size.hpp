@@ -1,5 +1,5 @@
-// A buffer that is drawn at half its width and height: ShaderToy gives every buffer the picture's size, so it
-// is drawn into a quarter of that, and whoever reads it looks there.
+// Proposes drawing a buffer at half its width and height. ShaderToy gives every buffer the picture's size, so
+// the buffer is drawn into one quarter of that, and passes that read it look there.
 #pragma once
 
 #include "glsl/cut/cuts.hpp"
@@ -11,22 +11,22 @@
 
 namespace tidemark::glsl {
 
-/// A sampler of the buffer in question. It has no mipmaps and does not mirror.
+/// A sampler of the buffer. It has no mipmaps and does not mirror.
 struct BufferSampler {
     std::string_view name;
-    bool repeats = false; ///< else it clamps
+    bool repeats = false; ///< otherwise it clamps
 };
 
-/// A pass of the scene, and by which samplers it reads that buffer.
+/// A pass of the scene, and the samplers with which it reads the buffer.
 struct BufferReader {
     const ParsedText& text;
     const TreeFacts& facts;
     std::vector<BufferSampler> samplers;
 };
 
-/// The buffer is `passes[buffer]`, and must not read itself. Nothing where it is read by other means than
-/// look-ups, where it asks for its pixel by gl_FragCoord, and where a file that would be changed is another
-/// pass's, too.
+/// Returns the cut for `passes[buffer]`, which must not read itself. Returns nothing if the buffer is read by
+/// other means than look-ups, if it uses gl_FragCoord, or if the cut would change a file that another pass
+/// shares.
 std::optional<Cut> half_size(std::span<const BufferReader> passes, size_t buffer, const WorkEstimate& work);
 
 } // namespace tidemark::glsl

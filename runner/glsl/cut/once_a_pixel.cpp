@@ -11,7 +11,7 @@ namespace tidemark::glsl {
 namespace {
 
 constexpr size_t k_longest = 160, k_most_values = 64;
-/// Local variables whose values are made of local variables …
+/// Depth to which local variables are replaced by their values.
 constexpr int k_longest_word_chain = 8;
 
 struct SharedValue {
@@ -45,7 +45,7 @@ private:
         return true;
     }
 
-    /// Before it, or in its place.
+    /// Returns whether code runs before mainImage (a global's initialiser) or instead of it (mainHit).
     bool runs_without_main() const {
         const bool hits =
             std::ranges::any_of(text_.tokens(), [](const text::Token& token) { return token.is("mainHit"); });
@@ -105,8 +105,8 @@ private:
         return name;
     }
 
-    /// As it is written, where that means the same in mainImage; nothing where it cannot be said there, or is
-    /// written over several lines.
+    /// Returns the expression's text if it means the same in mainImage. Returns nothing if it cannot be
+    /// written there or spans several lines.
     std::optional<std::string> said_in_main(NodeId id) {
         const auto [begin, end] = edits_.tokens_of(tree_[id].begin, tree_[id].end);
         const text::Token &first = text_.tokens()[begin], &last = text_.tokens()[end];
@@ -121,7 +121,7 @@ private:
         }
         return as_written ? text_.source().text().substr(first.begin, last.end() - first.begin) : words;
     }
-    /// The words of an expression, with their values for local variables.
+    /// Returns the text of an expression with local variables replaced by their values.
     std::optional<std::string> spelled(NodeId id, int depth) {
         std::string words;
         for (size_t i = tree_[id].begin; i < tree_[id].end; ++i) {
@@ -145,7 +145,7 @@ private:
             return std::nullopt;
         return fmt::format("{}({})", value->type == alias.type ? "" : to_string(alias.type), *words);
     }
-    /// Of two operands.
+    /// Returns whether the token is an operator between two operands.
     bool is_operation(size_t word) const {
         const Word& before = text_.words()[word - 1];
         const bool ends_value =

@@ -1,5 +1,5 @@
-// What is the same in the whole frame, and computed again in turns of loops and calls, as global variables
-// that mainImage begins with. The most that a text can do: ShaderToy has no place that runs once a frame.
+// Moves expressions that have one value for the whole frame out of loops and calls into global variables that
+// mainImage computes first. A text can do no better: ShaderToy has no place that runs once per frame.
 #pragma once
 
 #include "glsl/cut/cuts.hpp"
@@ -8,8 +8,8 @@
 
 namespace tidemark::glsl {
 
-/// All such expressions of mainImage's file in one cut; nothing where there are none. The language promises
-/// the same values; a driver may round differently.
+/// Returns one cut with all such expressions of mainImage's file, or nothing if there are none. The language
+/// guarantees the same values; a driver may round differently.
 std::optional<Cut> once_a_pixel(const ParsedText& text, const TreeFacts& facts, const WorkEstimate& work);
 
 } // namespace tidemark::glsl

@@ -10,7 +10,7 @@ namespace tidemark::glsl {
 namespace {
 
 constexpr double k_unknown_turns = 16, k_texture = 8, k_costly = 4;
-/// Nothing is worth more: what recursion or nested loops would make of it is infinite.
+/// Upper limit of an estimate; recursion or nested loops would make it infinite.
 constexpr double k_most = 1e12;
 
 double turns_of(const ParsedText& text, NodeId loop) {
@@ -27,7 +27,7 @@ bool calls_function(const ParsedText& text, const TreeFacts& facts, NodeId id) {
 WorkEstimate::WorkEstimate(const ParsedText& text, const TreeFacts& facts)
     : text_(text), tree_(text.tree()), facts_(facts), once_(tree_.nodes.size()), times_(tree_.nodes.size()) {
     add_up();
-    add_up(); // what is called in front of its definition is known now
+    add_up(); // functions called before their definition are known now
     count_times();
 }
 
@@ -52,7 +52,7 @@ double WorkEstimate::own(NodeId id) const {
     }
 }
 
-/// Children come before their parents.
+/// Sums bottom-up: children come before their parents.
 void WorkEstimate::add_up() {
     for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
         double sum = own(id);
@@ -64,7 +64,7 @@ void WorkEstimate::add_up() {
     }
 }
 
-/// How often in one call of the function around it each node is come to, then how often each is called.
+/// Counts how often each node runs in one call of its function, then how often each function is called.
 void WorkEstimate::count_times() {
     std::unordered_map<std::string_view, std::vector<NodeId>> sites; // by the name that is called
     for (NodeId id = NodeId(tree_.nodes.size()) - 1; id > 0; --id) {
@@ -78,7 +78,7 @@ void WorkEstimate::count_times() {
     std::unordered_map<std::string_view, double> calls{{"main", 1.0}};
     const std::function<double(NodeId)> calls_of = [&](NodeId function) {
         const std::string_view name = function == k_no_node ? "" : text_.word_of(function);
-        const auto [known, fresh] = calls.emplace(name, 0.0); // 0 where it comes back to itself
+        const auto [known, fresh] = calls.emplace(name, 0.0); // stays 0 for a recursive call
         if (!fresh)
             return known->second;
         double sum = 0;

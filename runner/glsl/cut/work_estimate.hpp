@@ -1,6 +1,6 @@
-// How many operations a pixel the parts of a text may take, estimated from the text alone: every branch is
-// taken, loops without a number turn sixteen times. Good enough to say what to look at first, and for nothing
-// else.
+// Estimates the operations per pixel of each part of a text, from the text alone: every branch is taken, and
+// loops without a literal bound count sixteen iterations. Good enough to order what to try first, and for
+// nothing else.
 #pragma once
 
 #include "glsl/syntax/parsed_text.hpp"
@@ -16,9 +16,9 @@ class WorkEstimate {
 public:
     WorkEstimate(const ParsedText& text, const TreeFacts& facts);
 
-    /// Of one evaluation, calls and loops included.
+    /// Returns the operations of one evaluation, calls and loops included.
     double once(NodeId id) const { return once_[id]; }
-    /// Of a pixel: as often as it is come to.
+    /// Returns the operations per pixel: `once` times the number of evaluations.
     double of(NodeId id) const { return once_[id] * times_[id]; }
 
 private:
@@ -30,7 +30,7 @@ private:
     const SyntaxTree& tree_;
     const TreeFacts& facts_;
     std::vector<double> once_, times_;
-    std::unordered_map<std::string_view, double> functions_; ///< work of one call
+    std::unordered_map<std::string_view, double> functions_; ///< operations of one call
 };
 
 } // namespace tidemark::glsl

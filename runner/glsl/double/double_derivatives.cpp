@@ -3,8 +3,8 @@
 namespace tidemark::glsl {
 namespace {
 
-/// The hardware differences floats: those of both parts of a double together lose next to nothing, even where
-/// neighbours agree in all 24 bits. Beyond the range of floats the result is NaN.
+/// The hardware subtracts floats: the differences of a double's two float parts together lose next to
+/// nothing, even if neighbouring pixels agree in all 24 bits. The result is NaN beyond the range of floats.
 constexpr std::string_view k_dfdx = R"(
 double tidemark_double_dFdx(double x) {
     precise double low = x - double(float(x));

@@ -3,7 +3,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// y 2^k in two factors, for results below the normal numbers and up to infinity.
+/// Multiplies y by 2^k in two factors, for results from below the normal numbers up to infinity.
 constexpr std::string_view k_scale = R"(
 double tidemark_scale(double y, double k) {
     int n = int(k);
@@ -14,8 +14,8 @@ double tidemark_scale(double y, double k) {
 }
 )";
 
-/// e^x 2^k for x = high - low, |x| <= ln 2 / 2: e^x = 1 + x + x c/(2 - c) with c = x + 2 - x coth(x/2), of
-/// which all but the x is even. Good to 2^-59.6.
+/// Computes e^x 2^k for x = high - low, |x| <= ln 2 / 2: e^x = 1 + x + x c/(2 - c) with c = x + 2 - x
+/// coth(x/2), in which all terms but x are even. Error below 2^-59.6.
 constexpr std::string_view k_exp_kernel = R"(
 double tidemark_exp_kernel(double high, double low, double k) {
     precise double x = high - low;
@@ -29,7 +29,7 @@ double tidemark_exp_kernel(double high, double low, double k) {
 }
 )";
 
-/// e^x 2^shift. ln 2 in two parts, the first of 32 bits.
+/// Computes e^x 2^shift. ln 2 is in two parts, the first of 32 bits.
 constexpr std::string_view k_exp_scaled = R"(
 double tidemark_exp_scaled(double x, double shift) {
     double a = clamp(x, -746.0lf, 711.0lf);
@@ -46,7 +46,7 @@ double tidemark_double_exp(double x) {
 }
 )";
 
-/// 2^(high + low), saturating; low is small beside high.
+/// Computes 2^(high + low), saturating; low is small relative to high.
 constexpr std::string_view k_exp2_sum = R"(
 double tidemark_exp2_sum(double high, double low) {
     bool far = abs(high) > 1100.0lf;
@@ -68,7 +68,7 @@ double tidemark_double_exp2(double x) {
 }
 )";
 
-/// x = m 2^k with m in [sqrt 1/2, sqrt 2).
+/// Splits x = m 2^k with m in [sqrt 1/2, sqrt 2).
 constexpr std::string_view k_mantissa = R"(
 dvec2 tidemark_mantissa(double x) {
     bool tiny = x < 2.2250738585072014e-308lf;
@@ -83,7 +83,8 @@ double tidemark_log_result(double x, double y) {
 }
 )";
 
-/// With s = f/(2 + f): log(1 + f) = f - h + s (h + R(s)), h = f^2/2. Good to 2^-59.5. (f, h, s (h + R))
+/// With s = f/(2 + f): log(1 + f) = f - h + s (h + R(s)), h = f^2/2. Error below 2^-59.5. Returns (f, h, s (h
+/// + R)).
 constexpr std::string_view k_log_kernel = R"(
 dvec3 tidemark_log_kernel(double m) {
     precise double f = m - 1.0lf;
@@ -122,10 +123,11 @@ double tidemark_double_log2(double x) {
 }
 )";
 
-/// 2^(y log2 x), log2 x in two parts. x = m 2^k with m in [sqrt 3/4, sqrt 3), and with b the nearer of 1 and
-/// 3/2 s = (m - b)/(m + b) stays below 0.102: 3 atanh(s) = s (3 + s^2 + s^4 W(s^2)), W good to 2^-70 of the
-/// whole. Over a wider range the rounding of s^4 W, times an exponent of 1000, would be seen. A negative x
-/// has a power where floats have one by accident, because drivers make products of x^1, x^2 and x^4.
+/// Computes 2^(y log2 x) with log2 x in two parts. x = m 2^k with m in [sqrt 3/4, sqrt 3); with b the nearer
+/// of 1 and 3/2, s = (m - b)/(m + b) stays below 0.102: 3 atanh(s) = s (3 + s^2 + s^4 W(s^2)), with W to
+/// 2^-70 of the whole. Over a wider range the rounding of s^4 W, times an exponent of 1000, would show. A
+/// negative x has a power where floats happen to have one, because drivers compute x^1, x^2 and x^4 as
+/// products.
 constexpr std::string_view k_pow = R"(
 double tidemark_pow_positive(double x, double y) {
     dvec2 mk = tidemark_mantissa(x);

@@ -9,7 +9,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// GLSL's text for a vector of any size; {} is the size. Its eta is a float in GLSL.
+/// GLSL's refract for a vector of any size; {0} is the size. GLSL declares its eta as a float.
 constexpr std::string_view k_refract = R"(
 dvec{0} tidemark_refract(dvec{0} i, dvec{0} n, double eta) {{
     double c = dot(n, i);
@@ -18,7 +18,7 @@ dvec{0} tidemark_refract(dvec{0} i, dvec{0} n, double eta) {{
 }}
 )";
 
-/// To floats, whatever it was; whole numbers stay what they are.
+/// Returns overloads that convert any value to floats; whole numbers stay what they are.
 std::string single_functions() {
     std::string text;
     for (const char* type : {"float", "vec2", "vec3", "vec4", "mat2", "mat3", "mat4"})
@@ -29,7 +29,7 @@ std::string single_functions() {
     return text;
 }
 
-/// What `spell` makes of each parameter and its number, between commas.
+/// Joins, with commas, the text that `spell` returns for each parameter's type and number.
 template <class Spell>
 std::string listed(const BuiltinOverload& overload, Spell spell) {
     std::string list;
@@ -38,22 +38,21 @@ std::string listed(const BuiltinOverload& overload, Spell spell) {
     return list;
 }
 
-/// `TYPE tidemark_NAME(…) { return value; }`, promoted.
+/// Returns `TYPE tidemark_NAME(…) { return value; }` with promoted types.
 std::string definition(std::string_view name, const BuiltinOverload& overload, std::string_view value) {
     const auto declared = [](auto type, size_t i) { return fmt::format("{} a{}", double_type_of(type), i); };
     return fmt::format("{0} tidemark_{1}({2}) {{ return {0}({3}); }}\n", double_type_of(overload.result),
                        name, listed(overload, declared), value);
 }
 
-/// A function that exists for floats alone, called with floats.
+/// Defines a function that GLSL has for floats only, by a call with floats.
 std::string in_floats(std::string_view name, const BuiltinOverload& overload) {
     const auto passed = [](auto type, size_t i) {
         return is_float_type(type) ? fmt::format("{}(a{})", type, i) : fmt::format("a{}", i);
     };
     if (!name.starts_with("floatBitsTo"))
         return definition(name, overload, fmt::format("{}({})", name, listed(overload, passed)));
-    // Hashes take their bits from a float. Mesa 25 takes double(float(a)) for a, unless the float is
-    // `precise`.
+    // Hashes read the bits of a float. Mesa 25 replaces double(float(a)) by a, unless the float is `precise`.
     const std::string type =
         listed(overload, [](auto name_of_type, size_t) { return std::string(name_of_type); });
     std::string text = definition(name, overload, fmt::format("{}(rounded)", name));
@@ -102,7 +101,7 @@ private:
         return own_.contains({std::string(name), std::string(parameters)});
     }
 
-    /// The overloads that the author does not define.
+    /// Emits the overloads that the author does not define.
     template <class Define>
     void define(const BuiltinFunction& function, Define definition) {
         const auto promoted = [](auto type, size_t) { return double_type_of(type); };
@@ -111,7 +110,7 @@ private:
                 text_ += definition(function.name, overload);
     }
 
-    /// Its text, once, behind those that it needs.
+    /// Emits the function's text once, after the functions that it needs.
     void require(const DoubleFunction& function) {
         if (!emitted_.insert(function.name).second)
             return;
@@ -119,7 +118,7 @@ private:
             for (const DoubleFunction& candidate : functions_)
                 if (candidate.name == need)
                     require(candidate);
-        text_ += function.text.substr(1); // behind the line feed that begins the literal
+        text_ += function.text.substr(1); // without the line feed that begins the literal
     }
 
     const Signatures& own_;

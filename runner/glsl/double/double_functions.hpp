@@ -1,7 +1,8 @@
-// The functions that GLSL has for floats only, for doubles, as GLSL text. Written from the mathematics: the
-// polynomials are minimax fits of our own (Remez exchange in 200 bits, coefficients rounded one after the
-// other), the schemes those of the classical libraries (Cody and Waite's reduction, rational and split
-// kernels). Short and without branches, because Mesa inlines every call and llvmpipe takes both sides.
+// GLSL text of the functions that GLSL has for floats only, in double precision. Written from the
+// mathematics: the polynomials are our own minimax fits (Remez exchange in 200 bits, coefficients rounded one
+// after the other), and the schemes are those of the classical libraries (Cody and Waite's reduction,
+// rational and split kernels). Short and without branches, because Mesa inlines every call and llvmpipe
+// executes both sides.
 #pragma once
 
 #include <set>
@@ -13,32 +14,33 @@
 
 namespace tidemark::glsl {
 
-/// Stands in front of every name of ours in a promoted text.
+/// Prefix of every generated name in a promoted text.
 inline constexpr std::string_view k_ours = "tidemark_";
 
-/// The text of one of GLSL's functions defines `double tidemark_double_NAME` of doubles, which its overloads
-/// apply to each component; that of a helper defines what it likes.
+/// One function. The text of a GLSL function defines `double tidemark_double_NAME` of doubles, which the
+/// generated overloads apply to each component; the text of a helper defines what its callers need.
 struct DoubleFunction {
-    std::string_view name; ///< GLSL's, or that of a helper
-    double ulp; ///< largest error in units in the last place, measured against MPFR; 0: see the text
+    std::string_view name; ///< GLSL's name, or that of a helper
+    double ulp; ///< largest error in units in the last place, measured against MPFR; 0: see the text's
+                ///< comment
     std::vector<std::string_view> needs; ///< names of helpers
     std::string_view text;
 };
 
-/// Every one, each after those that it needs.
+/// Returns all functions, each after those that it needs.
 std::vector<DoubleFunction> all_double_functions();
 
-/// Whether a promoted text must call our function instead of GLSL's.
+/// Returns whether a promoted text must call our function instead of GLSL's.
 bool is_replaced(std::string_view name);
 
 /// Names and parameter types (`sinh`, `dvec2`; commas without blanks) that the author defines.
 using Signatures = std::set<std::pair<std::string, std::string>>;
 
-/// The text of the functions `used` (GLSL's names) and of all that they need; what the author defines with
-/// the same parameters is left out.
+/// Returns the text of the functions `used` (GLSL's names) and of all that they need, without those that the
+/// author defines with the same parameters.
 std::string double_functions(const std::set<std::string_view>& used, const Signatures& own);
 
-// The subjects; `all_double_functions` puts them together.
+// The functions by subject; all_double_functions joins them.
 std::vector<DoubleFunction> double_trigonometry();
 std::vector<DoubleFunction> double_exponentials();
 std::vector<DoubleFunction> double_hyperbolics();

@@ -3,7 +3,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// sinh x for |x| <= 1, good to 2^-61.8.
+/// Computes sinh x for |x| <= 1, with an error below 2^-61.8.
 constexpr std::string_view k_small_sinh = R"(
 double tidemark_small_sinh(double x) {
     precise double z = x * x;
@@ -14,7 +14,7 @@ double tidemark_small_sinh(double x) {
 }
 )";
 
-/// From e^|x|/2, which is finite as long as the result is.
+/// Computes sinh from e^|x|/2, which is finite as long as the result is.
 constexpr std::string_view k_sinh = R"(
 double tidemark_double_sinh(double x) {
     double e = tidemark_exp_scaled(abs(x), -1.0lf);
@@ -38,7 +38,7 @@ double tidemark_double_tanh(double x) {
 }
 )";
 
-/// log(1 + x), with what 1 + x loses put back.
+/// Computes log(1 + x) and adds back the part that 1 + x loses.
 constexpr std::string_view k_log1p = R"(
 double tidemark_log1p(double x) {
     precise double u = 1.0lf + x;

@@ -3,8 +3,9 @@
 namespace tidemark::glsl {
 namespace {
 
-/// x - n pi/2 = y + tail with |y| <= pi/4. pi/2 in parts of 33, 33 and 53 bits, n in two of 20, so that the
-/// products are exact up to 1e12. Beyond, the remainder is taken as floats take it: of no use, but bounded.
+/// Reduces x - n pi/2 = y + tail with |y| <= pi/4. pi/2 is in parts of 33, 33 and 53 bits and n in two of 20,
+/// so that the products are exact up to 1e12. Beyond that the remainder is computed as for floats: useless,
+/// but bounded.
 constexpr std::string_view k_angle = R"(
 struct tidemark_Angle { double y; double tail; int quadrant; };
 tidemark_Angle tidemark_angle(double x) {
@@ -24,7 +25,7 @@ tidemark_Angle tidemark_angle(double x) {
 }
 )";
 
-/// (sin, cos) of an angle in [-pi/4, pi/4]; the polynomials are good to 2^-57.9 and 2^-63.9.
+/// Computes (sin, cos) of an angle in [-pi/4, pi/4]; the polynomials' errors are below 2^-57.9 and 2^-63.9.
 constexpr std::string_view k_sin_cos = R"(
 dvec2 tidemark_sin_cos(tidemark_Angle a) {
     precise double z = a.y * a.y;
@@ -79,8 +80,8 @@ double tidemark_high(double x) {
 }
 )";
 
-/// For |x| <= 1/2 at once; beyond, asin x = pi/2 - 2 asin sqrt((1 - |x|)/2) with the root in two parts. The
-/// polynomial is good to 2^-57.4. (small, z, root, its tail, z P(z))
+/// Computes |x| <= 1/2 directly; beyond, asin x = pi/2 - 2 asin sqrt((1 - |x|)/2) with the root in two parts.
+/// The polynomial's error is below 2^-57.4. Returns (small, root, its two parts' high and low, z P(z)).
 constexpr std::string_view k_arc = R"(
 struct tidemark_Arc { bool small; double s; double high; double low; double p; };
 tidemark_Arc tidemark_arc(double x) {
@@ -119,8 +120,8 @@ double tidemark_double_acos(double x) {
 }
 )";
 
-/// atan of a number that is not negative: atan b + atan((x - b)/(1 + b x)), b one of 0, 1/2, 1, 3/2 and
-/// infinity. The polynomial is good to 2^-57.7.
+/// Computes atan of a number that is not negative: atan b + atan((x - b)/(1 + b x)), b one of 0, 1/2, 1, 3/2
+/// and infinity. The polynomial's error is below 2^-57.7.
 constexpr std::string_view k_positive_atan = R"(
 double tidemark_positive_atan(double x) {
     bool steep = x >= 2.4375lf;
@@ -141,7 +142,7 @@ double tidemark_positive_atan(double x) {
 }
 )";
 
-/// The angle of (x, y). As in C: both infinite is a diagonal, both zero follows the signs.
+/// Computes the angle of (x, y). As in C, two infinities are a diagonal, and two zeros follow the signs.
 constexpr std::string_view k_atan = R"(
 double tidemark_double_atan(double y) {
     double r = tidemark_positive_atan(abs(y));
@@ -173,7 +174,7 @@ std::vector<DoubleFunction> double_trigonometry() {
         {"asin", 0.9, {"arc"}, k_asin},
         {"acos", 0.9, {"arc"}, k_acos},
         {"positive_atan", 0, {}, k_positive_atan},
-        {"atan", 1.5, {"positive_atan"}, k_atan}, // of two; 0.8 of one
+        {"atan", 1.5, {"positive_atan"}, k_atan}, // with two arguments; 0.8 with one
     };
 }
 

@@ -15,14 +15,14 @@ namespace {
 using text::Token;
 using text::TokenKind;
 
-/// A longer function holds a hash among other things, which are worth their digits.
+/// A longer function holds a hash among other code, which needs its digits.
 constexpr size_t k_longest_hash = 160;
-/// One this short with a sine, a fract and a large number is nothing but a hash, however it is written.
+/// A function shorter than this with a sine, a fract and a large number is a hash, however it is written.
 constexpr size_t k_short_hash = 70;
-/// A multiple of a sine from here on keeps nothing but its last digits.
+/// A sine times this or more keeps only its last digits.
 constexpr double k_large_in_fract = 90;
 constexpr double k_large_anywhere = 1000;
-constexpr double k_large_of_fract = 50; ///< of a fract in a fract
+constexpr double k_large_of_fract = 50; ///< multiple of a fract inside a fract
 
 double literal(const Token& token) {
     if (token.kind != TokenKind::number || token.text.starts_with("0x") || token.text.starts_with("0X"))
@@ -47,7 +47,7 @@ public:
 
     std::vector<FloatRegion> run() {
         if (reading_.defines("fract"))
-            return {}; // it may be anything
+            return {}; // an author's fract may do anything
         for (const Function& function : reading_.functions)
             if (auto region = whole_function(function))
                 found_.push_back(*std::move(region));
@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    /// Of a literal, and of a macro or constant that is nothing else; else 0.
+    /// Returns the value of a literal, or of a macro or constant that is a literal; otherwise 0.
     double value_of(const Token& token) const {
         if (token.kind != TokenKind::identifier)
             return literal(token);
@@ -81,7 +81,7 @@ private:
     bool is_call(size_t i, size_t end) const { return i + 1 < end && tokens_[i + 1].is("("); }
     bool is_member(size_t i) const { return i > 0 && tokens_[i - 1].is("."); }
 
-    /// `fract(…)` at `i` whose argument is a large multiple of a sine, or of another fract.
+    /// Returns whether the argument of the `fract(…)` at `i` is a large multiple of a sine.
     bool is_sine_hash(size_t i, size_t end) const {
         bool sine = false, large = false;
         for (size_t k = i + 2; k < end; ++k) {
@@ -104,7 +104,7 @@ private:
         return inner && large;
     }
 
-    /// The argument of the `fract` at `i` multiplies one variable by itself: `fract(p.x * p.y)`.
+    /// Returns whether the `fract` at `i` multiplies one variable by itself: `fract(p.x * p.y)`.
     bool is_self_product(size_t i, size_t end) const {
         std::string_view name;
         size_t uses = 0;
@@ -127,7 +127,7 @@ private:
         return product && uses >= 2;
     }
 
-    /// `p *= p + …` or `p += dot(p, …)` at `i`.
+    /// Returns whether `p *= p + …` or `p += dot(p, …)` is at `i`.
     bool is_self_update(size_t i, size_t end) const {
         if (i + 4 >= end || tokens_[i].kind != TokenKind::identifier || !tokens_[i + 2].is("="))
             return false;
@@ -182,7 +182,8 @@ private:
         return region;
     }
 
-    /// Adds the variables that the body declares; false where it does what no hash does.
+    /// Adds the variables that the body declares. Returns false if the body has a construct that hashes do
+    /// not use.
     bool read_locals(const Function& function, std::set<std::string_view>& locals) const {
         for (size_t i = function.body_begin; i < function.body_end; ++i) {
             const Token& token = tokens_[i];
@@ -205,7 +206,7 @@ private:
         return true;
     }
 
-    /// A hash that stands alone in an expression, or in a macro.
+    /// Returns a hash that stands alone in an expression or in a macro.
     std::optional<FloatRegion> expression(size_t i) {
         const bool place = reading_.places[i] == Place::code || reading_.places[i] == Place::macro_body;
         if (!place || !reading_.active(i) || !tokens_[i].is("fract") || !is_call(i, tokens_.size()))
@@ -235,7 +236,8 @@ private:
                (find_builtin(token.text) && is_call(i, end) && !reading_.defines(token.text));
     }
 
-    /// Every variable, macro or function from outside in [begin, end), with all that is applied to it.
+    /// Finds every variable, macro or function from outside in [begin, end), with its members, indices and
+    /// arguments.
     bool find_outside(FloatRegion& region, size_t begin, size_t end,
                       const std::set<std::string_view>& locals) {
         for (size_t i = begin; i < end; ++i) {
@@ -311,7 +313,7 @@ private:
 
     const Reading& reading_;
     const std::vector<Token>& tokens_;
-    std::unordered_map<std::string_view, double> numbers_; ///< names of literals
+    std::unordered_map<std::string_view, double> numbers_; ///< names whose value is a literal
     std::vector<FloatRegion> found_;
 };
 

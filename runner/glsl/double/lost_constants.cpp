@@ -10,8 +10,8 @@ namespace {
 using text::Token;
 using text::TokenKind;
 
-/// Macros may stand for constants and constants for macros, each of which may be defined later than it is
-/// used: so often the lists are read again.
+/// Limit of the passes over the lists: macros may name constants and constants macros, each defined after its
+/// use.
 constexpr int k_most_rounds = 6;
 
 class LossFinder {
@@ -55,7 +55,8 @@ private:
         return false;
     }
 
-    /// `const T a = …, b = …;` at `at`: one that is lost takes the others with it. Returns its end.
+    /// Reads `const T a = …, b = …;` at `at`: one lost value makes all its names lost. Returns the
+    /// declaration's end.
     size_t read_declaration(size_t at) {
         std::vector<std::string_view> names;
         bool lost = false, value = false;

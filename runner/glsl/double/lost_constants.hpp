@@ -1,5 +1,5 @@
-// Constants that are none in a promoted text: a call of a function that is not GLSL's own is no constant
-// expression.
+// Finds constants that a promoted text must declare without `const`: a call of a function that is not GLSL's
+// own is not a constant expression.
 #pragma once
 
 #include "glsl/syntax/reading.hpp"
@@ -10,8 +10,8 @@
 
 namespace tidemark::glsl {
 
-/// Each `const` of a declaration whose value calls, through macros and other constants too, a function that
-/// `replaced` names; as indices of tokens.
+/// Returns the token of each `const` in a declaration whose value calls a function that `replaced` accepts,
+/// directly or through macros and other constants.
 std::vector<size_t> find_lost_constants(const Reading& reading,
                                         const std::function<bool(std::string_view)>& replaced);
 

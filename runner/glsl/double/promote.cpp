@@ -18,19 +18,20 @@ using text::Token;
 using text::TokenKind;
 
 constexpr std::string_view k_single = "tidemark_single";
-constexpr std::string_view k_float_copy = "tidemark_float_"; ///< in front of the name of a hash
+constexpr std::string_view k_float_copy = "tidemark_float_"; ///< prefix of a hash function's name
 constexpr std::string_view k_inner_main = "tidemark_promoted_main";
 constexpr std::string_view k_outputs = "tidemark_output";
 
 constexpr std::string_view k_without_double[] = {"gl_FragDepth", "interpolateAtCentroid",
                                                  "interpolateAtOffset", "interpolateAtSample"};
 
-/// A text that defines one of them as a macro means something else; it must not reach our own lines.
+/// Returns whether the token names a double type. If a text defines such a macro, it means something else,
+/// and the macro is renamed so that it does not reach our own lines.
 bool is_double_word(std::string_view word) {
     return word == "double" || !float_type_of(word).empty();
 }
 
-/// `dFdxFine` -> `dFdx`: fine and coarse are allowed to be the same.
+/// Maps `dFdxFine` to `dFdx`: fine and coarse derivatives may be the same.
 std::string_view canonical(std::string_view name) {
     if (name.starts_with("dFd") || name.starts_with("fwidth"))
         for (const std::string_view variant : {"Fine", "Coarse"})
@@ -39,7 +40,7 @@ std::string_view canonical(std::string_view name) {
     return name;
 }
 
-/// Whether an argument of that number is one in some overload.
+/// Returns whether some overload takes a float as the argument of that number.
 bool takes_floats(const BuiltinFunction& function, size_t argument) {
     return std::ranges::any_of(overloads_of(function), [&](const BuiltinOverload& overload) {
         return argument < overload.parameters.size() && is_float_type(overload.parameters[argument].type);
@@ -89,7 +90,7 @@ private:
             error_ = error_at(where(i), what);
     }
 
-    // What stays in floats
+    // Hashes that stay in floats
 
     void keep(const FloatRegion& region) {
         std::fill(settled_.begin() + long(region.begin), settled_.begin() + long(region.end), true);
@@ -106,7 +107,7 @@ private:
         hashes_.back().where.column = 0;
     }
 
-    /// The function under another name, and one of its name behind it that calls it with floats.
+    /// Renames the function, and adds one of its name after it that calls it with floats.
     void keep_function(const Function& function) {
         std::string declared, passed;
         for (const Parameter& parameter : function.parameters) {
@@ -173,7 +174,7 @@ private:
         note_bits(i);
     }
 
-    /// Neighbours of `##` are pieces of words.
+    /// Returns whether the token is next to `##`, and so only a part of a name.
     bool is_pasted(size_t i) const {
         return (i > 0 && tokens_[i - 1].is("#")) ||
                (i + 1 < tokens_.size() && tokens_[i + 1].is("#") && !tokens_[i + 1].first_on_line);
@@ -207,7 +208,7 @@ private:
             promote_special(i);
     }
 
-    /// `precision highp float;`
+    /// Removes `precision highp float;`.
     void remove_precision(size_t i) {
         for (const size_t end = std::min(i + 4, tokens_.size()); i < end; ++i) {
             edits_.remove(i);
@@ -234,7 +235,7 @@ private:
             wrap_call(i, *function);
     }
 
-    /// A lookup whose offset or component must stay visible as a constant is wrapped where it stands.
+    /// Wraps a look-up in place, because its offset or component must stay a constant in the text.
     void wrap_call(size_t i, const BuiltinFunction& function) {
         const size_t close = reading_.closing(i + 1, tokens_.size());
         if (close >= tokens_.size())
@@ -255,10 +256,10 @@ private:
         edits_.after(close, ")");
     }
 
-    // What comes in and goes out
+    // Inputs and outputs
 
-    /// Global `in` and `out`: nothing is handed to a fragment shader here, so that an input is a variable
-    /// like any other; an output is a double of its name and a float that gets its value at the end.
+    /// Promotes global `in` and `out`. A fragment shader here gets no inputs, so an input becomes an ordinary
+    /// variable. An output becomes a double of its name and a float that is set at the end of main.
     void promote_interface() {
         const std::vector<size_t>& code = reading_.preprocessed.code;
         int depth = 0;
@@ -294,7 +295,7 @@ private:
         outputs_.push_back(fmt::format(" {} = {}({});", output, plain, name.text));
     }
 
-    /// Our own `main`, or the only one.
+    /// Wraps our own `main`, or the author's if there is no other.
     void wrap_main() {
         const Function* chosen = nullptr;
         for (const Function& function : reading_.functions)
@@ -327,7 +328,7 @@ private:
     Reading reading_;
     const std::vector<Token>& tokens_;
     TokenEdits edits_;
-    std::vector<bool> settled_; ///< tokens that nothing more is done to
+    std::vector<bool> settled_; ///< tokens that are not changed any more
     bool hashes_too_;
     std::set<std::string_view> used_;
     std::vector<std::string> outputs_; ///< assignments at the end of main

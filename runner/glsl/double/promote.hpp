@@ -1,5 +1,5 @@
-// A shader in double precision: the author's text with every float a double, and the functions that GLSL has
-// for floats only. Text in, text out; no line moves.
+// Converts a shader to double precision: the author's text with every float a double, and the functions that
+// GLSL has for floats only. Text in, text out; every line keeps its number.
 #pragma once
 
 #include "base/result.hpp"
@@ -14,7 +14,7 @@ namespace tidemark::glsl {
 /// A place where a promoted text still computes in floats, so that its random numbers stay those of the
 /// scene.
 struct KeptHash {
-    std::string function; ///< or macro; empty outside of all
+    std::string function; ///< function or macro; empty outside of both
     SourceLocation where;
     HashKind kind = HashKind::sine;
 
@@ -22,14 +22,14 @@ struct KeptHash {
 };
 
 struct Promoted {
-    std::string functions; ///< goes in front of the body
+    std::string functions; ///< to put before the body
     text::MappedText body;
     std::vector<KeptHash> hashes;
 };
 
-/// `body` is a whole fragment shader but for #version and #extension. Uniforms become double and are to be
-/// set as such; what it writes to goes out as floats. With `hashes_too` hashes are promoted like everything
-/// else. The error names the construct that has no double form, at its place.
+/// Promotes `body`, a whole fragment shader without #version and #extension. Uniforms become doubles and must
+/// be set as such; outputs are written as floats. `hashes_too` promotes hashes like everything else. The
+/// error names a construct that has no double form, with its place.
 Result<Promoted> promote(text::MappedText body, bool hashes_too = false);
 
 } // namespace tidemark::glsl

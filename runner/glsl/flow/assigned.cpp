@@ -11,9 +11,9 @@
 namespace tidemark::glsl {
 namespace {
 
-/// Calls of what is defined further down, in calls of …
+/// Maximum nesting of calls of functions that are defined later in the text.
 constexpr int k_deepest_call = 16;
-/// Global variables times functions: nobody writes so many.
+/// Limit for the number of global variables times the number of functions; real texts stay far below.
 constexpr size_t k_most_followed = 2'000'000;
 
 class Follower : private VariableStates {
@@ -33,7 +33,8 @@ public:
         globals_ = live_.size();
         const FunctionFacts* const main = facts_.function("main");
         whole_ = !main || main->definitions.empty();
-        for (const bool last : {false, true}) // main stands in front of what it calls, often
+        // last: main often precedes the functions that it calls, which would make the call depth large
+        for (const bool last : {false, true})
             for (NodeId part = tree_[0].first_child; part != k_no_node; part = tree_[part].next)
                 if (is_definition(part) && (text_.word_of(part) == "main") == last)
                     summarise(part);
@@ -54,9 +55,8 @@ private:
         return tree_[id].kind == NodeKind::function && text_.word(tree_[id].end - 1) == "}";
     }
 
-    // Variables.
 
-    /// All of them may be read before they have a value.
+    /// Marks all globals as possibly read before they have a value.
     void doubt_globals() {
         for (UnsetVariable& variable : variables_) {
             variable.read = variable.declared;
@@ -84,11 +84,10 @@ private:
         }
     }
 
-    // Functions.
 
     const Summary& summarise(NodeId function) {
         if (const auto known = summaries_.find(function); known != summaries_.end())
-            return known->second; // of one that is being read, for which GLSL has no use: nothing
+            return known->second; // empty for a function that is being summarised: GLSL has no recursion
         if (calls_ >= k_deepest_call) {
             unfollowed_ = empty_summary();
             std::ranges::fill(unfollowed_.reads, ~Slots(0));
@@ -142,7 +141,7 @@ private:
         close();
     }
 
-    /// What a function leaves with: its `out` parameters should have values.
+    /// Leaves the function: records `out` parameters without a value, and merges the state into exits_.
     void exit(NodeId at) {
         if (!state_.reached)
             return;
@@ -157,7 +156,8 @@ private:
         state_ = nowhere(state_.set.size());
     }
 
-    /// Overloads with as many parameters, taken together: it may be any of them.
+    /// Applies a call. Any overload with that many parameters may be the callee, so their summaries are
+    /// merged.
     void call_own(const FunctionFacts& own, size_t arguments) {
         Summary all;
         bool first = true;
@@ -189,7 +189,7 @@ private:
     }
 
     enum class Way { in, out, both, doubtful };
-    /// Which way argument `index` of a call goes.
+    /// Returns the direction of argument `index` of a call.
     Way way_of(std::string_view name, size_t index, size_t arguments) const {
         const FunctionFacts* own = facts_.function(name);
         if (!own || own->definitions.empty())
@@ -233,14 +233,13 @@ private:
             write(part, doubtful);
     }
 
-    // Statements and expressions.
 
     void each(NodeId id) {
         for (NodeId child = tree_[id].first_child; child != k_no_node; child = tree_[child].next)
             walk(child);
     }
 
-    /// What a place is found by is read, whatever becomes of the place.
+    /// Walks the index expressions of a place: they are read even if the place is only written.
     void indices(NodeId place) {
         switch (tree_[place].kind) {
         case NodeKind::index:
@@ -277,7 +276,7 @@ private:
         close();
     }
 
-    /// One of two, or neither.
+    /// Walks two alternatives, one of which runs; `no` may be k_no_node.
     void branch(NodeId yes, NodeId no) {
         State before = state_;
         scoped(yes);
@@ -297,7 +296,7 @@ private:
         state_.meet(loops_.back().continues);
     }
 
-    /// What comes behind a loop: those who left by break, and `out`, who found its condition false.
+    /// Sets the state after a loop: merges all breaks with `out`, the state in which the condition was false.
     void leave_loop(const State& out) {
         State behind = loops_.back().breaks;
         behind.meet(out);
@@ -333,7 +332,7 @@ private:
         walk(condition);
         const State skipped = is_always_true(text_, condition) ? nowhere(live_.size()) : state_;
         body_of_loop(tree_.child(id, 1));
-        leave_loop(skipped); // later turns have assigned no less
+        leave_loop(skipped); // later iterations have assigned no less
         close();
     }
 
@@ -345,7 +344,8 @@ private:
         leave_loop(out);
     }
 
-    /// Each label may be come to from the selector, and from what stands before it.
+    /// Merges at each label the state after the selector with the state at the end of the preceding
+    /// statement.
     void switch_on(NodeId id) {
         walk(tree_.child(id, 0));
         State chosen = state_;
@@ -356,7 +356,7 @@ private:
         const NodeId block = tree_.child(id, 1);
         for (NodeId part = tree_[block].first_child; part != k_no_node; part = tree_[part].next) {
             if (tree_[part].kind == NodeKind::label) {
-                State entry = chosen; // what is declared between is not assigned to by who jumps over it
+                State entry = chosen; // a jump over a declaration leaves its variable without a value
                 entry.set.resize(live_.size(), 0);
                 state_.meet(entry);
                 has_default = has_default || text_.word_of(part) == "default";
@@ -433,7 +433,7 @@ private:
         }
     }
 
-    /// Globals as `main` finds them: their own initialisers come first.
+    /// Evaluates globals as `main` finds them: their initialisers run first.
     void from_the_start() {
         enter();
         for (NodeId part = tree_[0].first_child; part != k_no_node; part = tree_[part].next)
@@ -453,13 +453,13 @@ private:
     }
 
     const TreeFacts& facts_;
-    std::unordered_set<std::string_view> reached_; ///< by main
-    bool whole_ = false;                           ///< there is none
+    std::unordered_set<std::string_view> reached_; ///< functions that main calls, directly or indirectly
+    bool whole_ = false;                           ///< the text has no main
     std::vector<Loop> loops_;
-    State exits_;           ///< of those who have left the function
-    size_t parameters_ = 0; ///< the first in live_
-    bool returns_ = false;  ///< somewhere in the function
-    int calls_ = 0;         ///< how deep
+    State exits_;           ///< merged state of all returns so far
+    size_t parameters_ = 0; ///< first parameter in live_
+    bool returns_ = false;  ///< the function has a return statement
+    int calls_ = 0;         ///< current call depth
     std::unordered_map<NodeId, Summary> summaries_;
     Summary unfollowed_;
     Assignment result_;

@@ -1,6 +1,7 @@
-// Which variables may be read before they have a value: follows every way through every function, part by
-// part of structures, vectors and small arrays, and global variables through calls. Sound: what it calls
-// assigned is assigned on every way that the text leaves open. It knows no values of conditions.
+// Finds variables that may be read before they have a value. Follows all paths through every function,
+// separately for each part of structures, vectors and small arrays, and follows global variables through
+// calls. Sound: a part reported as assigned is assigned on every path that the text allows. Does not evaluate
+// conditions, except those of simple loops.
 #pragma once
 
 #include "glsl/flow/shape.hpp"
@@ -10,32 +11,34 @@
 
 namespace tidemark::glsl {
 
-/// A variable that is declared without a value, and can have one.
+/// A variable that is declared without a value although its type can have one.
 struct UnsetVariable {
     NodeId type = k_no_node;
-    NodeId declared = k_no_node; ///< declarator, or parameter: `out`
+    NodeId declared = k_no_node; ///< declarator, or an `out` parameter
     const Shape* shape = nullptr;
     bool global = false;
     bool parameter = false;
-    bool written = false;  ///< at all
-    bool runs = true;      ///< `main` comes to its function
-    bool doubtful = false; ///< overloads of a function tell whether it is written
-    /// The first read of a part that some way to there leaves without a value; none: there is no such read.
+    bool written = false;  ///< the text writes some part of it
+    bool runs = true;      ///< `main` reaches its function
+    bool doubtful = false; ///< written only by some overloads of a function
+    /// First read of a part that some path leaves without a value; k_no_node if there is no such read.
     NodeId read = k_no_node;
-    /// Of a parameter: the `return` where a part may still be without; where the body just ends, the body.
+    /// For a parameter: the `return` at which a part may have no value; the body if it is the end of the
+    /// body.
     NodeId left = k_no_node;
 
     bool needs_value() const { return runs && (read != k_no_node || left != k_no_node); }
 };
 
 struct Assignment {
-    std::vector<UnsetVariable> variables; ///< in the order of the text
-    /// Functions that `main` comes to and that give a value back on some way, and may come to their end
-    /// without.
+    std::vector<UnsetVariable> variables; ///< in text order
+    /// Functions reached from `main` that return a value on some path, but may reach their end without a
+    /// return.
     std::vector<NodeId> without_return;
 };
 
-/// Where there is no `main`, every function runs. `shapes` made of the same text.
+/// Analyses the whole text. Without a `main`, every function counts as reached. `shapes` must belong to the
+/// same text.
 Assignment find_assignment(const ParsedText& text, const TreeFacts& facts, Shapes& shapes);
 
 } // namespace tidemark::glsl

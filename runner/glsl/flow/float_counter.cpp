@@ -9,12 +9,13 @@
 namespace tidemark::glsl {
 namespace {
 
-/// What turns more often is not followed: a driver gives up before.
+/// Loops with more iterations are not simulated; drivers cancel them earlier.
 constexpr double k_most_turns = 1e6;
-/// Of a quotient of numbers in the text, which double rounds: nearer to a whole number it is one.
+/// Tolerance for a quotient of two literals, for the rounding in double: within it the quotient is a whole
+/// number.
 constexpr double k_rounding = 1e-9;
 
-/// A number, with a sign or without.
+/// Returns the value of a number literal with an optional minus sign.
 std::optional<double> number_at(const ParsedText& text, NodeId id) {
     const SyntaxTree& tree = text.tree();
     id = without_brackets(tree, id);
@@ -29,7 +30,7 @@ bool is_name(const ParsedText& text, NodeId id, std::string_view name) {
 }
 
 struct Numbers {
-    double first = 0, last = 0, step = 0; ///< below 0: it counts down
+    double first = 0, last = 0, step = 0; ///< negative if the loop counts down
     bool with_last = false;               ///< `<=`
 };
 
@@ -57,7 +58,7 @@ double exact_turns(const Numbers& numbers) {
 }
 
 bool is_set_in(const ParsedText& text, const TreeFacts& facts, NodeId body, std::string_view name) {
-    for (NodeId id = 1; id < body; ++id) // parts stand before what they are parts of
+    for (NodeId id = 1; id < body; ++id) // children come before their parents
         if (text.tree().is_within(id, body))
             for (const std::string_view set : names_set(text, facts, id))
                 if (set == name)
@@ -65,7 +66,7 @@ bool is_set_in(const ParsedText& text, const TreeFacts& facts, NodeId body, std:
     return false;
 }
 
-/// Nothing for a loop of another form.
+/// Returns nothing for a loop of another form.
 std::optional<FloatCounter> counter_of(const ParsedText& text, const TreeFacts& facts, NodeId loop,
                                        Numbers& numbers) {
     const SyntaxTree& tree = text.tree();

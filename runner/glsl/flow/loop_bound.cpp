@@ -10,7 +10,8 @@
 namespace tidemark::glsl {
 namespace {
 
-/// The literal that an expression is, in brackets or by the name of a constant of one declaration.
+/// Returns the literal that an expression is, in parentheses or by the name of a constant that is declared
+/// once.
 NodeId literal_node(const ParsedText& text, NodeId id) {
     const SyntaxTree& tree = text.tree();
     id = without_brackets(tree, id);
@@ -37,7 +38,7 @@ std::optional<double> literal(const ParsedText& text, NodeId id) {
     return id == k_no_node ? std::nullopt : number_of(text, literal_node(text, id));
 }
 
-/// What the head of a `for` gives its counter; 0 where it gives none.
+/// Returns the start value from the head of a `for`; 0 if the head has none.
 std::optional<double> first_of(const ParsedText& text, NodeId loop, std::string_view counter) {
     const SyntaxTree& tree = text.tree();
     if (tree[loop].kind != NodeKind::loop_for)
@@ -55,14 +56,15 @@ std::optional<double> first_of(const ParsedText& text, NodeId loop, std::string_
     return 0;
 }
 
-/// The variable that `++i`, `i++`, `i += 2` change; empty for any other expression.
+/// Returns the variable that `++i`, `i++` or `i += 2` changes; empty for any other expression.
 std::string_view changed_name(const ParsedText& text, NodeId id) {
     const NodeId target = text.tree().child(id, 0);
     const bool names = is_change(text, id) && text.tree()[target].kind == NodeKind::name;
     return names ? text.word_of(target) : std::string_view();
 }
 
-/// By how much an expression changes a variable in each turn; nothing: it does not, or nobody knows.
+/// Returns by how much an expression changes a variable in each iteration; nothing if it does not, or if the
+/// amount is unknown.
 std::optional<double> change_of(const ParsedText& text, NodeId id, std::string_view name) {
     const SyntaxTree& tree = text.tree();
     if (tree[id].kind == NodeKind::comma) {
@@ -78,12 +80,12 @@ std::optional<double> change_of(const ParsedText& text, NodeId id, std::string_v
     return by && op == "+=" ? by : by && op == "-=" ? std::optional(-*by) : std::nullopt;
 }
 
-/// k_no_node where it has none.
+/// Returns k_no_node if there is no step.
 NodeId step_of(const SyntaxTree& tree, NodeId loop) {
     return tree[loop].kind == NodeKind::loop_for ? tree.child(loop, 2) : k_no_node;
 }
 
-/// Of one comparison in the head of a loop.
+/// Returns the bound that one comparison in a loop's head sets.
 std::optional<LoopBound> bound_by(const ParsedText& text, NodeId test, NodeId loop) {
     const SyntaxTree& tree = text.tree();
     const NodeId left = tree.child(test, 0), right = tree.child(test, 1);
@@ -91,7 +93,7 @@ std::optional<LoopBound> bound_by(const ParsedText& text, NodeId test, NodeId lo
     const bool less = op == "<" || op == "<=" || op == "!=";
     if (!less && op != ">" && op != ">=")
         return std::nullopt;
-    // `64 > i` is `i < 64`.
+    // `64 > i` means `i < 64`.
     for (const auto& [counter, bound, up] : {std::tuple(left, right, less), std::tuple(right, left, !less)}) {
         const bool named = tree[counter].kind == NodeKind::name;
         const std::string_view name = named ? text.word_of(counter) : changed_name(text, counter);
@@ -109,7 +111,7 @@ std::optional<LoopBound> bound_by(const ParsedText& text, NodeId test, NodeId lo
     return std::nullopt;
 }
 
-/// Any side of `&&` is enough to end a loop.
+/// One false side of `&&` is enough to end a loop.
 std::optional<LoopBound> bound_in(const ParsedText& text, NodeId condition, NodeId loop) {
     const SyntaxTree& tree = text.tree();
     if (tree[condition].kind == NodeKind::parenthesis)

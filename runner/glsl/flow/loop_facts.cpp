@@ -20,7 +20,7 @@ std::optional<double> combined(std::string_view op, double a, double b) {
     return std::nullopt;
 }
 
-/// What the text alone gives.
+/// Evaluates an expression of literals and constants.
 std::optional<double> value_of(const ParsedText& text, const Shapes& shapes, NodeId id, int depth = 0) {
     const SyntaxTree& tree = text.tree();
     if (id == k_no_node || depth > k_deepest_value)
@@ -46,7 +46,7 @@ std::optional<double> value_of(const ParsedText& text, const Shapes& shapes, Nod
     }
 }
 
-/// `i < N` of a loop that begins `int i = A`.
+/// `i < N` of a loop that begins with `int i = A`.
 struct Head {
     std::string_view counter;
     NodeId start = k_no_node;
@@ -84,7 +84,7 @@ std::optional<Head> head_of(const ParsedText& text, NodeId loop) {
     return head;
 }
 
-/// `++i`, `i++`, `i += 1`.
+/// Checks for `++i`, `i++`, `i += 1`.
 bool counts_up(const ParsedText& text, NodeId step, std::string_view counter) {
     const SyntaxTree& tree = text.tree();
     const NodeId target = tree.child(step, 0);
@@ -95,14 +95,15 @@ bool counts_up(const ParsedText& text, NodeId step, std::string_view counter) {
     return text.word_of(step) == "++";
 }
 
-/// No word of the body leaves a turn early, or may change the counter.
+/// Checks that nothing in the body leaves an iteration early or may change the counter.
 bool goes_straight(const ParsedText& text, const TreeFacts& facts, NodeId body, std::string_view counter) {
     const SyntaxTree& tree = text.tree();
     for (size_t i = tree[body].begin; i < tree[body].end; ++i)
         for (const std::string_view leaves : {"break", "continue", "return", "discard"})
             if (text.word(i) == leaves)
                 return false;
-    for (NodeId id = body; id > 0 && tree[id].begin >= tree[body].begin; --id) { // nodes come before theirs
+    // children come before their parents
+    for (NodeId id = body; id > 0 && tree[id].begin >= tree[body].begin; --id) {
         if (is_change(text, id) && text.word_of(tree.child(id, 0)) == counter)
             return false;
         if (tree[id].kind != NodeKind::call)
@@ -115,7 +116,7 @@ bool goes_straight(const ParsedText& text, const TreeFacts& facts, NodeId body, 
     return true;
 }
 
-/// The arguments that a call of a function with one definition writes.
+/// Returns the arguments that a call writes, if its function has exactly one definition.
 std::vector<NodeId> surely_written(const ParsedText& text, const TreeFacts& facts, NodeId call) {
     const SyntaxTree& tree = text.tree();
     std::vector<NodeId> written;
@@ -197,7 +198,7 @@ bool fills(const ParsedText& text, const Shapes& shapes, NodeId loop, NodeId dec
         const auto turns = value_of(text, shapes, bound);
         return turns && *turns >= double(shape.length);
     }
-    // A length that is not known here is the same if it is the same word.
+    // An array length that is not known here still matches a bound of the same name.
     const NodeId bracket = tree.child(declared, 0);
     if (tree[array].kind != NodeKind::name || tree.child_count(declared) != 1 || !is_bracket(text, bracket))
         return false;

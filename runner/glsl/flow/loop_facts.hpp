@@ -1,5 +1,4 @@
-// What can be told of a `for` from its head alone: whether its body is come to at all, and whether it goes
-// through a whole array.
+// Facts from the head of a `for` loop: whether its body certainly runs, and whether it covers a whole array.
 #pragma once
 
 #include "glsl/flow/shape.hpp"
@@ -9,18 +8,19 @@
 
 namespace tidemark::glsl {
 
-/// Of a condition: nothing, or `true`.
+/// Returns whether a condition is absent or `true`.
 bool is_always_true(const ParsedText& text, NodeId condition);
 
-/// Whether a `for` certainly runs its body once: `int i = 0; i < 8`.
+/// Returns whether a `for` certainly runs its body at least once: `int i = 0; i < 8`.
 bool enters_surely(const ParsedText& text, const Shapes& shapes, NodeId loop);
 
-/// The arrays `a` of which `for (int i = 0; i < N; ++i)` sets `a[i]` in each turn, by `=` or as an argument
-/// that a function of one definition writes, and which are no longer than N. The nodes are those of `a`.
-/// Empty where the loop may skip or leave a turn.
+/// Returns the arrays `a` for which `for (int i = 0; i < N; ++i)` sets `a[i]` in each iteration, by `=` or as
+/// an argument that a function with one definition writes. The nodes are those of `a`. Empty if the loop may
+/// skip or leave an iteration. Check with fills() that N covers the array.
 std::vector<NodeId> filled_arrays(const ParsedText& text, const TreeFacts& facts, NodeId loop);
 
-/// Whether one of those, of `shape` and declared so, has no more elements than the loop has turns.
+/// Returns whether such an array, of that shape and declaration, has no more elements than the loop has
+/// iterations.
 bool fills(const ParsedText& text, const Shapes& shapes, NodeId loop, NodeId declared, const Shape& shape,
            NodeId array);
 

@@ -9,11 +9,12 @@
 namespace tidemark::glsl {
 namespace {
 
-/// More than that is written down by nobody, and by no constructor of ours.
+/// Larger than any array in real texts, and than any constructor that Tidemark writes.
 constexpr size_t k_most_numbers = 1u << 20;
-/// An array's elements are told apart up to that many.
+/// Largest array whose elements are tracked separately.
 constexpr long k_most_elements = 16;
-/// Structures of two structures each need twice as many statements with each step: no text is that long.
+/// Nested structures can double the number of statements at each level; texts longer than this are not
+/// written.
 constexpr size_t k_most_statements = 512;
 
 size_t times(size_t a, size_t b) {
@@ -127,7 +128,7 @@ const Shape& Shapes::array_of(const Shape& element, std::optional<long> length) 
     return shapes_.emplace_back(std::move(shape));
 }
 
-/// The structure that stands there, or the last one of that name that was declared before where it is seen.
+/// Returns the structure defined in the type itself, or the last visible one of that name declared before it.
 const Shape& Shapes::named(NodeId type) {
     if (const NodeId own = tree_.child(type, 0); own != k_no_node)
         return structure(own);
@@ -145,7 +146,7 @@ const Shape& Shapes::named(NodeId type) {
     return best == k_no_node ? unknown(name) : structure(best);
 }
 
-/// Outermost first: `float[3] a[2]` is two of three.
+/// Returns the array lengths, outermost first: `float[3] a[2]` is two arrays of three.
 std::vector<std::optional<long>> Shapes::lengths(NodeId type, NodeId declared) const {
     std::vector<std::optional<long>> result;
     if (declared != k_no_node)

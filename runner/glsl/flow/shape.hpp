@@ -1,5 +1,5 @@
-// What the variables of a text are made of: the parts of a type, down to single numbers, so that a place such
-// as `s.light[2].xy` can be told from the rest of `s`.
+// Parts of a variable's type, down to single numbers, so that a place such as `s.light[2].xy` can be
+// distinguished from the rest of `s`.
 #pragma once
 
 #include "glsl/syntax/parsed_text.hpp"
@@ -18,20 +18,20 @@ struct Shape {
     struct Member;
 
     Kind kind = Kind::unknown;
-    std::string_view type{}; ///< its name; of an array that of its elements; empty: a structure without one
-    size_t length = 0;       ///< of a vector, an array, a matrix (columns); 0: an array's is not known
+    std::string_view type{}; ///< type name; an array has that of its elements; empty for an unnamed structure
+    size_t length = 0;       ///< of a vector, an array or a matrix (columns); 0 if an array's is unknown
     const Shape* part = nullptr; ///< element of an array, column of a matrix, component of a vector
     std::vector<Member> members;
-    unsigned slots =
-        1; ///< numbers that are told apart; where they would be too many, the whole counts as one
-    bool whole = false; ///< its parts are not told apart
-    size_t numbers = 0; ///< values that a constructor of it takes in all; 0: not known, or no constructor
-    size_t statements =
-        0; ///< that set it to zero one by one; 0: it holds a sampler, or they would be too many
+    /// Numbers that are tracked separately; 1 if they would exceed k_most_slots.
+    unsigned slots = 1;
+    bool whole = false; ///< its parts are not tracked separately
+    size_t numbers = 0; ///< scalars in a full constructor; 0 if unknown, or if there is no constructor
+    /// Statements that set it to zero one by one; 0 if it holds a sampler, or if they would be too many.
+    size_t statements = 0;
 
-    /// Made of numbers alone, and of few enough to write a statement for each.
+    /// Returns whether it consists of numbers only, few enough to write a statement for each.
     bool can_be_zero() const { return statements > 0; }
-    /// A word and `(0)` make a zero of it.
+    /// Returns whether its zero is the type name followed by `(0)`.
     bool is_plain() const { return kind == Kind::scalar || kind == Kind::vector || kind == Kind::matrix; }
 };
 
@@ -48,25 +48,27 @@ inline Slots all_slots(unsigned count) {
     return count >= k_most_slots ? ~Slots(0) : (Slots(1) << count) - 1;
 }
 
-/// A part of a variable that an expression names.
+/// The part of a variable that an expression names.
 struct Part {
     Slots slots = 0;
-    const Shape* shape = nullptr; ///< nullptr: of no more than one number
-    bool exact = true;            ///< all of `slots`, and nothing less
+    const Shape* shape = nullptr; ///< nullptr if unknown, or for a swizzle of several components
+    bool exact = true;            ///< the expression names all of `slots`, not only some of them
 };
 
-/// Refers to the text, which must outlive it.
+/// Keeps a reference to the text, which must outlive it.
 class Shapes {
 public:
     explicit Shapes(const ParsedText& text);
 
-    /// Of what a declaration's type and one of its declarators make together; `declared` may be none.
+    /// Returns the shape of a declaration's type with one of its declarators; `declared` may be k_no_node.
     const Shape& of(NodeId type, NodeId declared);
 
-    /// The part of a variable of `shape` that `place` names, its base being the variable's name.
+    /// Returns the part of a variable of `shape` that `place` names; the base of `place` is the variable's
+    /// name.
     Part part_of(const Shape& shape, NodeId place) const;
 
-    /// A whole number that the text alone gives: a literal, a global `const int` made of one.
+    /// Returns a whole number given by a literal, or by a global const of a whole type that is set to a
+    /// literal.
     std::optional<long> number(size_t begin, size_t end) const;
 
 private:

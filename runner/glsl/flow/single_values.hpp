@@ -1,4 +1,4 @@
-// The one value of a variable that is declared with it and never changed.
+// Finds the single value of a variable that is initialised in its declaration and never changed.
 #pragma once
 
 #include "glsl/syntax/parsed_text.hpp"
@@ -15,13 +15,13 @@ class SingleValues {
 public:
     SingleValues(const ParsedText& text, const TreeFacts& facts);
 
-    /// The expression that `name` is declared with, where its function, or the text outside of functions,
-    /// declares it once and nothing sets it; k_no_node else, and of what is no name. What the expression is
-    /// made of may be another by then, and may have the same name (`float x = 2.0 * x`).
+    /// Returns the initialiser of `name` if its function (or the global scope) declares it once and nothing
+    /// assigns it; k_no_node otherwise, and for a node that is not a name. Variables in that expression may
+    /// have changed since, and may have the same name (`float x = 2.0 * x`).
     NodeId of(NodeId name) const;
 
 private:
-    /// A name in a function; k_no_node: outside of all.
+    /// A name in a function; k_no_node stands for the global scope.
     using Place = std::pair<NodeId, std::string_view>;
     struct Declared {
         NodeId node = k_no_node; ///< declarator or parameter

@@ -1,5 +1,5 @@
-// The variables that a way through a text has met, and which of their parts it has assigned. Who follows the
-// ways (assigned.cpp) tells it of declarations, reads and writes, and of where ways part and meet.
+// State of the variables along a path through a text: which of their parts are assigned. The class that walks
+// the paths (Follower) reports declarations, reads, writes, branches and joins.
 #pragma once
 
 #include "glsl/flow/assigned.hpp"
@@ -10,7 +10,7 @@
 
 namespace tidemark::glsl {
 
-/// What a way has assigned, by place on the stack of variables.
+/// Parts that a path has assigned, by index in the stack of live variables.
 struct State {
     std::vector<Slots> set;
     bool reached = true;
@@ -29,16 +29,16 @@ struct State {
     }
 };
 
-/// Where no way leads: what meets it stays what it is.
+/// Returns the state of unreachable code; meeting it leaves the other state unchanged.
 inline State nowhere(size_t depth) {
     return {std::vector<Slots>(depth, ~Slots(0)), false};
 }
 
-/// What a call does to the global variables, by their numbers.
+/// Effect of a call on global variables, by their index.
 struct Summary {
-    std::vector<Slots> reads; ///< before it assigns them itself
-    std::vector<NodeId> places;
-    std::vector<Slots> assigns; ///< on every way
+    std::vector<Slots> reads; ///< read before the function assigns them
+    std::vector<NodeId> places; ///< first such read of each
+    std::vector<Slots> assigns; ///< on every path
 };
 
 class VariableStates {
@@ -48,10 +48,10 @@ protected:
 
     static constexpr size_t k_untracked = size_t(-1);
 
-    /// `unset`: without a value. What has one is not followed.
+    /// Declares a variable. Only those that are `unset` (declared without a value) are tracked.
     void declare(NodeId type, NodeId declared, bool unset);
     bool has_value(NodeId declared) const;
-    /// Follows none of those declared so far any further.
+    /// Stops tracking all variables declared so far.
     void forget();
 
     struct Found {
@@ -62,42 +62,42 @@ protected:
     UnsetVariable& variable(size_t place) { return variables_[live_[place]]; }
 
     void read(NodeId id);
-    /// Some `slots` of the variable at `place` are read.
+    /// Records a read of some `slots` of the variable at `place`.
     void need(size_t place, Slots slots, NodeId at);
-    /// `doubtful`: or not.
+    /// Records a write; `doubtful` if it may not happen.
     void write(NodeId id, bool doubtful = false);
 
     void open();
     void close();
 
     using Scope = std::unordered_map<std::string_view, size_t>;
-    /// What is seen in the midst of one function.
+    /// Everything visible inside one function, saved during a call.
     struct Sight {
         std::vector<size_t> live;
         std::vector<Scope> scopes;
         State state;
         Summary summary;
     };
-    /// Into another function, where only globals are seen; and back.
+    /// Enters another function, where only globals are visible; leave() restores the state.
     Sight enter();
     void leave(Sight outer);
-    /// One that reads and assigns nothing.
+    /// Returns the summary of a function that reads and assigns nothing.
     Summary empty_summary() const;
 
     const ParsedText& text_;
     const SyntaxTree& tree_;
     Shapes& shapes_;
     std::vector<UnsetVariable> variables_;
-    size_t globals_ = 0;       ///< the first of live_
-    std::vector<size_t> live_; ///< variables that are seen here, by number
+    size_t globals_ = 0;       ///< the globals come first in live_
+    std::vector<size_t> live_; ///< indices of the variables that are visible here
     State state_;
     Summary summary_;
-    bool runs_ = true; ///< what is being followed
+    bool runs_ = true; ///< the current function is reached from main
 
 private:
     size_t place_of(NodeId name) const;
 
-    std::vector<Scope> scopes_; ///< places in live_
+    std::vector<Scope> scopes_; ///< indices in live_
     std::vector<size_t> depths_;
 };
 

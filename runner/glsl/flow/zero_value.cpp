@@ -9,7 +9,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// Mesa takes 0.4 s longer for 64 elements written out than for none, and 20 s for 512.
+/// Mesa needs 0.4 s more for 64 elements written out than for none, and 20 s for 512.
 constexpr size_t k_most_written_out = 64;
 
 bool is_seen(const Shape& shape, const TreeFacts& facts) {

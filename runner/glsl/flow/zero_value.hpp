@@ -1,5 +1,4 @@
-// The zero of a type, as its author would write it: `0.0`, `vec3(0.0)`, `Hit(0.0, vec2[2](vec2(0.0),
-// vec2(0.0)))`.
+// Writes the zero of a type as GLSL: `0.0`, `vec3(0.0)`, `Hit(0.0, vec2[2](vec2(0.0), vec2(0.0)))`.
 #pragma once
 
 #include "glsl/flow/shape.hpp"
@@ -10,11 +9,11 @@
 
 namespace tidemark::glsl {
 
-/// `float[2][3]`: what a constructor of that shape is called.
+/// Returns the name of the shape's constructor: `float[2][3]`.
 std::string constructor_of(const Shape& shape);
 
-/// Nothing for what has no constructor, what has more than 64 numbers, and what has structures whose names
-/// mean something else somewhere in the text.
+/// Returns nothing for a type without constructor, with more than 64 numbers, or with structures whose names
+/// have another meaning somewhere in the text.
 std::optional<std::string> zero_value(const Shape& shape, const TreeFacts& facts);
 
 } // namespace tidemark::glsl

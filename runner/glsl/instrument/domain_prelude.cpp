@@ -37,7 +37,7 @@ void $whole(int i,int argument,uint limit){$note(i,uint(argument)<<1|uint(argume
 void $near(inout float m,float room){m=room<m?room:m;}
 )";
 
-/// A float's bits, so that less room is a larger word; 0 is none at all.
+/// Encodes a float's bits so that less room is a larger number; 0: nothing recorded.
 constexpr std::string_view k_objectives = R"(float $m[@];
 void $begin(){for(int i=0;i<$count;++i)$m[i]=3e38;}
 void $flush(){for(int i=0;i<$count;++i)if($m[i]<3e38){
@@ -49,7 +49,7 @@ if(placed>$out[#+2*i+1])atomicMax($out[#+2*i+1],placed);
 }}
 )";
 
-/// Its domain is one of whole vectors.
+/// Returns the overloads of normalize, whose domain concerns the whole vector.
 std::string normalize_overloads(std::string_view prefix) {
     std::string text;
     for (const std::string_view type : k_float_vectors)
@@ -59,7 +59,8 @@ std::string normalize_overloads(std::string_view prefix) {
     return text;
 }
 
-/// One for floats, which knows the domain, and those with vectors, part by part.
+/// Returns an overload for floats, which tests the domain, and overloads for vectors, which call it per
+/// component.
 std::string overloads(const BuiltinFunction& function, std::string_view prefix) {
     constexpr std::string_view k_names = "xyz";
     const Domain& domain = *function.domain;
@@ -97,7 +98,7 @@ std::string overloads(const BuiltinFunction& function, std::string_view prefix) 
     return text;
 }
 
-/// One branch for a vector, for there are many quotients, many of them in loops.
+/// Returns the quotients of floats, with one branch per vector: quotients are many, and often in loops.
 std::string float_quotients(std::string_view prefix) {
     std::string text =
         fmt::format("float {0}quotient(float x,float y,int i,inout float m){{float r=x/y;{0}near(m,abs(y));"
@@ -120,7 +121,7 @@ std::string float_quotients(std::string_view prefix) {
     return text;
 }
 
-/// `make(type, components)` for the types of whole numbers.
+/// Joins `make(type, components)` for the types of whole numbers.
 template <class Make>
 std::string for_whole_types(Make make) {
     std::string text;
@@ -133,8 +134,8 @@ std::string part_of(std::string_view name, int size, int part) {
     return size == 1 ? std::string(name) : fmt::format("{}.{}", name, std::string_view("xyzw")[size_t(part)]);
 }
 
-/// `NAME(y)`, which looks at each part of a whole number or a vector of them before it is used: {0} of
-/// `pattern` is the prefix, {1} the part, {2} its type.
+/// Returns `NAME(y)` for whole numbers and their vectors, which checks each component before it is used: {0}
+/// of `pattern` is the prefix, {1} the component, {2} its type.
 std::string watched_parts(std::string_view prefix, std::string_view name, std::string_view pattern) {
     return for_whole_types([&](const std::string& type, int size) {
         std::string text = fmt::format("{0} {1}{2}({0} y,int i,inout float m){{", type, prefix, name);
@@ -145,13 +146,14 @@ std::string watched_parts(std::string_view prefix, std::string_view name, std::s
     });
 }
 
-/// Divisors of whole numbers, `$divisor(y)`: 1 in the place of 0, which some drivers stop at.
+/// Returns `$divisor(y)` for whole numbers: it replaces 0 by 1, because some drivers stop at a division by 0.
 std::string divisors(std::string_view prefix) {
     return watched_parts(prefix, "divisor",
                          "{0}near(m,abs(float({1})));if(int({1})==0){{{0}whole(i,0,1u);{1}={2}(1);}}");
 }
 
-/// Quotients that turn out to be of whole numbers, and those with matrices, which are not watched.
+/// Returns quotients of whole numbers, a type that only the driver finds, and of matrices, which are not
+/// watched.
 std::string other_quotients(std::string_view prefix) {
     std::string text = divisors(prefix);
     const auto add = [&](const std::string& left, const std::string& right, const std::string& result,
@@ -185,7 +187,7 @@ std::string shifts(std::string_view prefix) {
                          "if(uint({1})>31u){{{0}whole(i,int({1}),31u);if({0}number>=0){1}={2}(0);}}");
 }
 
-/// An index that there is, whatever was asked for: a write beyond could hit anything.
+/// Returns an index inside the array: a write outside of it could hit any memory.
 constexpr std::string_view k_index = R"(int $index(int x,int n,int i,inout float m){
 $near(m,min(float(x),float(n-1)-float(x))+0.5);
 if(x<0||x>=n){$whole(i,x,uint(n-1));x=$number==i?($value==1.0?n-1:0):clamp(x,0,n-1);}
@@ -196,7 +198,8 @@ if(x>=uint(n)){$whole(i,int(x),uint(n-1));x=$number==i&&$value!=1.0?0u:uint(n-1)
 return x;}
 )";
 
-/// Its words are x and y of the texel, 16 bits each, and the size.
+/// Records the coordinate that is outside and its last valid value; a level below 0 with the limit
+/// 0x10000000.
 std::string fetches(std::string_view prefix) {
     std::string text;
     for (const auto& [sampler, place, z] :
@@ -214,7 +217,7 @@ std::string fetches(std::string_view prefix) {
     return text;
 }
 
-/// `$toint(x)` and `$touint(x)` give back what they got.
+/// Returns `$toint(x)` and `$touint(x)`, which return their argument.
 std::string conversions(std::string_view prefix) {
     std::string text;
     for (const auto& [name, low, high] :

@@ -66,7 +66,7 @@ public:
     }
 
 private:
-    /// Leads what stands at the site through ours; `last` are the last arguments.
+    /// Routes the site's operation through our function; `last` are the arguments to append.
     void lead(const DomainSite& site, const std::string& last) {
         const NodeId id = site.node;
         switch (site.kind) {

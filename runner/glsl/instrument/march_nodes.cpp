@@ -76,7 +76,7 @@ private:
 
     // -- The place on the ray
 
-    /// A name, perhaps with members: without effects, so that it may be said once more.
+    /// Returns whether the node is a name, perhaps with members, so that repeating it has no effect.
     bool is_plain_place(NodeId id) const {
         while (tree_[id].kind == NodeKind::member)
             id = tree_.child(id, 0);
@@ -97,7 +97,7 @@ private:
         return first.file == line.file && first.line <= line.line && line.line <= last.line;
     }
 
-    /// Whether somewhere in `value` something is added to `place`.
+    /// Returns whether a sum in `value` has `place` as a term.
     bool adds_to(NodeId value, const std::string& place) const {
         for (NodeId id = 1; id <= value; ++id) {
             const std::string_view op = text_.word_of(id);
@@ -117,7 +117,7 @@ private:
         return op == "=" && adds_to(tree_.child(assignment, 1), words_of(text_, place));
     }
 
-    /// The targets of what the loop assigns in the lines where its place goes on, as far as they are `such`.
+    /// Returns the targets of assignments on the lines that advance the position, if `such` accepts them.
     template <class Such>
     std::vector<NodeId> targets(Such such) const {
         std::vector<NodeId> places;
@@ -130,8 +130,8 @@ private:
         return places;
     }
 
-    /// `t += step` or, if there is none, `t *= factor`; where the distance is that behind the step, `ahead =
-    /// t + step` as well.
+    /// Finds `t += step` or, if there is none, `t *= factor`; if the distance is measured after the step,
+    /// also `ahead = t + step`.
     Result<void> find_place() {
         std::vector<NodeId> places = targets([this](NodeId id) { return goes_on(id); });
         if (places.empty())
@@ -161,15 +161,15 @@ private:
         return {};
     }
 
-    /// Whether it is done once, in front of the first turn.
+    /// Returns whether the node runs once, before the first iteration.
     bool opens(NodeId id) const {
         return tree_[found_.loop].kind == NodeKind::loop_for &&
                tree_.is_within(id, tree_.child(found_.loop, 0));
     }
 
-    // -- How many turns
+    // -- Limits of the number of iterations
 
-    /// Whether a value is made of literals alone.
+    /// Returns whether a value consists of literals only.
     bool is_literal(NodeId value) const {
         for (NodeId id = 1; id <= value; ++id)
             if (tree_.is_within(id, value) &&
@@ -178,7 +178,7 @@ private:
         return true;
     }
 
-    /// Whether the loop changes it, and only by what stands in the text as a number.
+    /// Returns whether the loop changes the variable, and only by literals.
     bool is_counter(std::string_view name) const {
         bool changes = false;
         for (NodeId id = 1; id < found_.loop; ++id) {
@@ -195,7 +195,7 @@ private:
         return changes;
     }
 
-    /// Whether the loop sets any name of it.
+    /// Returns whether the loop assigns any variable named in `side`.
     bool changes(NodeId side) const {
         for (NodeId id = 1; id < found_.loop; ++id)
             if (is_change(text_, id) && tree_.is_within(id, found_.loop) && !opens(id) &&
@@ -204,7 +204,7 @@ private:
         return false;
     }
 
-    /// Whether one side counts turns up to the other, which stays as it is.
+    /// Returns whether one side counts iterations up to the other side, which the loop does not change.
     bool limits_turns(NodeId comparison) const {
         const NodeId left = tree_.child(comparison, 0), right = tree_.child(comparison, 1);
         return (counts(left) && !changes(right)) || (counts(right) && !changes(left));
@@ -218,7 +218,7 @@ private:
                is_counter(text_.word_of(side));
     }
 
-    /// The parts of a condition that alone make it `stopping`.
+    /// Adds the comparisons that on their own make the condition `stopping`.
     void add_limits(NodeId condition, bool stopping) {
         const Node& node = tree_[condition];
         const std::string_view joins = stopping ? "||" : "&&";

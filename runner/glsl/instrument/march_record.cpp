@@ -11,8 +11,8 @@
 namespace tidemark::glsl {
 namespace {
 
-/// In front of the text; `$` is a prefix that no name of it has. `on`: this loop is the first one entered.
-/// The flags are HitFlag's.
+/// GLSL before the text; `$` is a prefix that no name of the text has. `on`: this loop is the first one
+/// entered. The flags are those of HitFlag.
 constexpr std::string_view k_prelude = R"(#undef TIDEMARK_HIT
 #define mainHit tidemark_own_hit
 int $entries = 0;
@@ -86,7 +86,7 @@ bool $bound(bool on, bool holds, bool stopping) {
 }
 )";
 
-/// Behind it; `@` is the knob.
+/// GLSL after the text; `@` is the knob.
 constexpr std::string_view k_main_hit = R"(
 #undef mainHit
 void mainHit(out vec4 hit, in vec2 fragCoord) {
@@ -101,7 +101,7 @@ void mainHit(out vec4 hit, in vec2 fragCoord) {
 }
 )";
 
-/// Something around the words [begin, end).
+/// Text to insert around the tokens [begin, end).
 struct Wrap {
     size_t begin, end;
     std::string before, after;
@@ -128,7 +128,7 @@ public:
     }
 
 private:
-    /// `$name(on, NODE rest)`.
+    /// Replaces NODE by `$name(on, NODE rest)`.
     void lead(NodeId node, std::string_view name, const std::string& rest = {}) {
         wraps_.push_back(
             {tree_[node].begin, tree_[node].end, fmt::format("{0}{1}({0}on,", prefix_, name), rest + ")"});
@@ -167,7 +167,7 @@ private:
         lead(march.threshold, "threshold");
     }
 
-    /// What `abs` takes the sign of.
+    /// Returns the argument of `abs`, which still has its sign, or the distance itself.
     NodeId with_sign(NodeId distance) const {
         const NodeId inside = without_brackets(tree_, distance);
         const bool absolute = tree_[inside].kind == NodeKind::call && called_name(text_, inside) == "abs" &&
@@ -175,7 +175,7 @@ private:
         return absolute ? tree_.child(inside, 1) : distance;
     }
 
-    /// Nothing of ours may come to stand in the middle of a macro's words.
+    /// Returns an error if an insertion would fall inside a macro's expansion.
     Result<void> check_words(std::span<const MarchLines> marches) const {
         for (const Wrap& wrap : wraps_)
             if (!edits_.begins_alone(wrap.begin) || !edits_.begins_alone(wrap.end))
@@ -184,7 +184,7 @@ private:
         return {};
     }
 
-    /// At one place what ends comes first, inner before outer; then what begins, outer before inner.
+    /// Inserts at one place first the ends, inner before outer, and then the beginnings, outer before inner.
     void insert() {
         std::vector<size_t> order(wraps_.size());
         for (size_t i = 0; i < order.size(); ++i)
@@ -206,7 +206,7 @@ private:
     const TreeFacts& facts_;
     std::string prefix_;
     WordEdits edits_;
-    std::vector<Wrap> wraps_; ///< of the same words the outer first
+    std::vector<Wrap> wraps_; ///< those around the same tokens: outer first
 };
 
 } // namespace

@@ -1,6 +1,6 @@
-// A text that records, while its mainImage runs, what the first of its marching loops that a pixel enters
-// did, and hands that out through a mainHit of ours (glsl/hit.hpp). Text in, text out; its picture is to be
-// the plain text's, bit by bit.
+// Instruments a text so that it records, while mainImage runs, the first marching loop that a pixel enters,
+// and returns the record through a generated mainHit (glsl/hit.hpp). Text in, text out; the picture stays the
+// original's, bit by bit.
 #pragma once
 
 #include "glsl/instrument/march_nodes.hpp"
@@ -10,17 +10,17 @@
 
 namespace tidemark::glsl {
 
-/// A knob, float, that says what our mainHit answers with.
+/// Name of the float knob that selects the answer of the generated mainHit.
 inline constexpr std::string_view k_record_knob = "tidemark_record";
 enum class RecordAnswer {
-    hit,     ///< as glsl/hit.hpp has it: x -1 where the test did not hold at the end
+    hit,     ///< as in glsl/hit.hpp: x is -1 if the test did not hold at the end
     picture, ///< the colour of mainImage
-    march,   ///< place on the ray, distances that were tested, the last of them, its threshold
-    fall,    ///< the most that the distance falls by between two samples, a unit of the way; its place
+    march,   ///< place on the ray, number of tested distances, the last distance, its threshold
+    fall,    ///< steepest fall of the distance between two samples, per unit of the way, and its place
 };
 
-/// `text` is Common and the pass as their authors wrote them. What is not certain is an error, never a
-/// guess; so is a text that discards pixels.
+/// Instruments `text`, which is Common and the pass as their authors wrote them. Returns an error if
+/// something is not certain or if the text discards pixels.
 Result<text::MappedText> record_marches(const ParsedText& text, const TreeFacts& facts,
                                         std::span<const MarchLines> marches);
 

@@ -9,7 +9,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// `@` is the number of expressions.
+/// GLSL before the text; `@` is the number of expressions.
 constexpr std::string_view k_seen_prelude = R"(uniform int $which;
 vec4 $seen[@];
 bool $met[@];
@@ -19,10 +19,10 @@ vec3 $see(int i,vec3 v){$seen[i]=vec4(v,0.0);$met[i]=true;return v;}
 vec4 $see(int i,vec4 v){$seen[i]=v;$met[i]=true;return v;}
 )";
 
-/// In front of the end of `main`; `@` is its output.
+/// GLSL at the end of `main`; `@` is its output.
 constexpr std::string_view k_show = "@=$met[$which]?$seen[$which]:vec4(uintBitsToFloat(0x7fc00000u));}\n";
 
-/// Before all else; `@` is the number of expressions. Globals have no values to begin with.
+/// GLSL at the start of `main`; `@` is the number of expressions. Globals have no initial values.
 constexpr std::string_view k_begin = "for(int $i=0;$i<@;++$i)$met[$i]=false;\n";
 
 NodeId body_of_main(const ParsedText& text) {
@@ -48,7 +48,7 @@ SeenValues see_values(const ParsedText& text, std::span<const NodeId> expression
     std::vector<size_t> order(expressions.size());
     for (size_t i = 0; i < order.size(); ++i)
         order[i] = i;
-    std::ranges::sort(order, {}, [&](size_t i) { return expressions[i]; }); // inner ones first
+    std::ranges::sort(order, {}, [&](size_t i) { return expressions[i]; }); // inner nodes first
     for (const size_t i : order)
         edits.wrap(expressions[i], fmt::format("{}see({},", prefix, i), ")");
     const Node& main = text.tree()[body];

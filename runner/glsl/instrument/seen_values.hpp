@@ -1,5 +1,6 @@
-// A shader that shows what one of its expressions had for a value, in place of the picture: the last one in
-// each pixel, NaN where it was not come to. A uniform says which. Text in, text out.
+// Instruments a shader so that it shows the value of one of its expressions instead of the picture: the last
+// value in each pixel, or NaN where the expression was not evaluated. A uniform selects it. Text in, text
+// out.
 #pragma once
 
 #include "glsl/syntax/parsed_text.hpp"
@@ -11,11 +12,11 @@
 namespace tidemark::glsl {
 
 struct SeenValues {
-    std::string text; ///< empty: the text has a `main` of its author's, whose output is not ours to know
-    std::string which_uniform; ///< int, an index of the expressions
+    std::string text; ///< empty: the text has its author's own `main`, whose output is unknown
+    std::string which_uniform; ///< int, an index into the expressions
 };
 
-/// `expressions` are of floats and vectors of floats; `output` is what our `main` writes.
+/// `expressions` are floats and vectors of floats; `output` is the variable that our `main` writes.
 SeenValues see_values(const ParsedText& text, std::span<const NodeId> expressions, std::string_view output);
 
 } // namespace tidemark::glsl

@@ -1,5 +1,5 @@
-// A text made anew from the words of a ParsedText with something added around or in the place of some of
-// them: how passes that lead operations through functions of ours write what they read.
+// Writes a text anew from the tokens of a ParsedText, with insertions around tokens and replacements of some.
+// Passes that route operations through functions of ours use it.
 #pragma once
 
 #include "glsl/syntax/parsed_text.hpp"
@@ -14,34 +14,34 @@ class SourceRewriter {
 public:
     explicit SourceRewriter(const ParsedText& text) : text_(text), changes_(text.words().size()) {}
 
-    /// `before` and `after` right around the node. Of several nodes an inner one is to be wrapped first:
-    /// ascending numbers, for children come before their parents.
+    /// Inserts `before` and `after` around the node. Inner nodes must be wrapped first; children have smaller
+    /// numbers than their parents.
     void wrap(NodeId node, std::string_view before, std::string_view after);
     void replace(size_t word, std::string_view with) { changes_[word].replacement = std::string(with); }
 
-    /// The words as they then are, a line for a statement.
+    /// Returns the changed text, one statement per line.
     std::string text() const;
 
 private:
     struct Change {
         std::string before;
         std::string after;
-        std::string replacement; ///< empty: the word itself
+        std::string replacement; ///< empty: the token stays
     };
     const ParsedText& text_;
     std::vector<Change> changes_;
 };
 
-/// The words of a node as they are, to be said once more.
+/// Returns the node's tokens as text, to repeat them.
 std::string words_of(const ParsedText& text, NodeId id);
 
-/// A prefix that no name of the text has.
+/// Returns a prefix that no name of the text has.
 std::string fresh_prefix(const ParsedText& text);
 
-/// #version and the #extension lines of a text that is to write into buffers of words.
+/// Returns #version and the #extension lines of a text that writes into uint buffers.
 std::string headers_with_buffers(const ParsedText& text);
 
-/// `pattern` with `$` for the prefix and `@` for the type.
+/// Returns `pattern` with `$` replaced by the prefix and `@` by the type.
 std::string spell(std::string_view pattern, std::string_view prefix, std::string_view type = {});
 
 } // namespace tidemark::glsl

@@ -27,13 +27,13 @@ floor(@(6.2831855*fract(x*0.15915494))*4194304.0+0.5)/4194304.0:r;}
 
 constexpr std::string_view k_input = "float $input(float v){return $mode==0?v:$unit(v,1);}\n";
 
-/// The last bit turned over where the eighth from the end is set: as good as a lot, always the same one, and
-/// whole numbers, halves, zeros and infinities, which come out exact anywhere, stay. Three instructions, for
-/// there is one behind every operation.
+/// Flips the last bit if the eighth bit from the end is set. That is as good as chance but always the same,
+/// and leaves whole numbers, halves, zeros and infinities, which are exact on any GPU. It costs three
+/// instructions, because it follows every operation.
 constexpr std::string_view k_lot =
     "float $off(float v){uint b=floatBitsToUint(v);return uintBitsToFloat(b^((b>>7u)&uint($mode)));}\n";
 
-/// To the nearest half, a tie to the even one. Below 2^-14 halves have fewer bits: those are kept.
+/// Rounds to the nearest half, ties to even. Halves have fewer bits below 2^-14; here those bits are kept.
 constexpr std::string_view k_half =
     R"(float $off(float v){uint b=floatBitsToUint(v);
 if($mode==0||(b&0x7f800000u)==0x7f800000u)return v;
@@ -41,7 +41,7 @@ float h=uintBitsToFloat((b+0xfffu+((b>>13u)&1u))&0xffffe000u);
 return abs(h)>65504.0?uintBitsToFloat((b&0x80000000u)|0x7f800000u):h;}
 )";
 
-/// Overloads of a function of one float, part by part.
+/// Returns overloads of a function of one float that apply it to each component.
 std::string vector_overloads(std::string_view function, std::string_view prefix) {
     std::string text;
     for (int size = 2; size <= 4; ++size) {
@@ -54,7 +54,7 @@ std::string vector_overloads(std::string_view function, std::string_view prefix)
     return text;
 }
 
-/// Whatever else an operation may give: matrices column by column, other types as they are.
+/// Returns overloads for the other result types: matrices column by column, the rest unchanged.
 std::string other_overloads(std::string_view function, std::string_view prefix) {
     std::string text;
     for (int columns = 2; columns <= 4; ++columns)
@@ -70,8 +70,8 @@ std::string other_overloads(std::string_view function, std::string_view prefix) 
     return text;
 }
 
-/// The text with all that `change(node, edits)` does to its nodes, children first; it tells whether it did
-/// anything.
+/// Returns the text with the changes of `change(node, edits)`, children first; `change` returns whether it
+/// changed anything.
 template <class Change>
 Variation vary(const ParsedText& text, const std::string& mode, const std::string& prelude, Change change) {
     Variation result{{}, mode};
@@ -82,7 +82,7 @@ Variation vary(const ParsedText& text, const std::string& mode, const std::strin
     return result;
 }
 
-/// Every result of an operation, an assignment or a call led through `$off` where `is_meant` says so.
+/// Passes the result of each operation, assignment or call that `is_meant` accepts through `$off`.
 template <class IsMeant>
 Variation vary_results(const ParsedText& text, std::string_view off, IsMeant is_meant) {
     const SyntaxTree& tree = text.tree();
@@ -102,7 +102,7 @@ Variation vary_results(const ParsedText& text, std::string_view off, IsMeant is_
     });
 }
 
-/// Arithmetic by an operator.
+/// Returns whether the node is float arithmetic by an operator.
 bool is_operation(const ParsedText& text, const TreeFacts& facts, NodeId id) {
     return text.tree()[id].kind != NodeKind::call && is_float_operation(text, facts, id);
 }

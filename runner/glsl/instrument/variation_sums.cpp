@@ -1,4 +1,5 @@
-// Sums as other compilers write them: a product taken in with one rounding, and added up from the other end.
+// Varies sums as other compilers write them: a product added with one rounding, and terms added from the
+// other end.
 #include "glsl/analysis/float_operation.hpp"
 #include "glsl/instrument/source_rewriter.hpp"
 #include "glsl/instrument/variation.hpp"
@@ -14,11 +15,11 @@
 namespace tidemark::glsl {
 namespace {
 
-// A product that goes into a sum, `$sum($product(a,b),c)`, is handed over in double: whole, or as mode 0 has
-// it, rounded. Which functions these are the driver finds out from the types; those where nothing is
-// contracted (whole numbers, products of matrices) add and multiply as they are.
+// A product in a sum, `$sum($product(a,b),c)`, is passed in double: exact in mode 1, rounded in mode 0. The
+// driver selects the overload by type; those where nothing is contracted (whole numbers, products of
+// matrices) add and multiply as usual.
 
-/// `make(left, right, result)` of the sizes that an operator takes.
+/// Joins `make(left, right, result)` for the sizes that an operator takes.
 template <class Make>
 std::string for_sizes(Make make) {
     std::string text;
@@ -78,7 +79,7 @@ std::string matrix_overloads() {
     return text;
 }
 
-/// The first product is rounded, the others go in with their sums.
+/// The first product is rounded; the others are added with one rounding each.
 std::string dot_overloads() {
     std::string text = "float $dot(float a,float b){return a*b;}\n";
     for (int size = 2; size <= 4; ++size) {
@@ -97,7 +98,7 @@ std::string contraction_prelude(const ParsedText& text) {
     return prelude;
 }
 
-/// The product that an operand is; k_no_node where it is something else.
+/// Returns the product that an operand consists of; k_no_node: it is something else.
 NodeId product_of(const ParsedText& text, const TreeFacts& facts, NodeId operand) {
     const SyntaxTree& tree = text.tree();
     operand = without_brackets(tree, operand);
@@ -140,7 +141,7 @@ private:
         return true;
     }
 
-    /// Of two products compilers take in one: here the left one.
+    /// Compilers contract one of two products; here it is the left one.
     bool sum(NodeId id) {
         const std::string_view op = text_.word_of(id);
         if ((op != "+" && op != "-") || !is_float_operation(text_, facts_, id))
@@ -158,7 +159,7 @@ private:
         return true;
     }
 
-    /// `x += a * b`.
+    /// Contracts `x += a * b`.
     bool added(NodeId id) {
         const std::string_view op = text_.word_of(id);
         if ((op != "+=" && op != "-=") || !is_float_operation(text_, facts_, id))
@@ -190,8 +191,8 @@ bool adds(const ParsedText& text, NodeId id) {
     return text.tree()[id].kind == NodeKind::binary && (text.word_of(id) == "+" || text.word_of(id) == "-");
 }
 
-/// `a - b + c` becomes `a - (b - c)`: the mirror image of ((c - b) + a), and the same to the bit. What is
-/// asked for in its operands comes in the order of the text.
+/// Rewrites `a - b + c` as `a - (b - c)`: the mirror image of ((c - b) + a), with the same bits. Side effects
+/// of the operands keep the order of the text.
 void reverse(const ParsedText& text, NodeId chain, SourceRewriter& edits) {
     const SyntaxTree& tree = text.tree();
     std::string closing;

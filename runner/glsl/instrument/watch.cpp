@@ -17,8 +17,8 @@ bool contains(const std::vector<NodeId>& ids, NodeId id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-/// Limit of the iterations of all loops of a pixel where values are repaired: a loop that a NaN or an
-/// infinity has ended may not end without it, and not every driver cuts it off.
+/// Limit of the iterations of all loops of a pixel with repaired values: a loop that a NaN or an infinity
+/// ended may not end without it, and not every driver stops it.
 constexpr int k_most_iterations = 1'000'000;
 
 class Watcher {
@@ -49,7 +49,7 @@ public:
     }
 
 private:
-    /// Whether what is around is led through us already.
+    /// Whether an enclosing expression is already watched.
     enum class Cover { open, covered };
 
     std::string ours(std::string_view name) const { return prefix_ + std::string(name); }
@@ -84,7 +84,7 @@ private:
         edits_.wrap(declaration, "", "\n" + structure_overloads(options_, facts_, name));
     }
 
-    // Everything else. What is inside is led through us before what is around it.
+    // Everything else. Inner nodes are wrapped before outer ones.
 
     void children(NodeId id, Cover cover) {
         for (const NodeId child : tree_.children(id))
@@ -156,7 +156,7 @@ private:
         lead(id, cover);
     }
 
-    /// Of an operand of the node that is captured: the word of the buffer that it is written down at.
+    /// Returns the buffer index where an operand of the captured node is recorded.
     std::optional<size_t> slot_of(NodeId operation, NodeId operand) const {
         const auto slot = std::ranges::find(result_.operands, operand);
         if (operation != request_.capture || slot == result_.operands.end())
@@ -172,7 +172,7 @@ private:
 
     void call(NodeId id, Cover cover) {
         const std::string_view name = called_name(text_, id);
-        // What a function of the author's gets is watched before it goes in, for in there it has no
+        // Arguments of an author's function are watched before the call, because inside it they have no
         // statement.
         arguments(id, facts_.function(name) ? Cover::open : inside(id, cover));
         lead(id, cover);
@@ -195,7 +195,7 @@ private:
                 operand(id, part, cover);
     }
 
-    /// `target op= value` becomes `(target op= value, P(target))`, if the target can be read once more.
+    /// Rewrites `target op= value` as `(target op= value, P(target))` if the target can be read once more.
     void assign(NodeId id) {
         const NodeId target = tree_.child(id, 0);
         const bool compound = is_float_operation(text_, facts_, id);
@@ -212,7 +212,7 @@ private:
         }
     }
 
-    /// The value of the first is dropped: nobody else will see it.
+    /// Watches the first operand on its own: its value is dropped and reaches no other probe.
     void comma(NodeId id, Cover cover) {
         visit(tree_.child(id, 0), Cover::open);
         visit(tree_.child(id, 1), cover);
@@ -238,8 +238,7 @@ private:
         edits_.wrap(id, fmt::format("{{if({0}h==0){0}L{1}=0;", prefix_, index), "}");
     }
 
-    /// What of an operation can be written down: no numbers of the text, no samplers, nothing that is written
-    /// to.
+    /// Returns the operands that can be recorded: not literals, samplers or operands that are written to.
     std::vector<NodeId> operands_of(NodeId id) const {
         std::vector<NodeId> found;
         const auto add = [&](NodeId operand) {

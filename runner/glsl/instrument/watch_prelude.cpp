@@ -27,7 +27,7 @@ vec3 $mend(vec3 v){return vec3($mend(v.x),$mend(v.y),$mend(v.z));}
 vec4 $mend(vec4 v){return vec4($mend(v.xy),$mend(v.zw));}
 )";
 
-/// Without operands to remember, a hit is one assignment: no branch for the driver to follow.
+/// Without operands to record, a hit is one assignment: the driver has no branch to follow.
 constexpr std::string_view k_probe = "@ $P(@ v,int i){$h=$h==0&&$bad(v)?i:$h;return v;}\n";
 constexpr std::string_view k_recording_probe =
     "@ $P(@ v,int i){if($h==0&&$bad(v)){$h=i;$store(2,v);$leave();}return v;}\n";
@@ -37,7 +37,7 @@ constexpr std::string_view k_no_repair = "@ $R(@ v){return v;}\n";
 constexpr std::string_view k_capture = "@ $C(@ v,int k){if($h==0)$store(k,v);return v;}\n";
 constexpr std::string_view k_pop = "@ $K(int n,@ v){--$depth;return v;}\n";
 
-/// How a slot holds a value of `type`: its code, then its numbers as bits.
+/// Returns the function that stores a value of `type` in a slot: its code, then its numbers as bits.
 std::string store(std::string_view prefix, std::string_view type, int code, int components) {
     constexpr std::string_view k_parts = "xyzw";
     const std::string_view to_bits = type == "float" || type.starts_with("vec") ? "floatBitsToUint" : "uint";

@@ -1,4 +1,4 @@
-// The functions that a watched text calls, as GLSL: one overload for each type.
+// Writes the GLSL functions that a watched text calls: one overload per type.
 #pragma once
 
 #include "glsl/instrument/watch.hpp"
@@ -9,20 +9,20 @@
 
 namespace tidemark::glsl {
 
-/// Which of them are needed.
+/// The functions to write.
 struct PreludeOptions {
-    std::string prefix; ///< of every name
+    std::string prefix; ///< prefix of every name
     bool capture = false;
     bool repair = false;
     bool nan_only = false;
-    bool doubles = false; ///< the version has them
-    size_t loops = 0;     ///< counters
+    bool doubles = false; ///< the GLSL version has doubles
+    size_t loops = 0;     ///< number of loop counters
 };
 
-/// In front of the text.
+/// Returns the functions to put before the text.
 std::string watch_prelude(const PreludeOptions& options);
 
-/// The overloads for a structure; behind its definition.
+/// Returns the overloads for a structure, to put after its definition.
 std::string structure_overloads(const PreludeOptions& options, const TreeFacts& facts, std::string_view name);
 
 } // namespace tidemark::glsl

@@ -9,9 +9,9 @@
 namespace tidemark::glsl {
 namespace {
 
-/// Constants made of constants made of constants …
+/// Longest chain of constants defined by constants.
 constexpr int k_most_constants = 30;
-/// Beyond, not every whole number is a float.
+/// Largest magnitude up to which every whole number is a float.
 constexpr double k_largest_whole_float = 16777216.0;
 
 std::optional<float> parse_float(std::string_view digits) {
@@ -21,7 +21,7 @@ std::optional<float> parse_float(std::string_view digits) {
     return read.ec == std::errc{} && read.ptr == end ? std::optional(number) : std::nullopt;
 }
 
-/// A device may take what is below the normal numbers for zero.
+/// Returns whether the number is zero or a normal float: a device may flush smaller ones to zero.
 bool is_plain(double number) {
     return number == 0 || std::isnormal(float(number));
 }
@@ -71,7 +71,7 @@ auto ConstantFolding::knob_value(const scene::Knob& knob, int component) -> Know
     return is_plain(number) ? Known({Kind::floating, float(number)}) : std::nullopt;
 }
 
-/// A name that is declared anywhere else, too, may mean that.
+/// Returns nothing for a name that is declared more than once: it may mean another variable.
 auto ConstantFolding::name(std::string_view name) const -> Known {
     if (name == "true" || name == "false")
         return Value{Kind::truth, double(name == "true")};
@@ -86,10 +86,10 @@ auto ConstantFolding::name(std::string_view name) const -> Known {
     const auto [known, fresh] = constants_.try_emplace(name);
     if (fresh) {
         const Known value = constant(variable);
-        constants_[name] = value; // by its name: others have come since
+        constants_[name] = value; // looked up again, since others were inserted
         return value;
     }
-    return known->second; // nothing of one that is made of itself
+    return known->second; // nothing for a constant defined by itself
 }
 
 auto ConstantFolding::constant(const Variable& variable) const -> Known {
@@ -112,7 +112,7 @@ auto ConstantFolding::constant(const Variable& variable) const -> Known {
     return fits ? known : std::nullopt;
 }
 
-/// One component of a knob.
+/// Returns one component of a knob.
 auto ConstantFolding::member(NodeId member) const -> Known {
     const NodeId of = tree_.child(member, 0);
     const std::string_view component = text_.word_of(member);
@@ -147,7 +147,7 @@ auto ConstantFolding::binary(NodeId binary) const -> Known {
     const std::string_view op = text_.word_of(binary);
     const Known a = evaluate(tree_.child(binary, 0));
     if (!a)
-        return std::nullopt; // what it does when it is evaluated still has to happen
+        return std::nullopt; // the left side may have side effects, which must stay
     const bool logical = op == "&&" || op == "||";
     if (logical && a->kind == Kind::truth && (a->number != 0) == (op == "||"))
         return a;
@@ -163,7 +163,7 @@ auto ConstantFolding::binary(NodeId binary) const -> Known {
                                                                            : compute(op, *a, *b);
 }
 
-/// A whole number that meets a float becomes one.
+/// A whole number compared with a float is converted to float.
 auto ConstantFolding::compare(std::string_view op, const Value& a, const Value& b) -> Known {
     if ((a.kind == Kind::truth) != (b.kind == Kind::truth))
         return std::nullopt;
@@ -182,7 +182,7 @@ auto ConstantFolding::compare(std::string_view op, const Value& a, const Value& 
     return std::nullopt;
 }
 
-/// Ints that do not overflow.
+/// Computes with ints; nothing on overflow.
 auto ConstantFolding::compute(std::string_view op, const Value& a, const Value& b) -> Known {
     if (a.kind != Kind::whole || b.kind != Kind::whole)
         return std::nullopt;

@@ -1,5 +1,5 @@
-// Conditions whose outcome is known before the program runs: comparisons of literals, constants and knobs
-// that stand still. Exact: whatever would have to be rounded is not known.
+// Finds conditions whose outcome is known before the program runs: comparisons of literals, constants and
+// knobs at their current values. Exact: a value that needs rounding counts as unknown.
 #pragma once
 
 #include "glsl/specialise/globals.hpp"
@@ -14,11 +14,11 @@ namespace tidemark::glsl {
 
 class ConstantFolding {
 public:
-    /// `variables` are those of the whole text. Refers to its arguments.
+    /// `variables` are those of the whole text. Keeps references to its arguments.
     ConstantFolding(const ParsedText& text, const Variables& variables, std::span<const scene::Knob> knobs)
         : text_(text), tree_(text.tree()), variables_(variables), knobs_(knobs) {}
 
-    /// Nothing: not known.
+    /// Returns nothing if the outcome is not known.
     std::optional<bool> outcome(NodeId condition) const;
 
 private:
@@ -45,8 +45,8 @@ private:
     const SyntaxTree& tree_;
     const Variables& variables_;
     std::span<const scene::Knob> knobs_;
-    mutable std::unordered_map<std::string_view, Known> constants_; ///< that were asked for
-    mutable int constants_open_ = 0;                                ///< whose values are being looked for
+    mutable std::unordered_map<std::string_view, Known> constants_; ///< computed so far
+    mutable int constants_open_ = 0;                                ///< number of constants under evaluation
 };
 
 } // namespace tidemark::glsl

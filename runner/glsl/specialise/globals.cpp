@@ -18,7 +18,7 @@ bool is_interface(const ParsedText& text, NodeId type) {
                        [&](std::string_view word) { return has_qualifier(text, type, word); });
 }
 
-/// `++`, `--`, `+=`, …; not `=`, which a declarator has.
+/// Returns whether the token is `++`, `--`, `+=` or similar; not `=`, which a declarator has.
 bool changes_something(const Word& word) {
     if (word.kind != text::TokenKind::punctuation || word.text.size() < 2)
         return false;
@@ -83,7 +83,7 @@ private:
     std::unordered_set<std::string_view> functions_;
 };
 
-/// Moves the values of global variables into `main`, and writes the words anew.
+/// Moves the values of global variables into `main` and writes the text anew.
 class ValueMover {
 public:
     explicit ValueMover(const ParsedText& text)
@@ -91,7 +91,7 @@ public:
 
     std::string run() {
         NodeId main = k_no_node;
-        size_t body = 0; // the word after its `{`
+        size_t body = 0; // the token after its `{`
         for (const NodeId node : tree_.children(0)) {
             const NodeId last = tree_.children(node).empty() ? k_no_node : tree_.children(node).back();
             if (tree_[node].kind == NodeKind::declaration)
@@ -105,7 +105,7 @@ public:
         if (assignments_.empty() || body == 0)
             return text_.source().text();
         inserted_[body] = fmt::format("{}\n#line {}\n", assignments_, line_of(body - 1));
-        // The host's main may stand before the author's variables: it moves to the end.
+        // The host's main may precede the author's variables, so it moves to the end.
         Writer writer{*this, text_.headers()};
         writer.write(0, tree_[main].begin);
         writer.write(tree_[main].end, gone_.size());
@@ -136,13 +136,13 @@ private:
         const Node& node = tree_[value];
         const std::string name(text_.word_of(declared)), text = words(node.begin, node.end);
         std::fill(gone_.begin() + node.begin - 1, gone_.begin() + node.end, true); // the `=` too
-        if (node.kind == NodeKind::braces) // stands in declarations only
+        if (node.kind == NodeKind::braces) // allowed in declarations only
             assignments_ += fmt::format("\n#line {0}\n{{ {1} {2} {3} = {4}; {5} = {2}; }}",
                                         line_of(node.begin), name_of(type), k_value,
                                         words(tree_[declared].word + 1, node.begin - 1), text, name);
         else
             assignments_ += fmt::format("\n#line {}\n{} = {};", line_of(node.begin), name, text);
-        // An array without a size had it from its value.
+        // An array without a size had its size from this value.
         for (size_t i = tree_[type].begin; i + 1 < node.begin; ++i)
             if (text_.word(i) == "[" && text_.word(i + 1) == "]" &&
                 (i < tree_[type].end || i > tree_[declared].word))
@@ -150,14 +150,14 @@ private:
                                                                  : fmt::format("({}).length()", text);
     }
 
-    /// The words of a type less the members of a structure, which are declared where it stands.
+    /// Returns a type's tokens without a structure's members, which are declared at its definition.
     std::string name_of(NodeId type) const {
         const NodeId structure = tree_.child(type, 0);
         return structure == k_no_node ? words(tree_[type].begin, tree_[type].end)
                                       : std::string(text_.word_of(structure));
     }
 
-    /// Writes words on the lines that they stand on in the text.
+    /// Writes tokens on the lines that they have in the text.
     struct Writer {
         const ValueMover& mover;
         std::string result;
@@ -183,8 +183,8 @@ private:
 
     const ParsedText& text_;
     const SyntaxTree& tree_;
-    std::vector<std::string> inserted_; ///< before each word
-    std::vector<bool> gone_;            ///< words
+    std::vector<std::string> inserted_; ///< before each token
+    std::vector<bool> gone_;            ///< per token
     std::string assignments_;
 };
 

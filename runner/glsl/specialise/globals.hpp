@@ -1,5 +1,5 @@
-// What stands at the outermost level of a text, and what of it the program can reach from `main`. By name: a
-// word that is the name of something reaches all of that name, whatever it means where it stands.
+// Lists the declarations at the outermost level of a text and finds those that `main` can reach. Works by
+// name: a token with the name of a global reaches every global of that name, whatever it means there.
 #pragma once
 
 #include "glsl/syntax/parsed_text.hpp"
@@ -16,18 +16,19 @@ struct Global {
     NodeId node = k_no_node;
     NodeId first = k_no_node; ///< its nodes are [first, node]
     std::vector<std::string_view> names{};
-    /// Stays, whoever names it: main, what comes in and goes out, what changes other things when it is set.
+    /// Kept even if unused: main, inputs and outputs, and declarations whose initialisers have side effects.
     bool root = false;
 };
 
-/// In the order of the text.
+/// Returns the globals in the order of the text.
 std::vector<Global> find_globals(const ParsedText& text);
 
-/// `gone` words (empty: none) reach nothing; of `kept` globals, in their order, all is reached.
+/// Returns for each global whether it is reached. `gone` tokens (empty: none) reach nothing; `kept` globals,
+/// in the order of `globals`, are always reached.
 std::vector<bool> find_reached(const ParsedText& text, const std::vector<Global>& globals,
                                const std::vector<bool>& gone, const std::vector<bool>& kept);
 
-/// A variable by its declarations, which may be several (in several scopes).
+/// A variable's declaration, and how often its name is declared (in several scopes).
 struct Variable {
     NodeId type = k_no_node;
     NodeId declared = k_no_node; ///< declarator or parameter
@@ -35,15 +36,15 @@ struct Variable {
 };
 using Variables = std::unordered_map<std::string_view, Variable>;
 
-/// The variables that the nodes [first, last] declare; members of structures are none.
+/// Returns the variables that the nodes [first, last] declare, without members of structures.
 Variables find_variables(const ParsedText& text, NodeId first, NodeId last);
 
-/// Those of the outermost level, by the last of their declarations there.
+/// Returns the variables of the outermost level, each with its last declaration there.
 Variables find_global_variables(const ParsedText& text, const std::vector<Global>& globals);
 
-/// The text with the values of global variables assigned at the start of `main`: glslang 12 crashes where it
-/// writes debug information of a value outside of functions. Where there is such a variable, macros are
-/// expanded and #line directives keep the numbers of the lines; otherwise the text is returned as it is.
+/// Returns the text with the values of global variables assigned at the start of `main`: glslang 12 crashes
+/// when it writes debug information for a value outside of functions. If there is such a variable, macros are
+/// expanded and #line directives keep the line numbers; otherwise the text is unchanged.
 std::string assign_globals_in_main(const ParsedText& text);
 
 } // namespace tidemark::glsl

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view k_hoisted = "tidemark_hoisted";
 constexpr int k_most_hoisted = 256;
-/// Local variables whose values are made of local variables …
+/// Longest chain of local variables whose values are local variables.
 constexpr int k_longest_alias_chain = 60;
 
 class Hoister {
@@ -38,7 +38,7 @@ public:
 private:
     bool is_gone(NodeId id) const { return !gone_.empty() && gone_[tree_[id].begin]; }
 
-    /// Whether a loop of its own function goes round it.
+    /// Returns whether the node is in a loop of its own function.
     bool is_in_loop(NodeId id) const {
         for (NodeId child = id, around = tree_[id].parent; around != k_no_node;
              child = around, around = tree_[around].parent)
@@ -48,7 +48,7 @@ private:
         return false;
     }
 
-    /// Functions that are called in a loop, and those that they call.
+    /// Finds functions that are called in a loop, and the functions that these call.
     void find_hot_functions() {
         std::unordered_map<std::string_view, std::vector<std::string_view>> calls;
         std::vector<std::string_view> open;
@@ -86,7 +86,7 @@ private:
             edits_.insert(tree_[function.node].begin, declarations_);
     }
 
-    /// The lowest node of the tree below.
+    /// Returns the node with the lowest number below `id`.
     NodeId first_inside(NodeId id) const {
         while (tree_[id].first_child != k_no_node)
             id = tree_[id].first_child;
@@ -101,7 +101,7 @@ private:
                edits_.stands_alone(tree_[id].begin, tree_[id].end);
     }
 
-    /// False: it cannot be written down in front of its function.
+    /// Returns false if the expression cannot be written before its function.
     bool hoist_one(NodeId id) {
         const std::optional<std::string> name = declare(expressions_.value(id)->type, id);
         if (!name)
@@ -121,8 +121,8 @@ private:
         return name;
     }
 
-    /// The words of an expression, with hoisted variables for the local ones. What a macro would take for its
-    /// own cannot be said again.
+    /// Returns the text of an expression, with hoisted variables in place of local ones. Returns nothing if a
+    /// token is the name of a macro, which would expand it.
     std::optional<std::string> spell(NodeId id) {
         std::string spelled;
         for (size_t i = tree_[id].begin; i < tree_[id].end; ++i) {
@@ -163,11 +163,11 @@ private:
     UniformExpressions expressions_;
     std::unordered_set<std::string_view> macros_;
     std::unordered_set<std::string_view> hot_;
-    std::string declarations_; ///< in front of the function in hand
-    std::unordered_map<std::string_view, std::optional<std::string>> aliases_; ///< of it
+    std::string declarations_; ///< to insert before the current function
+    std::unordered_map<std::string_view, std::optional<std::string>> aliases_; ///< of the current function
     int count_ = 0;
     int variables_ = 0;
-    int aliases_open_ = 0; ///< whose values are being spelled
+    int aliases_open_ = 0; ///< number of aliases whose values are being spelled
 };
 
 } // namespace

@@ -1,5 +1,5 @@
-// Costly expressions of uniforms that a loop works out again in every turn are worked out once a pixel, as
-// global variables with a value. llvmpipe does not do so by itself.
+// Moves costly expressions of uniforms out of loops into global variables with a value, which are computed
+// once per pixel. llvmpipe does not do this itself.
 #pragma once
 
 #include "glsl/specialise/globals.hpp"
@@ -9,7 +9,8 @@
 
 namespace tidemark::glsl {
 
-/// Adds to `edits`; how many expressions. `gone` words and globals that are not `reached` are left alone.
+/// Adds the changes to `edits` and returns the number of moved expressions. Leaves `gone` tokens and globals
+/// that are not `reached`.
 int move_loop_invariants(const ParsedText& text, const std::vector<Global>& globals,
                          const std::vector<bool>& reached, const std::vector<bool>& gone, WordEdits& edits);
 

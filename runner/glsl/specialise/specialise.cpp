@@ -14,7 +14,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// A value as GLSL reads it back to the bit.
+/// Returns a value as text that GLSL reads back to the same bits.
 std::optional<std::string> spell(const scene::Knob& knob) {
     const scene::KnobTypeInfo& type = scene::info(knob.type);
     std::string numbers;
@@ -49,7 +49,7 @@ public:
     }
 
 private:
-    /// Desktop GLSL lets a global variable start with what is no constant.
+    /// Desktop GLSL allows a global variable to start with a value that is not constant.
     bool may_compute_first() const { return !text_.is_es(); }
 
     bool remove(size_t begin, size_t end, std::string_view replacement = {}) {
@@ -96,7 +96,7 @@ private:
         return count;
     }
 
-    /// What is left is the statement that runs; a declaration has a scope of its own there, and stays.
+    /// Keeps only the statement that runs; a declaration has a scope of its own there, so that `if` stays.
     bool close_if(NodeId id, bool outcome) {
         const Node& whole = tree_[id];
         const NodeId taken = tree_.child(id, outcome ? 1 : 2);
@@ -113,7 +113,7 @@ private:
         return true;
     }
 
-    /// `condition ? a : b` has the type of both: a float, whatever the other is.
+    /// `condition ? a : b` has the common type of both, so only a part that is surely a float can replace it.
     bool choose(NodeId id, bool outcome) {
         const Node& whole = tree_[id];
         const NodeId taken = tree_.child(id, outcome ? 1 : 2);
@@ -128,7 +128,7 @@ private:
         return true;
     }
 
-    /// A literal or a constructor: it needs no parentheses, either.
+    /// Returns whether the node is a float literal or constructor, which needs no parentheses either.
     bool is_surely_floating(NodeId id) const {
         if (tree_[id].kind == NodeKind::literal)
             return text_.word_of(id).find('.') != std::string_view::npos;
@@ -155,7 +155,7 @@ private:
     std::span<const scene::Knob> knobs_;
     Specialise how_;
     std::vector<Global> globals_;
-    std::vector<bool> gone_; ///< words
+    std::vector<bool> gone_; ///< tokens
     WordEdits edits_;
 };
 

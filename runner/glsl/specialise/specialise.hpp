@@ -1,5 +1,6 @@
-// A text without what its program does not need: globals that `main` cannot reach, branches that the knobs
-// close, and work in loops that has one value for the frame. Text in, text out; no line moves.
+// Removes code that a program does not need: globals that `main` cannot reach, branches that the knobs'
+// values exclude, and work in loops that has one value per frame. Text in, text out; every line keeps its
+// number.
 #pragma once
 
 #include "scene/knob.hpp"
@@ -10,26 +11,26 @@
 
 namespace tidemark::glsl {
 
-/// How much is left out. Each does what those before it do.
+/// The optimisation levels. Each includes those before it.
 enum class Specialise : unsigned char {
     nothing,
-    unreachable,        ///< functions, variables and structures: the driver makes the same code of what stays
-    invariant_uniforms, ///< knobs stand still: what they decide, and what loops work out in vain. The
-                        ///< language promises the same values; a driver that rearranges sums may round them
-                        ///< differently
-    constants ///< and knobs are constants, which the driver folds into its arithmetic: other roundings
+    unreachable, ///< functions, variables and structures: the driver compiles the rest to the same code
+    invariant_uniforms, ///< for knobs that do not change: also removes the branches that they exclude and
+                        ///< loop-invariant work. The language guarantees the same values; a driver that
+                        ///< reorders sums may round them differently
+    constants ///< makes knobs constants, which the driver folds into its arithmetic: rounding differs
 };
 
-/// What was done to a text.
+/// The changes made to a text.
 struct LeftOut {
-    int lines = 0;                            ///< of the author's that are empty now
-    int branches = 0;                         ///< closed by knobs or constants
-    int loop_invariants = 0;                  ///< expressions out of loops
-    int constants = 0;                        ///< knobs
-    std::string kept_whole = "not asked for"; ///< why nothing was done; empty where something was
+    int lines = 0;                            ///< author's lines that are empty now
+    int branches = 0;                         ///< branches decided by knobs or constants
+    int loop_invariants = 0;                  ///< expressions moved out of loops
+    int constants = 0;                        ///< knobs made constant
+    std::string kept_whole = "not asked for"; ///< the reason if nothing was done; otherwise empty
 
     bool anything() const { return kept_whole.empty(); }
-    /// Whether a driver may round differently.
+    /// Returns whether a driver may round differently.
     bool in_doubt() const { return branches + loop_invariants + constants > 0; }
 };
 
@@ -38,7 +39,7 @@ struct Specialised {
     LeftOut left_out{};
 };
 
-/// `source` is what a driver would get. A text that cannot be followed stays as it is.
+/// Optimises `source`, the text that a driver would get. A text that cannot be parsed is returned unchanged.
 Specialised specialise(const text::MappedText& source, std::span<const scene::Knob> knobs, Specialise how);
 
 } // namespace tidemark::glsl

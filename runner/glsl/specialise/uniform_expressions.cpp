@@ -8,7 +8,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// Functions that call functions that call functions …
+/// Longest chain of calls that is followed.
 constexpr int k_deepest_calls = 60;
 
 } // namespace
@@ -18,13 +18,13 @@ UniformExpressions::UniformExpressions(const ParsedText& text, const std::vector
     read_globals(globals);
 }
 
-/// Numbers among the uniforms, and constants; a name of several meanings is left alone.
+/// Collects numeric uniforms and constants; leaves names with several meanings.
 void UniformExpressions::read_globals(const std::vector<Global>& globals) {
     globals_ = find_global_variables(text_, globals);
     for (const Global& global : globals)
         if (tree_[global.node].kind == NodeKind::function)
             functions_[text_.word_of(global.node)].push_back(&global);
-    for (const Global& global : globals) { // a constant may be made of those before it
+    for (const Global& global : globals) { // a constant may use those before it
         if (tree_[global.node].kind != NodeKind::declaration)
             continue;
         const NodeId type = tree_.child(global.node, 0);
@@ -106,7 +106,7 @@ void UniformExpressions::find_aliases(NodeId declaration) {
     }
 }
 
-/// Names that are called are no values.
+/// Returns whether the name is the function in a call, which is not a value.
 bool UniformExpressions::is_callee(NodeId name) const {
     const NodeId parent = tree_[name].parent;
     return tree_[parent].kind == NodeKind::call && tree_[parent].first_child == name;
@@ -197,7 +197,7 @@ std::optional<PureFunction> UniformExpressions::pure_function(std::string_view n
     const auto known = pure_.find(name);
     if (known != pure_.end())
         return known->second;
-    pure_[name] = std::nullopt; // also what it finds of itself, should it call itself
+    pure_[name] = std::nullopt; // the result for a recursive call
     const Global* definition = nullptr;
     for (const Global* function : functions_.at(name))
         for (const NodeId part : tree_.children(function->node))
@@ -215,8 +215,8 @@ std::optional<PureFunction> UniformExpressions::pure_function(std::string_view n
     return pure;
 }
 
-/// Every name must be a local variable, constant during the frame, or a function that only computes. A loop
-/// might not end where the author does not call it.
+/// Returns nothing unless every name is a local variable, constant during the frame, or a function that only
+/// computes, and there is no loop: a loop might not end where the author does not call it.
 std::optional<PureFunction> UniformExpressions::examine(const Global& function) const {
     const NodeId type = tree_.child(function.node, 0);
     const auto result = value_type(type_name(text_, type));
@@ -235,7 +235,7 @@ std::optional<PureFunction> UniformExpressions::examine(const Global& function) 
         if (!is_callee(id)) {
             const auto global = settled_.find(name);
             const bool settled = global != settled_.end();
-            // A name that is a local variable here may be a global one elsewhere in the function.
+            // A local variable's name may be a global one elsewhere in the function.
             const bool local = locals.contains(name) && !globals_.contains(name);
             if (!local && !settled && name != "true" && name != "false")
                 return std::nullopt;

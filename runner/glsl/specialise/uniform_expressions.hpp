@@ -1,5 +1,5 @@
-// Which expressions of a function have one value for the whole frame: those of uniforms, constants, literals
-// and functions that only compute, and of local variables that are given such a value and no other.
+// Finds the expressions of a function that have one value for the whole frame: those of uniforms, constants,
+// literals, functions that only compute, and local variables that get such a value and no other.
 #pragma once
 
 #include "glsl/specialise/globals.hpp"
@@ -15,14 +15,14 @@
 
 namespace tidemark::glsl {
 
-/// What is known of an expression that has one value for the whole frame.
+/// Type and cost of an expression that has one value for the whole frame.
 struct FrameValue {
     ValueType type;
-    bool uniform = false; ///< reads one; else it is a constant, which a compiler works out itself
+    bool uniform = false; ///< reads a uniform; otherwise it is a constant, which a compiler evaluates itself
     bool costly = false;
 };
 
-/// A function of the author's that reads nothing but its arguments and what is constant during a frame.
+/// An author's function that reads only its arguments and values that are constant during a frame.
 struct PureFunction {
     ValueType type;
     bool uniform = false;
@@ -33,12 +33,12 @@ class UniformExpressions {
 public:
     UniformExpressions(const ParsedText& text, const std::vector<Global>& globals);
 
-    /// Looks at one function; what was known of another is forgotten.
+    /// Analyses one function and discards the results for the previous one.
     void enter(const Global& function);
-    /// Of an expression in that function; nothing: it may have several values in a frame.
+    /// Returns the value of an expression in that function; nothing: it may have several values in a frame.
     std::optional<FrameValue> value(NodeId expression) const;
 
-    /// A local variable of that function that is given its one value where it is declared.
+    /// A local variable of that function that gets its only value in its declaration.
     struct Alias {
         NodeId value;
         ValueType type;
@@ -63,11 +63,11 @@ private:
     const ParsedText& text_;
     const SyntaxTree& tree_;
     std::unordered_map<std::string_view, std::vector<const Global*>> functions_;
-    Variables globals_;                                        ///< variables
-    std::unordered_map<std::string_view, FrameValue> settled_; ///< those that have one value for the frame
+    Variables globals_;                                        ///< global variables
+    std::unordered_map<std::string_view, FrameValue> settled_; ///< names with one value for the frame
     mutable std::unordered_map<std::string_view, std::optional<PureFunction>> pure_;
-    mutable int functions_open_ = 0; ///< that are being examined
-    NodeId first_ = 1;               ///< nodes of the function that was entered
+    mutable int functions_open_ = 0; ///< functions that are being examined
+    NodeId first_ = 1;               ///< first node of the entered function
     std::vector<Value> values_;
     Variables locals_;
     std::unordered_set<std::string_view> written_;

@@ -24,17 +24,18 @@ constexpr Domain k_from_one{{{"x<1.0", [](Args a) { return a.x < 1; }, "of a num
 constexpr Domain k_direction{{{"x==0.0&&y==0.0", [](Args a) { return a.x == 0 && a.y == 0; }, "of 0 and 0"}}, "abs(x)+abs(y)"};
 constexpr Domain k_divisor{{{"y==0.0", [](Args a) { return a.y == 0; }, "by 0"}}, "abs(y)", "y"};
 constexpr Domain k_edges{{{"x==y", [](Args a) { return a.x == a.y; }, "with equal edges"}}, "abs(x-y)"};
-/// On the CPU x is the sum of the squares, or any of the numbers: one this small has no square in floats.
+/// On the CPU x is the sum of squares, or any component: the square of a number this small underflows in
+/// floats.
 constexpr Domain k_length{{{"dot(x,x)==0.0", [](Args a) { return std::abs(a.x) < double(FLT_MIN); },
                             "of a vector whose squares add up to 0"}}, "dot(x,x)"};
 
-// Signatures, between semicolons: what is returned, then the parameters. F, I, U, B stand for the scalar and
-// the vectors of a kind, V, W, X, Y for its vectors alone, f, i, u, b for the scalar (kinds: float, int,
-// uint, bool); M for the float matrices, S for the square ones. Capitals of one signature have one size. Any
-// other word is a type. > marks an `out`, = what must be a constant expression, ? what may be left out. Where
-// GLSL ES 3.00 has the function, the signatures are those that it has.
+// Notation of signatures, separated by semicolons: the result, then the parameters. F, I, U, B stand for the
+// scalar and the vectors of float, int, uint, bool; V, W, X, Y for the vectors only; f, i, u, b for the
+// scalar only; M for all float matrices, S for the square ones. All capitals of a signature have the same
+// size. Any other text is a type name. > marks an `out` parameter, = a constant expression, ? an optional
+// parameter. Where GLSL ES 3.00 has the function, only its signatures are listed.
 constexpr BuiltinFunction k_functions[] = {
-    // name, signatures, traits, its value on the CPU, where it is undefined, what GLSL ES 3.00 has instead
+    // name, signatures, traits, value on the CPU, domain, replacement in GLSL ES 3.00
     // 8.1 Angle and trigonometry
     {"radians",          "F F",      pure,             [](Args a) { return a.x * 0.017453292519943295; }},
     {"degrees",          "F F",      pure,             [](Args a) { return a.x * 57.29577951308232; }},
@@ -179,7 +180,7 @@ constexpr BuiltinFunction k_functions[] = {
 };
 // clang-format on
 
-/// The parts of `list` between `separator`s, blanks around them left out.
+/// Splits `list` at `separator`, and drops blanks before the parts and empty parts.
 std::vector<std::string_view> parts(std::string_view list, char separator) {
     std::vector<std::string_view> result;
     for (size_t begin = 0; begin < list.size();) {
@@ -193,7 +194,7 @@ std::vector<std::string_view> parts(std::string_view list, char separator) {
     return result;
 }
 
-/// How many sizes the capitals of a signature go through.
+/// Returns how many sizes the capitals of a signature stand for.
 int sizes(std::string_view signature) {
     if (signature.find('M') != std::string_view::npos)
         return int(std::size(k_matrices));
@@ -204,7 +205,7 @@ int sizes(std::string_view signature) {
     return signature.find_first_of("FIUB") != std::string_view::npos ? 4 : 1;
 }
 
-/// The type that a word of a signature stands for at one of its sizes.
+/// Returns the type that a letter or name of a signature stands for at one size.
 std::string_view type_of(std::string_view word, int size) {
     if (word.size() > 1)
         return word;
@@ -240,13 +241,13 @@ std::vector<BuiltinOverload> expand(const BuiltinFunction& function) {
     return overloads;
 }
 
-/// Whether GLSL takes a number of one kind for another's.
+/// Returns whether GLSL converts type `from` to `to` implicitly.
 bool converts(const ValueType& from, const ValueType& to) {
     return from.columns == to.columns && from.rows == to.rows &&
            (to.base == 'f' ? from.base != 'b' : to.base == 'u' && from.base == 'i');
 }
 
-/// How many arguments must be converted for an overload; nothing: it does not take them.
+/// Counts the arguments that must be converted for an overload; nothing if it does not accept them.
 std::optional<int> conversions(const BuiltinOverload& overload, std::span<const ValueType> arguments) {
     if (overload.parameters.size() != arguments.size())
         return std::nullopt;

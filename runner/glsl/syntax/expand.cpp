@@ -13,15 +13,15 @@ using text::Token;
 using text::TokenKind;
 
 constexpr size_t k_most_words = 4'000'000;
-/// Macros in the arguments of macros in the arguments …
+/// Nesting of macro calls within the arguments of macro calls.
 constexpr int k_deepest_arguments = 100;
-constexpr size_t k_longest_pasted = 1024; // GLSL's own limit of a name
+constexpr size_t k_longest_pasted = 1024; // GLSL's own limit for a name
 
 constexpr std::string_view k_operators[] = {
     "<<=", ">>=", "++", "--", "+=", "-=", "*=", "/=", "%=", "&=", "|=",
     "^=",  "&&",  "||", "^^", "==", "!=", "<=", ">=", "<<", ">>", "##"};
 
-/// How many tokens the operator at `i` takes.
+/// Returns the number of tokens of the operator at `i`.
 size_t operator_length(const std::vector<Token>& tokens, size_t i, size_t end) {
     if (tokens[i].kind != TokenKind::punctuation)
         return 1;
@@ -41,10 +41,10 @@ struct Macro {
     std::vector<std::string_view> parameters;
     std::vector<Word> body;
     bool takes_arguments = false;
-    bool in_use = false; ///< what it stands for is being read: its name means itself
+    bool in_use = false; ///< its replacement is being read, so its name is not expanded
 };
 
-/// A word on its way through: one that was found to be a macro's own name stays what it is.
+/// A word during expansion. A settled one is a macro's own name inside its replacement; it is not expanded.
 struct Flowing {
     Word word;
     bool settled = false;
@@ -81,10 +81,10 @@ public:
     }
 
 private:
-    /// What is being read, innermost last: the code, then what macros stand for.
+    /// One level of input; the innermost is last: the code, then replacements of macros.
     struct Source {
-        const Flow* read;       ///< nullptr: its own
-        Macro* macro = nullptr; ///< whose body it is
+        const Flow* read;       ///< nullptr: reads `own`
+        Macro* macro = nullptr; ///< the macro whose replacement this is
         Flow own{};
         size_t at = 0;
 
@@ -124,7 +124,7 @@ private:
         macros_.insert_or_assign(line.name, std::move(macro));
     }
 
-    /// Code between two lines that change the macros.
+    /// Expands the code between two #define or #undef lines.
     void stretch(size_t begin, size_t end) {
         const auto& code = preprocessed_.code;
         Flow flow;
@@ -132,7 +132,7 @@ private:
         for (size_t i = begin; i < end;) {
             if (preprocessed_.activity[code[i]] == Activity::unknown)
                 return give_up(code[i], "cannot tell whether this line is compiled");
-            const size_t together = code[i] + (end - i); // tokens of one operator are neighbours
+            const size_t together = code[i] + (end - i); // the tokens of one operator are adjacent
             const size_t length = operator_length(tokens_, code[i], std::min(together, tokens_.size()));
             flow.push_back({word_at(code[i], length)});
             i += length;
@@ -142,7 +142,7 @@ private:
         expand_all(sources, result_.words, 0);
     }
 
-    /// Leaves what has been read to its end; its macro may be used again.
+    /// Drops exhausted inputs; their macros may be expanded again.
     static void settle(std::vector<Source>& sources) {
         while (sources.size() > 1 && sources.back().exhausted()) {
             sources.back().macro->in_use = false;
@@ -150,7 +150,7 @@ private:
         }
     }
 
-    /// Any of our output kinds.
+    /// Overloads for both output types of expand_all.
     static void put(std::vector<Word>& to, const Flowing& flowing) { to.push_back(flowing.word); }
     static void put(Flow& to, const Flowing& flowing) { to.push_back(flowing); }
 
@@ -170,7 +170,7 @@ private:
         }
     }
 
-    /// Pushes what the name stands for. False: it means itself.
+    /// Pushes the replacement of a macro. Returns false if the name is not to be expanded.
     bool open_macro(std::vector<Source>& sources, Flowing& name, int depth) {
         if (name.word.is("__LINE__") || name.word.is("__FILE__")) {
             const int line = name.word.is("__LINE__") ? tokens_[name.word.used].line : 0;
@@ -200,7 +200,7 @@ private:
         return true;
     }
 
-    /// The words between the commas of a call, its parenthesis being next.
+    /// Reads the arguments of a call, from its opening parenthesis on.
     std::vector<Flow> read_arguments(std::vector<Source>& sources, const Word& name) {
         std::vector<Flow> arguments(1);
         int depth = 0;
@@ -260,7 +260,7 @@ private:
         return none;
     }
 
-    /// An argument keeps the place where the call spells it.
+    /// Arguments keep the place where the call spells them.
     void append(Flow& to, const Flow& words) {
         if (words.size() > steps_left_) {
             give_up(words.front().word.used, "its macros make a text that is too long to follow");
@@ -285,7 +285,7 @@ private:
         return output;
     }
 
-    /// `left ## right`; `left` is the last word of `result`.
+    /// Applies `left ## right`; `left` is the last word of `result`.
     void paste(Flow& result, const Macro& macro, const std::vector<Flow>& arguments, const Word& right,
                const Word& name) {
         const size_t parameter = parameter_of(macro, right, arguments.size());

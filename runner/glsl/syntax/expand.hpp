@@ -1,5 +1,5 @@
-// A text without macros: the code that the preprocessor leaves, every word with the two places that matter to
-// its author, where it is written and where the macro that holds it is used.
+// Expands macros: returns the code that the preprocessor leaves. Every word keeps two source tokens: the one
+// that spells it, and the outermost macro use that produced it.
 #pragma once
 
 #include "base/result.hpp"
@@ -15,27 +15,29 @@
 
 namespace tidemark::glsl {
 
-/// A token of GLSL proper: operators of several characters are one word.
+/// A token of the expanded code. An operator of several characters is one word.
 struct Word {
     std::string_view text;
-    uint32_t spelled = 0; ///< the token it was cut from; in a macro's body for what a macro stands for
-    uint32_t used = 0;    ///< the outermost macro's name in the code; the same token where there is no macro
+    /// index of the source token that it was cut from; inside a macro's body if a macro produced it
+    uint32_t spelled = 0;
+    /// index of the outermost macro's name in the code; the same token if no macro is involved
+    uint32_t used = 0;
     text::TokenKind kind = text::TokenKind::punctuation;
 
     bool is(std::string_view wanted) const { return text == wanted; }
     bool from_macro() const { return spelled != used; }
 };
 
-/// The views stay valid as long as the text and this value do.
+/// The views stay valid as long as both the source text and this value exist.
 struct Expansion {
     std::vector<Word> words;
-    std::vector<size_t> headers;    ///< the `#` of each #version and #extension, as indices of tokens
-    std::deque<std::string> pasted; ///< words that `##` and __LINE__ made
+    std::vector<size_t> headers;    ///< the `#` of each #version and #extension, as token indices
+    std::deque<std::string> pasted; ///< texts made by `##` and __LINE__
 };
 
-/// Fails (ErrorCode::load), naming the line, where a condition cannot be evaluated without the driver, where
-/// a macro is called without end, and when macros make more than 64 words from each of the text's (4 million
-/// at most).
+/// Expands all macros. Fails (ErrorCode::load), with the line, if a condition cannot be evaluated without the
+/// driver, if a macro call has no end, and if the result exceeds 64 words for each source token (plus 10,000;
+/// at most 4 million).
 Result<Expansion> expand(const std::vector<text::Token>& tokens, const Preprocessed& preprocessed,
                          const text::LineMap& lines);
 

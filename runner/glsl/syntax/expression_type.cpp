@@ -79,7 +79,7 @@ private:
         return type_of_call(*builtin, arguments);
     }
 
-    /// That of all overloads.
+    /// Returns the common type of all overloads; nothing if they differ.
     std::optional<ValueType> of_own(const FunctionFacts& function) const {
         std::optional<ValueType> type;
         for (const NodeId definition : function.definitions) {

@@ -1,4 +1,4 @@
-// The type of an expression, as far as declarations, built-in functions and the author's own say it.
+// Type of an expression, as far as declarations, built-in functions and the author's functions determine it.
 #pragma once
 
 #include "glsl/syntax/parsed_text.hpp"
@@ -9,8 +9,8 @@
 
 namespace tidemark::glsl {
 
-/// Numbers, vectors and matrices. Nothing for other types, and where a name is declared twice in its
-/// function, or twice outside of all.
+/// Returns scalar, vector and matrix types. Returns nothing for other types, and for a name that is declared
+/// twice in its function or twice globally.
 std::optional<ValueType> expression_type(const ParsedText& text, const TreeFacts& facts, NodeId expression);
 
 } // namespace tidemark::glsl

@@ -40,7 +40,7 @@ private:
         return token(i).kind == TokenKind::identifier && !is_keyword(token(i).text);
     }
 
-    /// `TYPE NAME (…)` and then `{` or `;`.
+    /// Reads `TYPE NAME (…)` followed by `{` or `;`.
     std::optional<Function> read() {
         const bool type = is_name(at_) || here().is("void");
         if (!type || !is_name(at_ + 1) || !token(at_ + 2).is("("))
@@ -64,7 +64,7 @@ private:
         return function;
     }
 
-    /// From its first word on; returns where the next one begins.
+    /// Reads a parameter from its first token on; returns where the next one begins.
     size_t read_parameter(Function& function, size_t first, size_t close) const {
         Parameter parameter;
         size_t i = first;
@@ -111,7 +111,7 @@ private:
     const std::vector<size_t>& code_;
     std::vector<Function> functions_;
     size_t at_ = 0;
-    size_t end_ = 0; ///< of the head just read: its `{` or `;`
+    size_t end_ = 0; ///< end of the last head: its `{` or `;`
 };
 
 } // namespace

@@ -1,5 +1,5 @@
-// The functions that a text defines or announces: return type, parameters with their qualifiers, body. Reads
-// tokens, never fails; what macros define is not seen.
+// Finds the functions that a text defines or declares: return type, parameters with qualifiers, body. Reads
+// tokens and never fails; does not see functions that macros define.
 #pragma once
 
 #include "glsl/syntax/preprocess.hpp"
@@ -12,13 +12,13 @@ namespace tidemark::glsl {
 
 struct Parameter {
     std::string_view type;
-    std::string_view name; ///< empty: has none
+    std::string_view name; ///< empty if it has none
     bool written = false;  ///< `out`, `inout`
     bool read = true;      ///< not `out`
     bool array = false;
 };
 
-/// The numbers are indices of tokens; of `Preprocessed::code` only.
+/// Numbers are token indices. Only tokens in `Preprocessed::code` are considered.
 struct Function {
     std::string_view return_type;
     std::string_view name;
@@ -27,18 +27,18 @@ struct Function {
     size_t name_token = 0;
     size_t open = 0;       ///< (
     size_t close = 0;      ///< )
-    size_t body_begin = 0; ///< {, or 0 where it is only announced
+    size_t body_begin = 0; ///< {; 0 if the function is only declared
     size_t body_end = 0;   ///< its }
 
     bool defined() const { return body_begin != 0; }
     bool writes_argument() const;
 };
 
-/// In the order of the text.
+/// Returns the functions in text order.
 std::vector<Function> find_functions(const std::vector<text::Token>& tokens,
                                      const Preprocessed& preprocessed);
 
-/// The function whose definition holds `token`; nullptr outside of all.
+/// Returns the function whose definition contains `token`; nullptr if none does.
 const Function* function_around(const std::vector<Function>& functions, size_t token);
 
 } // namespace tidemark::glsl

@@ -5,7 +5,7 @@
 namespace tidemark::glsl {
 namespace {
 
-/// The macro in whose body a token stands; nullptr: in none.
+/// Returns the macro whose body contains a token; nullptr if none does.
 const MacroLine* macro_around(const Preprocessed& preprocessed, size_t token) {
     const auto& macros = preprocessed.macros;
     auto next = std::ranges::upper_bound(macros, token, {}, &MacroLine::hash);
@@ -43,7 +43,7 @@ void GapEdits::offer_else(size_t gap, size_t other, std::string_view insertion) 
     offer.else_text += insertion;
 }
 
-/// No macro makes something else of it there.
+/// Checks that no macro and no macro parameter changes the meaning of `insertion` at that token.
 bool GapEdits::means_itself(const std::string& insertion, size_t token) const {
     const std::vector<text::Token> words = text::tokenize(insertion);
     const MacroLine* const around = macro_around(text_.preprocessed(), token);
@@ -61,7 +61,7 @@ bool GapEdits::means_itself(const std::string& insertion, size_t token) const {
     return true;
 }
 
-/// Whether `insertion` can stand at the side of the token of `word` that `gap` is on.
+/// Checks that `insertion` can go next to the token of `word`, on the side of `gap`.
 bool GapEdits::fits(size_t word, size_t gap, const std::string& insertion) const {
     const uint32_t token = text_.words()[word].spelled;
     const auto whole = [&](size_t index) {
@@ -94,7 +94,7 @@ std::optional<size_t> GapEdits::place(size_t gap, const std::string& insertion) 
 }
 
 std::vector<text::Edit> GapEdits::edits() const {
-    std::map<size_t, std::string> chosen; // one place may serve several gaps, with the same text
+    std::map<size_t, std::string> chosen; // one place may serve several gaps, if their insertions are equal
     for (const auto& [gap, offer] : offers_)
         if (offer.needed) {
             if (const auto at = place(gap, offer.text)) {

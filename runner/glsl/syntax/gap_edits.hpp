@@ -1,5 +1,5 @@
-// Insertions between words, carried out in the text before its macros: in the code or in what a macro stands
-// for, wherever every use of that place wants the same.
+// Insertions between words of the expanded code, made in the source text: in the code, or in a macro's body
+// if every use of that place needs the same insertion.
 #pragma once
 
 #include "glsl/syntax/word_edits.hpp"
@@ -13,25 +13,26 @@
 
 namespace tidemark::glsl {
 
-/// Refers to the text, which must outlive it. A gap has the number of the word behind it.
+/// Keeps a reference to the text, which must outlive it. A gap has the number of the word after it.
 class GapEdits {
 public:
     explicit GapEdits(const ParsedText& text);
 
-    /// `insertion` may be made in `gap`: where it is not needed it does no harm, and is made where other uses
-    /// of the same place need it.
+    /// Offers `insertion` for `gap`. An insertion that is not `needed` is harmless; it is made only if
+    /// another use of the same source place needs it.
     void offer(size_t gap, std::string_view insertion, bool needed);
-    /// What is needed in `gap`, and finds no place, is done by `insertion` in another gap.
+    /// Adds a fallback: if the insertion needed in `gap` has no place in the source, `insertion` goes into
+    /// gap `other`.
     void offer_else(size_t gap, size_t other, std::string_view insertion);
 
-    /// Sorted. What finds no place is left out.
+    /// Returns the edits, sorted. Insertions without a place are left out.
     std::vector<text::Edit> edits() const;
 
 private:
     struct Offer {
         std::string text{};
         bool needed = false;
-        size_t other = 0; ///< gap; 0: there is none
+        size_t other = 0; ///< fallback gap; 0 if there is none
         std::string else_text{};
     };
     struct Use {
@@ -45,8 +46,9 @@ private:
 
     const ParsedText& text_;
     WordEdits words_;
-    std::vector<Use> uses_; ///< of tokens that more than one word comes from, sorted
-    std::unordered_map<std::string_view, bool> macros_; ///< whether they always take arguments
+    std::vector<Use> uses_; ///< words of source tokens that produce more than one word, sorted by token
+    /// true if every definition of the macro takes arguments
+    std::unordered_map<std::string_view, bool> macros_;
     std::map<size_t, Offer> offers_;
 };
 

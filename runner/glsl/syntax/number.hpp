@@ -1,4 +1,4 @@
-// Numbers as GLSL writes them.
+// Reads and writes GLSL numbers.
 #pragma once
 
 #include <optional>
@@ -7,13 +7,15 @@
 
 namespace tidemark::glsl {
 
-/// `12`, `0x1F`, `017`, without sign and suffix; nothing for other texts and beyond `long`.
+/// Reads `12`, `0x1F`, `017`, without sign and suffix. Returns nothing for other texts and if the value
+/// exceeds `long`.
 std::optional<long> whole_number(std::string_view digits);
 
-/// `12u`, `1.5f`, `1e2`; nothing for other texts and for hexadecimal ones.
+/// Reads `12u`, `1.5f`, `1e2`. Returns nothing for other texts, hexadecimal numbers included.
 std::optional<double> number(std::string_view word);
 
-/// `2.0` of `2`, and what is read as a float anyway as it is: of digits as C++ writes a number.
+/// Makes a float literal of a number as C++ prints it: `2` becomes `2.0`; digits with a point or an exponent
+/// stay.
 std::string as_float(std::string_view digits);
 
 } // namespace tidemark::glsl

@@ -14,7 +14,7 @@ constexpr std::string_view k_qualifiers[] = {"const",    "in",       "out",     
 
 } // namespace
 
-/// Some of them are names in other versions: `sample = …`.
+/// Some qualifiers are names in other GLSL versions: `sample = …`.
 bool Parser::at_qualifier() const {
     const bool is_one =
         std::find(std::begin(k_qualifiers), std::end(k_qualifiers), peek().text) != std::end(k_qualifiers);

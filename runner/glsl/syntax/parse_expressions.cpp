@@ -13,7 +13,7 @@ bool is_assignment(std::string_view word) {
            word != ">=";
 }
 
-/// How tightly a binary operator holds; 0: it is none.
+/// Returns the precedence of a binary operator; 0 for any other text.
 int rank_of(std::string_view word) {
     struct Rank {
         std::string_view op;

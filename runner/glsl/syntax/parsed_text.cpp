@@ -8,7 +8,8 @@ namespace tidemark::glsl {
 
 Result<std::unique_ptr<const ParsedText>>
 ParsedText::read(text::MappedText source, std::span<const KnownMacro> known, bool all_known) {
-    std::unique_ptr<ParsedText> result(new ParsedText(std::move(source))); // its constructor is private
+    // make_unique cannot call the private constructor
+    std::unique_ptr<ParsedText> result(new ParsedText(std::move(source)));
     const text::LineMap& lines = result->source_.lines();
     result->tokens_ = text::tokenize(result->source_.text());
     result->preprocessed_ = preprocess(result->tokens_, known, all_known);
@@ -52,7 +53,7 @@ std::string ParsedText::excerpt(NodeId id) const {
     return text;
 }
 
-/// As they do in the author's text where they are neighbours there; else as people write it.
+/// Decides on a blank as in the author's text if both are neighbours there; else by common style.
 bool ParsedText::stand_apart(const Word& left, const Word& right) const {
     const text::Token& token = tokens_[right.spelled];
     const bool neighbours = right.spelled > left.spelled &&

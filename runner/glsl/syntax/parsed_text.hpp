@@ -1,5 +1,5 @@
-// A complete GLSL text, read to its syntax tree, with the way from every word back to its author. What passes
-// over the tree start from.
+// A complete GLSL text with its tokens, macros, expanded words and syntax tree. Every word maps back to the
+// author's line. All passes over the tree start from it.
 #pragma once
 
 #include "base/result.hpp"
@@ -15,9 +15,9 @@ namespace tidemark::glsl {
 
 class ParsedText {
 public:
-    /// `source` is what a driver would get, #version included; `known` are all macros that the driver
-    /// defines; with `all_known` false it may define others that begin with GL_. The error says where the
-    /// text cannot be followed.
+    /// Parses `source`, the full text for the driver with its #version. `known` lists the macros that the
+    /// driver defines; if `all_known` is false, the driver may define others that begin with GL_. The error
+    /// has the place at which parsing stopped.
     static Result<std::unique_ptr<const ParsedText>>
     read(text::MappedText source, std::span<const KnownMacro> known, bool all_known = true);
     ParsedText(const ParsedText&) = delete;
@@ -25,25 +25,25 @@ public:
 
     const text::MappedText& source() const { return source_; }
     const std::vector<text::Token>& tokens() const { return tokens_; }
-    /// Which tokens are compiled, and the macros there are.
+    /// Returns which tokens are compiled, and the macros.
     const Preprocessed& preprocessed() const { return preprocessed_; }
     const SyntaxTree& tree() const { return tree_; }
     const std::vector<Word>& words() const { return expansion_.words; }
     std::string_view word(size_t index) const { return expansion_.words[index].text; }
-    /// The word that a node is about: its name, its operator.
+    /// Returns the main word of a node: its name or its operator.
     std::string_view word_of(NodeId id) const { return word(tree_[id].word); }
 
-    /// #version and the #extension lines, as they stand.
+    /// Returns the #version and #extension lines.
     std::string headers() const;
-    /// Whether that is GLSL ES.
+    /// Returns whether the #version is GLSL ES.
     bool is_es() const;
 
-    /// Where a word is written (in a macro's body, where it comes from one), and where it is used.
+    /// Returns where a word is written (inside a macro's body if it comes from one), and where it is used.
     SourceLocation spelled(size_t word) const { return place(expansion_.words[word].spelled); }
     SourceLocation used(size_t word) const { return place(expansion_.words[word].used); }
 
-    /// What a node looks like to its author: as written where no macro is in it, else word by word; blanks
-    /// and comments come down to one blank.
+    /// Returns a node's source for messages: as written if no macro is involved, else assembled from its
+    /// words; blanks and comments become one blank.
     std::string excerpt(NodeId id) const;
 
 private:

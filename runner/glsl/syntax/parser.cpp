@@ -41,7 +41,7 @@ void Parser::give_up(std::string_view message) {
             found = fmt::format("'{}'", word.text.substr(0, 40));
     }
     error_ = error_at(where, fmt::format("{} at {}", message, found));
-    at_ = end_; // where every rule ends
+    at_ = end_; // every rule returns at the end
 }
 
 size_t Parser::behind_brackets(size_t from) const {

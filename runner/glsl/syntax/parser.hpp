@@ -1,5 +1,5 @@
-// The parser behind parse() of glsl/syntax/syntax_tree.hpp. It never throws and never loops: after the first
-// error it stands at the end of the text, where every rule ends.
+// Implementation of parse(). Never throws and always ends: the first error moves the parser to the end of the
+// text, where every rule returns.
 #pragma once
 
 #include "glsl/syntax/syntax_tree.hpp"
@@ -21,7 +21,7 @@ public:
     Result<SyntaxTree> run();
 
 private:
-    /// Counts how deep the rules have called each other; fails instead of going too deep.
+    /// Counts the depth of nested rules, and fails beyond k_most_nesting.
     class Nesting {
     public:
         Nesting(Parser& parser, int weight) : parser_(parser), weight_(weight) {
@@ -36,10 +36,10 @@ private:
         Parser& parser_;
         int weight_;
     };
-    /// In links of a chain of `?:` or `else if`; a parenthesis counts as three.
+    /// Counted in links of a chain of `?:` or `else if`; one level of parentheses counts as four.
     static constexpr int k_most_nesting = 1800;
 
-    // Words.
+    // Tokens.
     bool done() const { return at_ >= end_; }
     const Word& peek(size_t ahead = 0) const;
     bool at(std::string_view text) const { return peek().is(text); }
@@ -47,11 +47,11 @@ private:
     bool take(std::string_view text);
     void expect(std::string_view text);
     void give_up(std::string_view message);
-    /// Behind the bracket that closes the one at `from`; end_ where none does.
+    /// Returns the index after the bracket that closes the one at `from`; end_ if none does.
     size_t behind_brackets(size_t from) const;
     void skip_brackets();
 
-    // Nodes. The words of a node end where the parser stands.
+    // Nodes. A node's words end at the parser's current position.
     NodeId make(NodeKind kind, size_t begin, size_t word, std::span<const NodeId> children);
     NodeId make(NodeKind kind, size_t begin, size_t word, std::initializer_list<NodeId> children) {
         return make(kind, begin, word, std::span(children.begin(), children.size()));
@@ -59,8 +59,8 @@ private:
     NodeId absent() { return make(NodeKind::absent, at_, at_, {}); }
     void adopt(NodeId parent, std::span<const NodeId> children);
 
-    // parse_expressions.cpp
-    NodeId expression(); ///< commas too
+    // Expressions.
+    NodeId expression(); ///< commas included
     NodeId assignment();
     NodeId conditional();
     NodeId binary(int rank);
@@ -71,7 +71,7 @@ private:
     NodeId brackets(std::optional<NodeId> what, size_t begin);
     NodeId initialiser();
 
-    // parse_statements.cpp
+    // Statements.
     NodeId statement();
     NodeId keyword_statement();
     NodeId block();
@@ -83,12 +83,12 @@ private:
     NodeId label();
     NodeId condition();
 
-    // parse_declarations.cpp
+    // Declarations.
     bool begins_declaration() const;
     bool at_qualifier() const;
     NodeId type();
     NodeId structure();
-    NodeId declaration(NodeId type, size_t begin); ///< from the first declarator on, `;` left
+    NodeId declaration(NodeId type, size_t begin); ///< starts at the first declarator; does not consume `;`
     NodeId declarator();
     NodeId function(NodeId type, size_t begin);
     NodeId parameter();
@@ -104,7 +104,7 @@ private:
     int nesting_ = 0;
 };
 
-/// A word that can be no name.
+/// Returns whether the keyword begins or separates statements, so that it cannot be a name.
 bool is_statement_keyword(std::string_view word);
 
 } // namespace tidemark::glsl

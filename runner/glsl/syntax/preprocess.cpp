@@ -13,21 +13,21 @@ namespace {
 using text::Token;
 using text::TokenKind;
 
-/// What a name stands for in an #if: a number, or the tokens of its #define.
+/// Value of a macro in an #if: a number, or the tokens of its #define.
 struct Meaning {
     std::optional<long> number;
     size_t body = 0;
     size_t end = 0;
     bool parameters = false;
-    bool doubtful = false; ///< defined or not: that depends on something we do not know
+    bool doubtful = false; ///< whether it is defined depends on unknown conditions
 };
 struct Macros : std::unordered_map<std::string_view, Meaning> {
-    bool all_known = false; ///< the driver has no others
+    bool all_known = false; ///< the driver defines no others
 
-    /// Which extensions a driver announces is its own affair.
+    /// Returns whether the driver may define that name: drivers announce different extensions.
     bool may_be_the_drivers(std::string_view name) const { return !all_known && name.starts_with("GL_"); }
 };
-using Value = std::optional<long>; ///< nothing: not known
+using Value = std::optional<long>; ///< nothing: unknown
 
 Activity both(Activity a, Activity b) {
     return std::min(a, b);
@@ -48,7 +48,7 @@ Activity is_defined(const Macros& macros, std::string_view name) {
     return macros.may_be_the_drivers(name) ? Activity::unknown : Activity::inactive;
 }
 
-/// Evaluates the expression of an #if. Gives up (no value) instead of following deep or endless macros.
+/// Evaluates the expression of an #if. Returns no value for deeply nested or endless macros.
 class Condition {
 public:
     Condition(const std::vector<Token>& tokens, const Macros& macros) : tokens_(tokens), macros_(macros) {}
@@ -78,7 +78,7 @@ private:
 
     bool at(std::string_view wanted) const { return at_ < end_ && tokens_[at_].is(wanted); }
 
-    /// The binary operator here; longer ones first, for tokens are single characters.
+    /// Returns the binary operator here. Tries longer operators first, because tokens are single characters.
     std::optional<Operator> next_operator() const {
         constexpr Operator k_binary_operators[] = {{"||", 1}, {"&&", 2}, {"==", 6}, {"!=", 6}, {"<=", 7},
                                                    {">=", 7}, {"<<", 8}, {">>", 8}, {"|", 3},  {"^", 4},
@@ -111,7 +111,7 @@ private:
             return 1;
         if (!a || !b)
             return std::nullopt;
-        // Wraps around as the driver's own arithmetic does.
+        // Wraps around, like the driver's arithmetic.
         const auto ua = (unsigned long)(*a);
         const auto ub = (unsigned long)(*b);
         switch (op[0]) {
@@ -167,7 +167,7 @@ private:
         const Value value = binary(0);
         --depth_;
         if (!at(")")) {
-            at_ = end_ + 1; // no longer an expression
+            at_ = end_ + 1; // makes the whole expression invalid
             return std::nullopt;
         }
         ++at_;
@@ -237,9 +237,9 @@ public:
     }
 
 private:
-    /// One #if … #endif that is open.
+    /// An open #if … #endif.
     struct Group {
-        Activity outside; ///< what holds around it
+        Activity outside; ///< activity outside the group
         Activity left;    ///< whether a later branch may still be taken
     };
 

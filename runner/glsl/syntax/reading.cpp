@@ -7,7 +7,8 @@
 namespace tidemark::glsl {
 namespace {
 
-/// For each token that opens something the one that closes it, whatever kinds they are; else the count.
+/// Maps each opening token to the token that closes it, whatever their kinds are; to the token count if none
+/// does.
 std::vector<size_t> find_closing(const std::vector<text::Token>& tokens) {
     std::vector<size_t> closing(tokens.size(), tokens.size());
     std::vector<size_t> open;

@@ -1,5 +1,5 @@
-// A text as the passes over it see it: tokens, what the preprocessor keeps of them, functions. Shared by
-// every pass that rewrites code and not only names.
+// A text prepared for token-based passes: tokens, preprocessor activity, functions. Used by every pass that
+// rewrites code and not only names.
 #pragma once
 
 #include "glsl/syntax/functions.hpp"
@@ -12,12 +12,12 @@
 
 namespace tidemark::glsl {
 
-/// On which kind of line a token stands.
+/// Kind of line that contains a token.
 enum class Place : unsigned char {
     code,
-    macro_head, ///< of a #define or #undef: up to the parameters
+    macro_head, ///< #define or #undef, up to the parameters
     macro_body,
-    directive ///< any other
+    directive ///< any other directive
 };
 
 /// The views stay valid as long as the text does.
@@ -29,18 +29,19 @@ struct Reading {
     std::vector<text::Token> tokens;
     Preprocessed preprocessed;
     std::vector<Function> functions;
-    std::vector<Place> places; ///< of each token; what is inactive counts as code
-    /// Each name that is a macro somewhere, with its first definition.
+    std::vector<Place> places; ///< one entry for each token; inactive tokens count as code
+    /// Every macro name with its first definition.
     std::unordered_map<std::string_view, const MacroLine*> macros;
 
     std::unordered_map<std::string_view, std::vector<const Function*>> overloads; ///< by name
 
     bool active(size_t token) const { return preprocessed.activity[token] != Activity::inactive; }
-    /// A function or a macro of the author's.
+    /// Returns whether the text has a function or macro of that name.
     bool defines(std::string_view name) const;
-    /// The token that closes the parenthesis, bracket or brace at `open`, before `end`; `end` if none does.
+    /// Returns the token that closes the parenthesis, bracket or brace at `open`; `end` if none before `end`
+    /// does.
     size_t closing(size_t open, size_t end) const;
-    /// Whether the tokens at `i` are the operator `two`, of two characters.
+    /// Returns whether the tokens at `i` are the two-character operator `two`.
     bool is_pair(size_t i, std::string_view two) const;
 
 private:

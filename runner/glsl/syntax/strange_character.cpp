@@ -21,7 +21,8 @@ constexpr Lookalike k_lookalikes[] = {
     {0x2264, "<="}, {0x2265, ">="}, {0xff08, "("}, {0xff09, ")"}, {0xff0b, "+"}, {0xff0c, ","},
     {0xff0d, "-"},  {0xff0e, "."},  {0xff1b, ";"}, {0xff1d, "="}, {0xff5b, "{"}, {0xff5d, "}"}};
 
-/// Spaces of other widths, marks that steer the direction of writing, and the mark of byte order.
+/// Returns whether the character is a space of another width, a mark for writing direction or the byte-order
+/// mark.
 bool is_blank(int code) {
     return code == 0x85 || code == 0xa0 || code == 0xad || code == 0x1680 ||
            (code >= 0x2000 && code <= 0x200f) || (code >= 0x2028 && code <= 0x202f) ||

@@ -1,4 +1,5 @@
-// Characters beyond ASCII where code stands: GLSL has none, and what they were typed for is often plain.
+// Non-ASCII characters in code, which GLSL does not have; suggests the ASCII character that was probably
+// meant.
 #pragma once
 
 #include <optional>
@@ -8,15 +9,16 @@
 namespace tidemark::glsl {
 
 struct StrangeCharacter {
-    std::string name;         ///< `'−' (U+2212)`, `a byte that is no UTF-8 (0xff)`
-    bool blank = false;       ///< looks like a blank, or like nothing
-    std::string_view instead; ///< what to write; empty: not known
+    std::string name;         ///< name for messages: `'−' (U+2212)`, `a byte that is no UTF-8 (0xff)`
+    bool blank = false;       ///< looks like a blank, or is invisible
+    std::string_view instead; ///< suggested replacement; empty if there is none
 };
 
-/// What `text` begins with; nothing where that is ASCII, or a byte in the middle of a character.
+/// Describes the first character of `text`. Returns nothing for ASCII, and for a byte in the middle of a
+/// character.
 std::optional<StrangeCharacter> strange_character(std::string_view text);
 
-/// What to do about one that is no blank, in words.
+/// Returns advice for a message about a character that is not blank.
 std::string advice_on(const StrangeCharacter& character);
 
 } // namespace tidemark::glsl

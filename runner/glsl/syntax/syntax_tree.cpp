@@ -30,7 +30,7 @@ NodeId SyntaxTree::around(NodeId id, NodeKind kind) const {
 }
 
 bool SyntaxTree::is_within(NodeId id, NodeId ancestor) const {
-    // Children are made before their parents, and lie within their words.
+    // Children are created before their parents, and their words lie within the parent's.
     return ancestor == 0 || (id <= ancestor && nodes[id].begin >= nodes[ancestor].begin &&
                              nodes[id].end <= nodes[ancestor].end);
 }

@@ -1,5 +1,5 @@
-// A light syntax tree of a GLSL text without macros: functions, statements and expressions as nodes that
-// point back at their words. No types, no scopes: it says what belongs to what, and nothing of what it means.
+// Syntax tree of a GLSL text after macro expansion: functions, statements and expressions as nodes that refer
+// to their words. Has no types and no scopes.
 #pragma once
 
 #include "base/result.hpp"
@@ -11,31 +11,31 @@
 
 namespace tidemark::glsl {
 
-/// Children are listed in the order of the text; `[x]` may be `absent`.
+/// Children are listed in text order; a child in `[x]` may be `absent`.
 enum class NodeKind : unsigned char {
-    absent, ///< nothing stands here: a clause of `for (;;)`, `[]`
+    absent, ///< an empty clause: in `for (;;)`, `[]`
     // Expressions. `word` is the operator, the name or the number.
     name,
     literal,
     prefix,      ///< operand
     postfix,     ///< operand; ++ and --
-    binary,      ///< left, right; no assignment
-    assign,      ///< target, value; = and its kind
+    binary,      ///< left, right; not an assignment
+    assign,      ///< target, value; = and compound assignments
     conditional, ///< condition, yes, no; `word` is the ?
     comma,       ///< first, second
-    call,        ///< what is called (name; index for an array's constructor; member for .length), arguments
-    index,       ///< what, [which]
-    member,      ///< what; `word` is the member
-    parenthesis, ///< inside
+    call,        ///< callee (name; index for an array's constructor; member for .length), arguments
+    index,       ///< array, [index]
+    member,      ///< object; `word` is the member
+    parenthesis, ///< expression inside
     braces,      ///< elements of an initialiser
     // Declarations.
-    type,        ///< qualifiers and the type's name, its array brackets too: only words; [structure]
+    type,        ///< qualifiers, type name and array brackets, all as words; [structure]
     structure,   ///< declarations of its members; `word` is its name, or `struct`
     declaration, ///< type, declarators; `uniform Block { … } name`
-    declarator,  ///< `word` is its name; indices of its brackets (kind index, no `what`), then its [value]
-    parameter,   ///< type, then as a declarator; `word` is its name, or the last word of its type
+    declarator,  ///< `word` is its name; its brackets (kind index, without an array child), then its [value]
+    parameter,   ///< type, then brackets as in a declarator; `word` is its name, or the last word of its type
     function,    ///< type, parameters, [body]; `word` is its name
-    other,       ///< `precision …;`, `layout(…) in;`: only words
+    other,       ///< `precision …;`, `layout(…) in;`: words only
     // Statements. `word` is the keyword.
     block,            ///< statements
     expression,       ///< expression
@@ -47,16 +47,16 @@ enum class NodeKind : unsigned char {
     label,            ///< [value]: case, default
     return_statement, ///< [value]: return
     jump,             ///< break, continue, discard
-    // All of it.
+    // The whole text.
     text,
 };
 
 using NodeId = uint32_t;
-inline constexpr NodeId k_no_node = 0; ///< the root is no child, so its number means none
+inline constexpr NodeId k_no_node = 0; ///< Means "no node": node 0 is the root, which is never a child.
 
 struct Node {
     NodeKind kind = NodeKind::absent;
-    uint16_t height = 0; ///< of the tree below
+    uint16_t height = 0; ///< height of the subtree
     uint32_t begin = 0;  ///< its words are [begin, end)
     uint32_t end = 0;
     uint32_t word = 0;
@@ -65,7 +65,7 @@ struct Node {
     NodeId next = k_no_node; ///< sibling
 };
 
-/// No path from the root is longer, so that walking down by recursion is safe.
+/// Maximum length of a path from the root, so that recursion over the tree is safe.
 inline constexpr int k_most_height = 2000;
 
 struct SyntaxTree {
@@ -73,10 +73,10 @@ struct SyntaxTree {
 
     const Node& operator[](NodeId id) const { return nodes[id]; }
     std::vector<NodeId> children(NodeId id) const;
-    /// k_no_node when there are not so many.
+    /// Returns k_no_node if there are not enough children.
     NodeId child(NodeId id, size_t index) const;
     size_t child_count(NodeId id) const;
-    /// The nearest node of that kind around `id`, itself included; k_no_node outside of any.
+    /// Returns the nearest enclosing node of that kind, `id` itself included; k_no_node if there is none.
     NodeId around(NodeId id, NodeKind kind) const;
     bool is_within(NodeId id, NodeId ancestor) const;
 };
@@ -84,8 +84,8 @@ struct SyntaxTree {
 bool is_expression(NodeKind kind);
 bool is_loop(NodeKind kind);
 
-/// Linear in the words. Fails where the text is no GLSL that we can follow, or nests deeper than
-/// k_most_height; the error's place is that of the word in `tokens`, through `lines`.
+/// Parses in time linear in the words. Fails if the text is not GLSL that the parser supports, or is nested
+/// deeper than k_most_height; the error has the place of the word, from `tokens` and `lines`.
 Result<SyntaxTree> parse(const std::vector<Word>& words, const std::vector<text::Token>& tokens,
                          const text::LineMap& lines);
 

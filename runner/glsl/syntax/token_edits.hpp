@@ -1,4 +1,4 @@
-// Changes of a text, token by token: several passes may add to what stands before and behind a token.
+// Edits of a text by token: several passes may add text before and after a token, or replace it.
 #pragma once
 
 #include "text/mapped_text.hpp"
@@ -19,7 +19,7 @@ public:
     void replace(size_t token, std::string_view text) { changes_[token].replacement = text; }
     void remove(size_t token) { replace(token, {}); }
 
-    /// Sorted, without overlap: what MappedText takes.
+    /// Returns edits for MappedText: sorted, without overlap.
     std::vector<text::Edit> edits(const std::vector<text::Token>& tokens) const {
         std::vector<text::Edit> edits;
         for (const auto& [index, change] : changes_) {

@@ -190,7 +190,7 @@ const FunctionFacts* TreeFacts::function(std::string_view name) const {
 
 bool TreeFacts::writes_argument(std::string_view name, size_t index) const {
     if (index >= 32)
-        return true; // nobody has so many: left alone
+        return true; // no function has so many arguments; the conservative answer
     const FunctionFacts* own = function(name);
     const unsigned written = own ? own->written_arguments : builtin_written_arguments(name);
     return ((written >> index) & 1u) != 0;
@@ -248,7 +248,7 @@ bool must_stay_constant(const ParsedText& text, NodeId id) {
         case NodeKind::label:
         case NodeKind::type:
         case NodeKind::structure: return true;
-        case NodeKind::index: // of a declarator, which has no `what`
+        case NodeKind::index: // a declarator's bracket, which has no array child
             if (text.word(node.begin) == "[")
                 return true;
             break;

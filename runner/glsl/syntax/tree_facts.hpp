@@ -1,5 +1,5 @@
-// What a syntax tree declares: structures, functions and what the names of variables stand for. By name
-// alone, over the whole text: where a name is declared twice, it may be either.
+// Declarations of a syntax tree: structures, functions and kinds of variables. Keyed by name alone over the
+// whole text: a name that is declared twice has the properties of both.
 #pragma once
 
 #include "glsl/syntax/parsed_text.hpp"
@@ -12,7 +12,7 @@
 
 namespace tidemark::glsl {
 
-/// A name with all that it is declared as.
+/// Union of the properties of all variables of one name.
 struct Meanings {
     bool floating = false;
     bool whole = false;
@@ -25,10 +25,10 @@ struct Meanings {
     bool only_whole() const { return whole && !floating && !structure && !sampler; }
 };
 
-/// The overloads of one name, taken together.
+/// Properties of all overloads of one name.
 struct FunctionFacts {
     std::vector<NodeId> definitions;
-    bool returns_nothing = false; ///< some overload
+    bool returns_nothing = false; ///< true of at least one overload
     bool returns_array = false;
     unsigned written_arguments = 0; ///< bit i: argument i is `out` or `inout`
 };
@@ -46,41 +46,42 @@ struct TreeFacts {
 
     bool is_type(std::string_view word) const;
     const FunctionFacts* function(std::string_view name) const;
-    /// Whether a call of `name` writes through argument `index`, built-in functions included.
+    /// Returns whether a call of `name` writes argument `index`. Covers built-in functions.
     bool writes_argument(std::string_view name, size_t index) const;
-    /// Of each node: an expression of ints, uints or bools. One of which this is not true may still be whole.
+    /// For each node: true of an expression that certainly has type int, uint or bool; false if unknown.
     std::vector<bool> surely_whole;
 };
 
 TreeFacts find_facts(const ParsedText& text);
 
-/// The word of a `type` node that names it; empty for a structure without a name.
+/// Returns the name of a `type` node; empty for an unnamed structure.
 std::string_view type_name(const ParsedText& text, NodeId type);
 bool has_qualifier(const ParsedText& text, NodeId type, std::string_view qualifier);
-/// Whether a variable of that type gets its content from elsewhere, or never another one.
+/// Returns whether the type has a qualifier such as const, uniform, in, out or buffer: its variables need no
+/// value from the text.
 bool is_given(const ParsedText& text, NodeId type);
-/// Whether a part of a declarator is a bracket of its own, as in `a[3]`. Any other part is its value.
+/// Returns whether a part of a declarator is one of its brackets, as in `a[3]`. Any other part is its value.
 bool is_bracket(const ParsedText& text, NodeId part);
-/// How many brackets a declarator or parameter has, those of its type included.
+/// Counts the brackets of a declarator or parameter, including those of its type.
 size_t dimensions(const ParsedText& text, NodeId type, NodeId declared);
-/// The `a` of `a[i].x` and of `(a)`: what stands in the middle of brackets, members and parentheses.
+/// Returns the base of a place: `a` of `a[i].x` and of `(a)`.
 NodeId base_of(const SyntaxTree& tree, NodeId place);
-/// The `a` of `((a))`.
+/// Returns the expression inside parentheses: `a` of `((a))`.
 NodeId without_brackets(const SyntaxTree& tree, NodeId expression);
-/// Whether an expression sets its first part: by `=`, `+=` and their kind, `++` and `--`.
+/// Returns whether an expression assigns its first part: `=`, `+=` and similar, `++`, `--`.
 bool is_change(const ParsedText& text, NodeId expression);
-/// The variables that an expression itself, its parts aside, sets, or hands to a function that may.
+/// Returns the variables that this expression node assigns, or passes to a function that may write them. Does
+/// not look at its subexpressions.
 std::vector<std::string_view> names_set(const ParsedText& text, const TreeFacts& facts, NodeId expression);
-/// The name that a call calls, for functions and constructors alike; empty for an array's constructor and for
-/// `.length()`.
+/// Returns the name of the called function or constructor; empty for an array's constructor and `.length()`.
 std::string_view called_name(const ParsedText& text, NodeId call);
 
-/// Whether an expression must stay constant: part of a `const` declaration, an array's size or a case label;
-/// or, in GLSL ES, the value of a global variable.
+/// Returns whether an expression must stay constant: part of a `const` declaration, an array size, a case
+/// label, or, in GLSL ES, the value of a global variable.
 bool must_stay_constant(const ParsedText& text, NodeId id);
 
-/// The functions that `main` comes to by calls, overloads taken together: to tell authors about. What may be
-/// taken away is find_reached's to say (globals.hpp), which a word is enough for.
+/// Returns the functions that calls from `main` reach, overloads taken together. For messages; to decide
+/// which code can be removed use find_reached, which is more conservative: a mention of the name counts.
 std::unordered_set<std::string_view> functions_of_main(const ParsedText& text, const TreeFacts& facts);
 
 } // namespace tidemark::glsl

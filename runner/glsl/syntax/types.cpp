@@ -74,7 +74,7 @@ std::optional<ValueType> type_of_operation(std::string_view op, const ValueType&
     if (op != "*" || (left.vector() && right.vector()))
         return left.columns == right.columns && left.rows == right.rows ? std::optional(as(left))
                                                                         : std::nullopt;
-    if (left.vector()) // a row
+    if (left.vector()) // a row vector
         return left.rows == right.rows ? std::optional(ValueType{base, 1, right.columns}) : std::nullopt;
     if (left.columns != right.rows)
         return std::nullopt;

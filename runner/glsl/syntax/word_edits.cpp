@@ -17,7 +17,7 @@ WordEdits::WordEdits(const ParsedText& text)
         first_from_[i] = std::min(first_from_[i + 1], words[i].used);
 }
 
-/// The tokens up to the next word's may hold the end of a macro's call whose beginning is outside: `)`.
+/// The tokens up to the next word may include the `)` of a macro call that begins before these words.
 bool WordEdits::stands_alone(size_t begin, size_t end) const {
     if (begin >= end || !begins_alone(begin) || last_before_[end] >= first_from_[end])
         return false;
@@ -42,7 +42,7 @@ void WordEdits::replace(size_t begin, size_t end, std::string_view replacement) 
     const std::vector<text::Token>& tokens = text_.tokens();
     const std::vector<size_t>& code = text_.preprocessed().code;
     const size_t last = first_from_[end];
-    std::string text = " " + std::string(replacement) + " "; // the neighbours stay apart
+    std::string text = " " + std::string(replacement) + " "; // keeps the neighbours apart
     auto at = std::lower_bound(code.begin(), code.end(), size_t(first_from_[begin]));
     while (at != code.end() && *at < last) {
         const size_t first = *at;
@@ -59,7 +59,7 @@ void WordEdits::insert(size_t word, std::string_view insertion) {
     edits_.push_back({begin_of(word), begin_of(word), std::string(insertion)});
 }
 
-/// A branch that was closed goes with its function, should that go.
+/// Drops edits inside a larger removal, for example a removed branch of a removed function.
 text::MappedText WordEdits::apply() const {
     std::vector<text::Edit> edits = edits_;
     std::stable_sort(edits.begin(), edits.end(), [](const text::Edit& a, const text::Edit& b) {

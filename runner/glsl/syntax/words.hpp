@@ -1,5 +1,5 @@
-// The words that the front end looks for in a text: what a desktop driver reserves, keywords, names of old
-// APIs, brackets. What ShaderToy's prologue declares: scene/host_uniforms.hpp.
+// Name tables for the front end: names that desktop drivers reserve, keywords, names of old APIs, brackets.
+// ShaderToy's uniforms: scene::k_site_uniforms.
 #pragma once
 
 #include "scene/host_uniforms.hpp"
@@ -17,7 +17,7 @@ using scene::k_channel_structs;
 using scene::k_site_uniforms;
 using scene::SiteUniform;
 
-/// A name of an old API and what it is called today.
+/// A name of an old API and its current equivalent.
 struct OldName {
     std::string_view name;
     std::string_view today;
@@ -47,7 +47,8 @@ inline constexpr OldName k_old_names[] = {
     {"textureLodEXT", "textureLod"},
 };
 
-/// Legal names in the site's texts (or at least published there) that some version we offer has as a keyword.
+/// Names that ShaderToy texts use legally (or that are at least published there), but that are keywords in
+/// some version that Tidemark offers to drivers.
 inline constexpr std::string_view k_reserved_words[] = {"packed",
                                                         "row_major",
                                                         "buffer",
@@ -79,7 +80,7 @@ inline constexpr std::string_view k_reserved_words[] = {"packed",
                                                         "cast",
                                                         "noperspective"};
 
-/// Words of the language that are neither types nor functions; sorted.
+/// Keywords that are neither types nor functions; sorted.
 inline constexpr std::string_view k_keywords[] = {
     "break",     "case",   "centroid", "const",   "continue", "default", "discard",   "do",
     "else",      "false",  "flat",     "for",     "highp",    "if",      "in",        "inout",
@@ -95,7 +96,7 @@ inline bool is_one_of(std::string_view word, std::span<const std::string_view> w
     return std::ranges::find(words, word) != words.end();
 }
 
-/// 1 for a parenthesis, bracket or brace that opens, -1 for one that closes, else 0.
+/// Returns 1 for an opening parenthesis, bracket or brace, -1 for a closing one, else 0.
 inline int nesting(std::string_view word) {
     const size_t sign = word.size() == 1 ? std::string_view("([{)]}").find(word[0]) : word.npos;
     return sign == word.npos ? 0 : sign < 3 ? 1 : -1;

@@ -16,7 +16,7 @@ constexpr Colour k_heat[] = {{0.0f, 0.0f, 0.02f},
                              {0.99f, 0.58f, 0.16f},
                              {1.0f, 1.0f, 0.75f}};
 
-/// NaN unless both are numbers or the same.
+/// Returns the absolute difference, 0 for equal values, and NaN for any other pair with a NaN or infinity.
 double distance(double a, double b) {
     if (a == b || (std::isnan(a) && std::isnan(b)))
         return 0.0;

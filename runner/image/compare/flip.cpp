@@ -24,7 +24,7 @@ constexpr double k_to_xyz[3][3] = {
     {1425312.0 / 73733382.0, 8788810.0 / 73733382.0, 70074185.0 / 73733382.0},
 };
 
-/// X, Y, Z as parts of the white's.
+/// Converts linear sRGB to X, Y, Z relative to the white point.
 Triple relative_xyz(const Triple& rgb) {
     Triple xyz{};
     for (size_t row = 0; row < 3; ++row) {
@@ -34,7 +34,7 @@ Triple relative_xyz(const Triple& rgb) {
     return xyz;
 }
 
-/// Red, green, blue of an X, Y, Z relative to the white: Cramer's rule on the matrix above.
+/// Inverts relative_xyz, by Cramer's rule on the matrix above.
 Triple linear_rgb(const Triple& xyz) {
     double m[3][3];
     for (size_t row = 0; row < 3; ++row)
@@ -51,7 +51,7 @@ Triple linear_rgb(const Triple& xyz) {
     return rgb;
 }
 
-/// Y, Cx, Cz: CIELAB without its cube roots, in which the eye's contrast sensitivity was measured.
+/// Converts to Y, Cx, Cz: CIELAB without its cube roots, in which contrast sensitivity was measured.
 Triple opponent(const Triple& xyz) {
     return {116.0 * xyz[1] - 16.0, 500.0 * (xyz[0] - xyz[1]), 200.0 * (xyz[1] - xyz[2])};
 }
@@ -61,7 +61,7 @@ Triple xyz_of_opponent(const Triple& yxz) {
     return {y + yxz[1] / 500.0, y, y - yxz[2] / 200.0};
 }
 
-/// CIELAB; a and b are then scaled by L / 100 after Hunt: colours seem stronger in the light.
+/// Converts to CIELAB and scales a and b by L / 100 after Hunt: colours seem stronger in the light.
 Triple hunt_lab(const Triple& rgb) {
     constexpr double k_delta = 6.0 / 29.0;
     Triple f = relative_xyz(rgb);
@@ -93,8 +93,7 @@ Planes opponent_of(const Image& image) {
 
 // ---- Colour ---------------------------------------------------------------------------------------------
 
-/// One of the Gaussians a contrast sensitivity function transforms into: a sqrt(pi/b) exp(-pi² x² / b), x in
-/// degrees.
+/// A Gaussian of the transformed contrast sensitivity function: a sqrt(pi/b) exp(-pi² x² / b), x in degrees.
 struct Bell {
     double a;
     double b;
@@ -110,7 +109,7 @@ double sum_of(const Kernel& kernel) {
     return std::accumulate(kernel.begin(), kernel.end(), 0.0);
 }
 
-/// As blurred as the eye sees it at that many pixels a degree.
+/// Blurs a plane by the eye's contrast sensitivity at that many pixels a degree.
 Plane seen(const Plane& plane, const Sensitivity& eye, double pixels_per_degree) {
     const int radius = int(std::ceil(3.0 * std::sqrt(k_widest / (2.0 * k_pi * k_pi)) * pixels_per_degree));
     Plane result(plane.extent);
@@ -132,7 +131,8 @@ Plane seen(const Plane& plane, const Sensitivity& eye, double pixels_per_degree)
 
 constexpr double k_colour_exponent = 0.7;
 
-/// 0..1 from a distance of colours: nearly linear up to 0.4 of the largest, which becomes 0.95.
+/// Maps a colour distance to 0..1: linearly up to 0.4 of the largest, which becomes 0.95, and linearly from
+/// there to 1.
 double redistributed(double distance, double largest) {
     constexpr double k_knee = 0.4, k_knee_value = 0.95;
     const double knee = k_knee * largest;
@@ -153,7 +153,7 @@ Plane colour_difference(const Planes& reference, const Planes& test, double pixe
         left[c] = seen(reference[c], k_sensitivity[c], pixels_per_degree);
         right[c] = seen(test[c], k_sensitivity[c], pixels_per_degree);
     }
-    // No two colours are further apart than green and blue.
+    // The largest distance of two colours is that of green and blue.
     const double largest = std::pow(hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1})), k_colour_exponent);
     Plane result(reference[0].extent);
     for (size_t i = 0; i < result.values.size(); ++i)
@@ -164,7 +164,7 @@ Plane colour_difference(const Planes& reference, const Planes& test, double pixe
 
 // ---- Edges and points -----------------------------------------------------------------------------------
 
-/// Positive and negative weights made to sum to 1 and -1, over the kernel times `across`.
+/// Scales the positive and the negative weights to sum to 1 and -1 over the product with `across`.
 Kernel balanced(Kernel kernel, const Kernel& across) {
     double positive = 0.0, negative = 0.0;
     for (const double weight : kernel)
@@ -174,7 +174,7 @@ Kernel balanced(Kernel kernel, const Kernel& across) {
     return kernel;
 }
 
-/// How strong a feature is in each pixel: the length of the filter's answers along x and along y.
+/// Returns the strength of a feature in each pixel: the length of the filter responses along x and y.
 Plane strength(const Plane& luminance, const Kernel& along, const Kernel& across) {
     const Plane x = convolved(luminance, along, across), y = convolved(luminance, across, along);
     Plane result(luminance.extent);

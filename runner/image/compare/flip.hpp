@@ -1,5 +1,5 @@
-// LDR-FLIP: how different two pictures look to a person who flips between them. P. Andersson, J. Nilsson,
-// T. Akenine-Moller, M. Oskarsson, K. Astrom, M. D. Fairchild, "FLIP: A Difference Evaluator for Alternating
+// LDR-FLIP: the perceived difference of two pictures when flipping between them. P. Andersson, J. Nilsson, T.
+// Akenine-Moller, M. Oskarsson, K. Astrom, M. D. Fairchild, "FLIP: A Difference Evaluator for Alternating
 // Images", Proc. ACM Comput. Graph. Interact. Tech. 3(2), 2020.
 #pragma once
 
@@ -13,11 +13,11 @@ inline constexpr double k_pixels_per_degree = 0.7 * 3840 / 0.7 * 3.1415926535897
 
 struct Flip {
     Plane map;         ///< 0 (same) to 1 for each pixel
-    double mean = 0.0; ///< what the paper reports first
+    double mean = 0.0; ///< the main result in the paper
     double largest = 0.0;
 };
 
-/// The pictures are taken as sRGB, clamped to 0..1. Both have the same size.
+/// Compares two pictures as sRGB, clamped to 0..1. Both must have the same size.
 Flip flip(const Image& reference, const Image& test, double pixels_per_degree = k_pixels_per_degree);
 
 } // namespace tidemark::image

@@ -14,20 +14,21 @@
 namespace tidemark::image {
 namespace {
 
-/// Bytes are compared as integers, so that a step of one is 1/255 to the last bit. NaN: no number.
+/// Returns the absolute difference, or NaN if it is undefined. Bytes are compared as integers, so that a step
+/// of one is 1/255 to the last bit.
 double distance(uint8_t left, uint8_t right) {
     return double(std::abs(int(left) - int(right))) / 255.0;
 }
 
 double distance(float left, float right) {
-    if (left == right || (std::isnan(left) && std::isnan(right))) // the first: infinities of one sign, too
+    if (left == right || (std::isnan(left) && std::isnan(right))) // also equal infinities
         return 0.0;
     if (!std::isfinite(left) || !std::isfinite(right))
         return std::nan("");
     return std::abs(double(left) - double(right));
 }
 
-/// A byte beside a float is what writing it to a float file makes of it.
+/// Converts a byte as a float file stores it.
 float as_float(uint8_t value) {
     return float(value) / 255.0f;
 }
@@ -62,15 +63,15 @@ PictureDifference difference(std::span<const Left> left, std::span<const Right> 
         bool differs = false, bad_left = false, bad_right = false;
         for (size_t i = pixel * channels; i < (pixel + 1) * channels; ++i) {
             const double d = distance(left[i], right[i]);
-            differs |= !(d <= tolerance); // a NaN differs
+            differs |= !(d <= tolerance); // true for NaN
             bad_left |= non_finite(left[i]);
             bad_right |= non_finite(right[i]);
             squares += d * d;
-            if (d != 0.0) { // equal infinities are no difference
+            if (d != 0.0) { // skips equal infinities
                 const double part = d / (magnitude(left[i]) + 0.01);
                 relative += part * part;
             }
-            if (d > result.largest) // a NaN is not
+            if (d > result.largest) // false for NaN
                 result.largest = d;
         }
         result.differing += differs;

@@ -1,4 +1,4 @@
-// How far two pictures are apart, in numbers: sample by sample, and as people see it. No verdict.
+// Measures the difference of two pictures, sample by sample and as perceived. Gives no verdict.
 #pragma once
 
 #include "base/result.hpp"
@@ -8,14 +8,14 @@
 
 namespace tidemark::image {
 
-/// u8 samples count as v/255. Two NaN are equal, as are two infinities of one sign; any other pair with a
-/// non-finite sample has no difference in numbers: it makes `rmse` and `psnr` NaN, so that no threshold
-/// passes, and leaves `largest`, which is over the other pairs, useful. The left picture is the reference.
+/// u8 samples count as v/255. Two NaN are equal, as are two infinities of one sign. For any other pair with a
+/// non-finite sample the difference is undefined: it makes `rmse`, `psnr` and `relative_mse` NaN, so that no
+/// threshold passes; `largest` ignores it. The left picture is the reference.
 struct PictureDifference {
     double largest = 0.0; ///< largest absolute difference of two samples
     double rmse = 0.0;    ///< root of the mean square over all samples
     double psnr = 0.0;    ///< dB for a peak of 1; infinite for equal pictures
-    /// Mean of (test - reference)² / (|reference| + 0.01)²: as pbrt's MRSE, but that it skips infinities.
+    /// Mean of (test - reference)² / (|reference| + 0.01)², as pbrt's MRSE; equal infinities count as 0.
     double relative_mse = 0.0;
     size_t pixels = 0;
     size_t differing = 0;       ///< pixels with a sample that differs by more than the tolerance
@@ -26,17 +26,16 @@ struct PictureDifference {
     bool equal() const { return differing == 0; }
 };
 
-/// The pictures may differ in sample type; a different size or number of channels is an error
-/// (ErrorCode::check_failed). `tolerance` decides what `differing` counts, and nothing else.
+/// Compares two pictures, which may differ in sample type. A different size or number of channels is an error
+/// (ErrorCode::check_failed). `tolerance` affects only `differing`.
 Result<PictureDifference> compare(const Image& left, const Image& right, double tolerance = 0.0);
 
-/// All there is to say of a picture beside its reference. What looks at neighbourhoods (`ssim`, `flip`) is
-/// NaN where `rmse` is.
+/// All metrics of a picture against its reference. `ssim` and the two of FLIP are NaN if `rmse` is.
 struct PictureMetrics {
     PictureDifference samples;
-    double ssim = 1.0;         ///< image/compare/ssim.hpp
-    double flip = 0.0;         ///< mean of image/compare/flip.hpp
-    double largest_flip = 0.0; ///< of a pixel
+    double ssim = 1.0;         ///< structural similarity, see `ssim` of pictures
+    double flip = 0.0;         ///< mean of the map of `flip`
+    double largest_flip = 0.0; ///< largest of a pixel
 };
 
 Result<PictureMetrics> measure(const Image& reference, const Image& test, double tolerance = 0.0);

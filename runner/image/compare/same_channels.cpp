@@ -12,7 +12,8 @@ bool is_grey(const Image& image) {
     return image.channels < 3;
 }
 
-/// Grey three times where `coloured`, and an alpha of 1 where `with_alpha`; what is there already stays.
+/// Adds channels: `coloured` repeats grey three times, `with_alpha` adds an alpha of 1. Existing channels
+/// stay.
 Image widened(const Image& image, bool coloured, bool with_alpha) {
     const int colours = coloured || !is_grey(image) ? 3 : 1;
     Image wide(image.extent, colours + (with_alpha || image.has_alpha() ? 1 : 0), image.type);

@@ -1,5 +1,5 @@
-// Two pictures of different channels made comparable: grey stands for red, green and blue, and an alpha that
-// is not there is 1. Says what stands for what; measures nothing.
+// Gives two pictures the same channels so that they can be compared: grey becomes red, green and blue, and a
+// missing alpha is 1. Reports these changes; measures nothing.
 #pragma once
 
 #include "image/image.hpp"
@@ -11,11 +11,11 @@ namespace tidemark::image {
 struct SameChannels {
     Image left;
     Image right;
-    std::string note; ///< in words, the left being A and the right B; empty: they had the same channels
+    std::string note; ///< describes the changes, with A for left and B for right; empty: none
 };
 
-/// An alpha that only one picture has is left out where it is 1 throughout, for then it says nothing; else
-/// the other picture is given one of 1, and the two differ in it.
+/// Gives both pictures the same channels. An alpha that only one picture has is dropped if it is 1
+/// everywhere; otherwise the other picture gets an alpha of 1 and the two differ in it.
 SameChannels same_channels(Image left, Image right);
 
 } // namespace tidemark::image

@@ -6,12 +6,12 @@
 
 namespace tidemark::image {
 
-/// The smallest side of a picture that has one: the width of the window.
+/// The width of the window, which is the smallest side of a picture with an SSIM.
 inline constexpr int k_ssim_window = 11;
 
-/// The mean over all places of the window (Gaussian of deviation 1.5; K1 = 0.01, K2 = 0.03, peak 1) and over
-/// red, green and blue as they are shown; 1 for equal pictures. NaN for pictures smaller than the window.
-/// Both pictures have the same size.
+/// Returns the mean SSIM over all window positions (Gaussian of deviation 1.5; K1 = 0.01, K2 = 0.03, peak 1)
+/// and over red, green and blue as shown; 1 for equal pictures. Returns NaN for pictures smaller than the
+/// window. Both must have the same size.
 double ssim(const Image& left, const Image& right);
 
 } // namespace tidemark::image

@@ -63,11 +63,11 @@ public:
         });
     }
 
-    /// Waits for the next one; false where there is none.
+    /// Waits for the next picture; returns false when there are no more.
     bool take_picture() {
         auto picture = std::make_shared<Image>(k_camera_extent, 4, SampleType::u8);
         for (size_t filled = 0; filled < picture->bytes.size();) {
-            words_.clear(); // a camera may complain for hours
+            words_.clear(); // limits the stored messages
             const Result<size_t> count = child_.read(std::span(picture->bytes).subspan(filled), words_);
             if (!count || *count == 0)
                 return false;
@@ -83,7 +83,7 @@ public:
         return newest_;
     }
 
-    /// The last line that the child said.
+    /// Returns the last line that ffmpeg printed on stderr.
     std::string_view complaint() const {
         const std::string_view text = std::string_view(words_).substr(0, words_.find_last_not_of('\n') + 1);
         return text.substr(text.rfind('\n') + 1);
@@ -93,7 +93,7 @@ private:
     ChildProcess child_;
     std::string words_;
     mutable std::mutex mutex_;
-    std::shared_ptr<const Image> newest_; ///< under the mutex
+    std::shared_ptr<const Image> newest_; ///< guarded by the mutex
     std::thread thread_;
 };
 

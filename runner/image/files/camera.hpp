@@ -1,4 +1,4 @@
-// What a camera shows at the moment, through the program `ffmpeg` as a child process, as videos are read.
+// Delivers the current picture of a camera, through a child process `ffmpeg`.
 #pragma once
 
 #include "base/extent.hpp"
@@ -10,21 +10,21 @@
 
 namespace tidemark::image {
 
-/// Of every picture of a camera, which is scaled, and cut at its longer side, to that.
+/// The size of camera pictures: they are scaled to it, and cropped on the longer side.
 inline constexpr Extent k_camera_extent{640, 480};
 
-/// A thread of its own takes the pictures as they come; to be used from another. No child outlives this
+/// A thread receives the pictures; the object is for use on another thread. The child process ends with the
 /// object.
 class Camera {
 public:
-    /// A device of Video4Linux such as `/dev/video0`, or a video, played at its own pace, again and again.
-    /// Waits for the first picture. ErrorCode::load says why there is none.
+    /// Opens a Video4Linux device such as `/dev/video0`, or a video, which is looped at its own speed. Waits
+    /// for the first picture. Fails with the reason (ErrorCode::load) when there is none.
     static Result<Camera> open(const std::filesystem::path& path);
     Camera(Camera&&) noexcept;
     Camera& operator=(Camera&&) noexcept;
     ~Camera();
 
-    /// RGBA, u8, row 0 the bottom row. The last one stays when there are no more.
+    /// Returns the newest picture: RGBA, u8, row 0 the bottom row. It stays when no more pictures come.
     std::shared_ptr<const Image> newest() const;
 
 private:

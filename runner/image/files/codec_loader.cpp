@@ -9,8 +9,8 @@
 namespace tidemark::image {
 namespace {
 
-/// Libraries behind the plug-in start threads while they are loaded, and end the process or wait for ever
-/// where they get none. The driver may be starting its own meanwhile.
+/// Checks that enough threads can be created. The plug-in's libraries start threads while loading, and end
+/// the process or block forever if they cannot. The driver may start its own threads at the same time.
 bool threads_are_to_be_had() {
     const unsigned count = 8 + 2 * std::thread::hardware_concurrency();
     std::promise<void> end;

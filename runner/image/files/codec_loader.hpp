@@ -6,8 +6,8 @@
 
 namespace tidemark::image {
 
-/// The plug-in of this program (base/plug_in.hpp). Loaded by the first call; others wait for it. A failure is
-/// kept.
+/// Returns this program's picture plug-in. The first call loads it, and concurrent calls wait. A failure is
+/// permanent.
 const Result<const PictureCodec*>& picture_codec();
 
 } // namespace tidemark::image

@@ -26,7 +26,7 @@ tl::unexpected<Error> cannot_use(const std::string& name, std::string_view why) 
 
 // --- Faces of one kind ---------------------------------------------------------------------------------
 
-/// Grey to colour by repeating it, no alpha to alpha 1.
+/// Converts channels: repeats grey as colour, and sets a missing alpha to `one`.
 template <class Sample>
 void spread(std::span<const Sample> from, int from_channels, std::span<Sample> to, int channels, Sample one) {
     const bool grey = from_channels <= 2, alpha = from_channels % 2 == 0;
@@ -71,11 +71,11 @@ void make_alike(CubeFaces& faces) {
 
 // --- Several faces in a picture --------------------------------------------------------------------------
 
-/// Where a face lies in the picture, in faces from the left and from the top.
+/// Position of a face in the picture, counted in faces from the left and from the top.
 struct Cell {
     int column;
     int row;
-    bool turned = false; ///< by half a turn
+    bool turned = false; ///< by 180 degrees
 };
 
 struct Layout {
@@ -114,15 +114,15 @@ Image cut(const Image& picture, const Cell& cell, int side) {
 
 // --- Resampling ------------------------------------------------------------------------------------------
 
-/// A texel of one of several pictures and its share of a sample.
+/// A texel of one of several pictures and its weight in a sample.
 struct Tap {
     int picture = 0;
     size_t texel = 0;
     double weight = 0.0;
 };
 
-/// The four texels around a place in texels, whose centres are at halves: `tap(x, y)` says which one stands
-/// at a column and row, also one outside.
+/// Returns the four texels around a point given in texels, whose centres are at halves. `tap(x, y)` returns
+/// the texel at a column and row, which may be outside.
 template <class TapAt>
 std::array<Tap, 4> taps_around(double x, double y, const TapAt& tap) {
     const double left = std::floor(x - 0.5), below = std::floor(y - 0.5);
@@ -140,7 +140,7 @@ template <class Sample>
 void blend(std::span<const Image> pictures, const std::array<Tap, 4>& taps, size_t channels, Sample* to) {
     std::array<double, 4> sums{};
     for (const Tap& tap : taps) {
-        if (tap.weight == 0.0) // an infinity beside the place would make it NaN
+        if (tap.weight == 0.0) // 0 times infinity would be NaN
             continue;
         const auto* from = reinterpret_cast<const Sample*>(pictures[size_t(tap.picture)].bytes.data());
         for (size_t channel = 0; channel < channels; ++channel)
@@ -190,7 +190,7 @@ std::array<Tap, 4> cube_taps(int side, const Direction& direction) {
     return taps_around(place.s * side, place.t * side, [&](int column, int row) {
         CubePlace at{place.face, (column + 0.5) / side, (row + 0.5) / side};
         if (column < 0 || column >= side || row < 0 || row >= side)
-            at = place_of(direction_of(at)); // on the neighbour
+            at = place_of(direction_of(at)); // on the adjacent face
         const int x = std::clamp(int(at.s * side), 0, side - 1),
                   y = std::clamp(int(at.t * side), 0, side - 1);
         return Tap{at.face, size_t(y) * size_t(side) + size_t(x)};
@@ -272,7 +272,7 @@ CubeFaces vflipped(const CubeFaces& faces) {
 Image equirectangular_of(const CubeFaces& faces, Extent size) {
     Image panorama(size, faces[0].channels, faces[0].type);
     const int side = faces[0].extent.width;
-    std::vector<Direction> around; // at the equator
+    std::vector<Direction> around; // directions on the equator
     for (int x = 0; x < size.width; ++x) {
         const double a = 2.0 * std::numbers::pi * (x + 0.5) / size.width;
         around.push_back({-std::sin(a), 0.0, std::cos(a)});

@@ -27,7 +27,7 @@ uint8_t byte_at(std::string_view file, size_t at) {
     return uint8_t(file[at]);
 }
 
-/// As in the PNG specification, annex D.
+/// Computes the CRC of the PNG specification, annex D.
 uint32_t checksum(std::string_view bytes) {
     return uint32_t(crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), uInt(bytes.size())));
 }
@@ -41,7 +41,7 @@ bool is_webp(std::string_view file) {
     return file.starts_with("RIFF") && file.size() >= 12 && file.substr(8, 4) == "WEBP";
 }
 
-/// "P1" to "P6" and the float kinds "Pf", "PF", then white space.
+/// Recognises "P1" to "P6" and the float formats "Pf", "PF", followed by white space.
 bool is_pnm(std::string_view file) {
     return file.size() > 2 && file[0] == 'P' && std::string_view("123456fF").find(file[1]) != file.npos &&
            std::string_view(" \t\r\n").find(file[2]) != file.npos;
@@ -56,7 +56,7 @@ bool has_tga_name(const std::filesystem::path& path) {
 
 // --- PNG -------------------------------------------------------------------------------------------
 
-/// Colour type and depth pairs that exist (PNG specification, table 11.1).
+/// Returns whether the pair of colour type and depth exists (PNG specification, table 11.1).
 bool is_png_kind(uint8_t colour, uint8_t depth) {
     const bool small = depth == 1 || depth == 2 || depth == 4;
     switch (colour) {
@@ -83,12 +83,12 @@ bool makes_samples(std::string_view chunk) {
     return chunk == "IHDR" || chunk == "PLTE" || chunk == "tRNS" || chunk == "IDAT" || chunk == "IEND";
 }
 
-/// A reader may pass over the chunks that begin with a small letter, but over no other.
+/// Returns whether a chunk is ancillary: its name begins with a small letter.
 bool may_be_left_out(std::string_view chunk) {
     return (byte_at(chunk, 0) & 0x20u) != 0;
 }
 
-/// What is wrong with one chunk: its checksum, its place, or that there is one too many.
+/// Checks one chunk: its checksum, its position, and that it is not repeated.
 Objection chunk_objection(const PngChunk& chunk, bool is_first, int palettes) {
     if (checksum(chunk.checked()) != chunk.checksum())
         return "the file is damaged: a checksum in it is wrong";
@@ -128,12 +128,12 @@ bool is_frame_header(uint8_t marker) {
     return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
 }
 
-/// Nothing follows but the next marker: padding, restarts, and a 0xff that is data.
+/// Returns whether the marker has no segment: padding, restarts, and an escaped 0xff in the data.
 bool is_bare_marker(uint8_t marker) {
     return marker == 0x00 || marker == 0x01 || (marker >= 0xd0 && marker <= 0xd8);
 }
 
-/// Walks from marker to marker, through the compressed data, to the end-of-image marker.
+/// Checks a JPEG from marker to marker, through the compressed data, up to the end-of-image marker.
 Objection jpeg_objection(std::string_view file) {
     size_t at = 2;
     while ((at = file.find('\xff', at)) != file.npos && at + 1 < file.size()) {
@@ -160,7 +160,7 @@ Objection jpeg_objection(std::string_view file) {
 
 // --- OpenEXR ---------------------------------------------------------------------------------------
 
-/// The text up to the next zero byte, which `at` is moved behind; nothing when there is none.
+/// Returns the text up to the next zero byte and moves `at` past that byte; nothing when there is none.
 std::optional<std::string_view> zero_terminated(std::string_view file, size_t& at) {
     const size_t end = file.find('\0', at);
     if (end == file.npos)
@@ -177,7 +177,7 @@ Objection window_objection(std::string_view box) {
     return size_objection(corner(8) - corner(0) + 1, corner(12) - corner(4) + 1);
 }
 
-/// Walks the attributes of the first part: name, type, size, value; an empty name ends them.
+/// Checks the attributes of the first part: name, type, size, value; an empty name ends them.
 Objection exr_objection(std::string_view file) {
     size_t at = 8;
     bool has_window = false;

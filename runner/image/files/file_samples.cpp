@@ -7,7 +7,7 @@
 namespace tidemark::image {
 namespace {
 
-/// 0..1 to 0..`largest`, rounded to nearest; NaN fails both comparisons of a number and gives 0.
+/// Scales 0..1 to 0..`largest`, clamped and rounded to nearest; NaN gives 0.
 template <class Integer>
 Integer quantised(float value, double largest) {
     if (!(value > 0.0f))
@@ -49,7 +49,7 @@ std::vector<std::byte> from_f32(const Image& image, SampleDepth depth) {
     return {};
 }
 
-/// Each colour as `becomes(colour, alpha)`.
+/// Converts a picture to floats and each colour to `becomes(colour, alpha)`.
 template <class Becomes>
 Image with_colours(const Image& image, const Becomes& becomes) {
     Image result = in_floats(image);

@@ -9,7 +9,7 @@
 namespace tidemark::image {
 namespace {
 
-/// Numbers of ICC.1:2010 (profile version 4.2), most significant byte first.
+/// Appends values in the formats of ICC.1:2010 (profile version 4.2), most significant byte first.
 class Bytes {
 public:
     Bytes& text(std::string_view characters) {
@@ -21,7 +21,7 @@ public:
         bytes_ += {char(number >> 8), char(number)};
         return *this;
     }
-    /// s15Fixed16Number
+    /// Appends s15Fixed16Number values.
     Bytes& fixed(std::initializer_list<double> numbers) {
         for (const double number : numbers)
             u32(uint32_t(std::lround(number * 65536)));
@@ -36,7 +36,7 @@ private:
 };
 
 std::string words(std::string_view text) {
-    constexpr uint32_t k_start = 28; // of the only record's text
+    constexpr uint32_t k_start = 28; // offset of the only record's text
     Bytes bytes;
     bytes.text("mluc").u32(0).u32(1).u32(12).text("enUS").u32(uint32_t(2 * text.size())).u32(k_start);
     for (const char c : text)
@@ -48,7 +48,7 @@ std::string colour(std::initializer_list<double> xyz) {
     return Bytes().text("XYZ ").u32(0).fixed(xyz).str();
 }
 
-/// Parametric curves: a power, and one with a straight beginning.
+/// Encodes a parametric curve: a power for linear, else a power with a linear beginning.
 std::string curve(Transfer transfer) {
     Bytes bytes;
     bytes.text("para").u32(0);
@@ -62,7 +62,8 @@ struct ProfileTag {
     std::string content;
 };
 
-/// Colours are relative to D50, the white of every profile, adapted from D65 by Bradford's matrix.
+/// Lists the tags. Colours are relative to D50, the white of every profile, adapted from D65 by Bradford's
+/// matrix.
 std::vector<ProfileTag> tags_of(Transfer transfer) {
     const std::string adaptation = Bytes()
                                        .text("sf32")
@@ -82,7 +83,7 @@ std::vector<ProfileTag> tags_of(Transfer transfer) {
             {"bTRC", curve(transfer)}};
 }
 
-/// Of a display's profile. The date is that of no day in particular: the same pictures make the same files.
+/// Encodes the header of a display profile. The date is fixed, so that equal pictures give equal files.
 std::string header(size_t size) {
     Bytes bytes;
     bytes.u32(uint32_t(size)).u32(0).u32(0x04200000).text("mntrRGB XYZ ");

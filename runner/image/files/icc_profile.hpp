@@ -1,5 +1,4 @@
-// A profile of the International Color Consortium, as TIFF and JPEG hold it, that says what samples stand
-// for.
+// Makes the ICC profile that TIFF and JPEG files contain.
 #pragma once
 
 #include "image/transfer.hpp"
@@ -9,7 +8,8 @@
 
 namespace tidemark::image {
 
-/// Version 4: BT.709's primaries and a curve. The same bytes each time. Of data: none.
+/// Returns a version 4 profile with BT.709's primaries and the transfer curve, always the same bytes; empty
+/// for Transfer::data.
 std::vector<std::byte> icc_profile(Transfer transfer);
 
 } // namespace tidemark::image

@@ -26,15 +26,15 @@ namespace tidemark::image {
 namespace fs = std::filesystem;
 namespace {
 
-/// A JPEG segment holds 64 KiB, of which other entries need some; libjpeg ends the process when it is more.
+/// A JPEG segment holds 64 KiB, of which other entries need some; libjpeg ends the process when it overflows.
 constexpr size_t k_longest_jpeg_text = 32000;
 
 struct WrittenFormat {
     std::string_view extension;
     FileFormat format;
     bool has_alpha;
-    std::vector<SampleDepth> depths; ///< the natural one first
-    int longest_side = 1'000'000;    ///< libpng's own limit, and sense
+    std::vector<SampleDepth> depths; ///< the default first
+    int longest_side = 1'000'000;    ///< libpng's own limit
 };
 
 const std::vector<WrittenFormat>& written_formats() {
@@ -87,7 +87,7 @@ std::string names_of(const std::vector<SampleDepth>& depths) {
            std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c < '\x7f'; });
 }
 
-/// The names that the Color Interop Forum gives them.
+/// Returns the name that the Color Interop Forum gives the colour space.
 const char* interop_id(Transfer transfer) {
     switch (transfer) {
     case Transfer::data: return "data";
@@ -97,7 +97,8 @@ const char* interop_id(Transfer transfer) {
     return "";
 }
 
-/// Names that no format gives a meaning of its own, which would change the file or be dropped.
+/// Returns the attributes to write. Their names have no predefined meaning in any format, because such
+/// attributes could change the file or be dropped.
 std::vector<std::pair<std::string, std::string>> attributes(FileFormat format, const PictureFormat& wanted) {
     std::vector<std::pair<std::string, std::string>> all;
     std::string lines;
@@ -130,7 +131,7 @@ EncodeJob job_without_samples(const WrittenFormat& written, Extent extent, int c
     return job;
 }
 
-/// The samples of a picture, or of a band of one, as its file holds them; their channels.
+/// Converts a picture, or a band of one, to the samples of its file. Returns these and their channels.
 std::pair<std::vector<std::byte>, int> stored(const WrittenFormat& written, const Image& drawn, bool alpha,
                                               const PictureFormat& wanted) {
     const auto take = [&](const Image& kept) {
@@ -170,7 +171,8 @@ Result<void> check_extent(const fs::path& path, const Image& image) {
     return {};
 }
 
-/// The outer error: there is no codec for it. The inner one: what the codec says of the picture.
+/// Decodes a file. The outer error means that the codec is missing, the inner one that it rejects the
+/// picture.
 Result<DecodeResult> decode(FileFormat format, std::span<const std::byte> file) {
     if (format == FileFormat::png)
         return decode_png(file);
@@ -237,7 +239,7 @@ std::jthread preload_picture_codec(const fs::path& path) {
         return {};
     try {
         return std::jthread([] { picture_codec(); });
-    } catch (const std::system_error&) { // no thread is to be had
+    } catch (const std::system_error&) { // no more threads available
         return {};
     }
 }
@@ -296,11 +298,11 @@ Result<void> write_layers(const OutputPath& output, std::span<const PictureLayer
     return write_file(output, std::as_bytes(std::span(*file)));
 }
 
-/// A stream for encoders, which learn nothing of a disk that is full: libjpeg would end the process, and
-/// others do not say why.
+/// A stream for encoders that hides write errors from them: on a full disk libjpeg would end the process, and
+/// others do not report the reason.
 class PictureStream::File {
 public:
-    /// The descriptor stays its owner's.
+    /// Does not own the descriptor.
     explicit File(int descriptor)
         : descriptor_(descriptor), stream_(::fopencookie(this, "wb", {nullptr, write, seek, nullptr})) {}
     File(const File&) = delete;
@@ -308,7 +310,7 @@ public:
     ~File() { finish(); }
 
     std::FILE* stream() const { return stream_; }
-    /// errno of the first thing that failed; 0: nothing.
+    /// Returns errno of the first failed call; 0: none.
     int error() const { return error_; }
     void finish() {
         if (std::FILE* stream = std::exchange(stream_, nullptr))
@@ -348,7 +350,7 @@ PictureStream::PictureStream(StagedFile staged, fs::path path, bool alpha, Pictu
 PictureStream::PictureStream(PictureStream&&) noexcept = default;
 PictureStream::~PictureStream() = default;
 
-/// The system's objection goes before the encoder's (empty: none).
+/// Returns the system's error if there is one, else the encoder's (`objection`, empty: none).
 Result<void> PictureStream::checked(const std::string& objection) const {
     if (const int error = file_->error())
         return cannot_write(path_, system_reason(error));

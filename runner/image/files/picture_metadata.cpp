@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view k_prefix = "tidemark:";
 
-/// The texts that are stored as they are, which ours are.
+/// Returns the uncompressed text chunks, which include all of ours.
 Metadata texts_of_png(std::string_view file) {
     Metadata texts;
     std::string_view rest = file.substr(k_png_signature);
@@ -33,7 +33,7 @@ void add(Metadata& ours, std::string_view name, std::string_view value) {
         ours.emplace_back(name.substr(k_prefix.size()), value);
 }
 
-/// Lines of `tidemark:NAME=VALUE`.
+/// Adds lines of the form `tidemark:NAME=VALUE`.
 void add_lines(Metadata& ours, std::string_view text) {
     while (!text.empty()) {
         const std::string_view line = text.substr(0, text.find('\n'));
@@ -43,7 +43,7 @@ void add_lines(Metadata& ours, std::string_view text) {
     }
 }
 
-/// Each name and value is a text of its own, or they are the lines of a description.
+/// Finds our names and values, which are separate texts or lines of a description.
 Metadata ours_of(const Metadata& texts) {
     Metadata ours;
     for (const auto& [name, value] : texts) {

@@ -1,4 +1,4 @@
-// What we wrote into a picture beside its pixels (PictureFormat::metadata), read back.
+// Reads the metadata back that Tidemark wrote into a picture (PictureFormat::metadata).
 #pragma once
 
 #include <tl/expected.hpp>
@@ -13,11 +13,11 @@ namespace tidemark::image {
 
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-/// Of a whole file: a PNG's checksums are looked at, too, of other formats what `read_picture` looks at
-/// before it decodes. The error is the reason alone, in one line; empty where the file holds nothing of ours.
+/// Reads the metadata of a whole file; empty if there is none. Checks the file as `read_picture` does before
+/// decoding. The error is the reason alone, in one line.
 tl::expected<Metadata, std::string> read_metadata(const std::filesystem::path& path);
 
-/// The first value of that name; null where there is none.
+/// Returns the first value of that name; null if there is none.
 const std::string* find(const Metadata& metadata, std::string_view name);
 
 } // namespace tidemark::image

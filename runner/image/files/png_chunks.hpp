@@ -1,5 +1,4 @@
-// The chunks that a PNG file is made of, one after another. What they mean, and their checksums, is others'
-// business.
+// Splits a PNG file into its chunks. Neither interprets them nor verifies their checksums.
 #pragma once
 
 #include "image/byte_order.hpp"
@@ -13,16 +12,16 @@ inline constexpr size_t k_png_signature = 8;
 inline constexpr size_t k_png_chunk_frame = 12; ///< bytes of a chunk's length, name and checksum
 
 struct PngChunk {
-    std::string_view whole; ///< from its length to its checksum
+    std::string_view whole; ///< from its length to its checksum, inclusive
 
     std::string_view name() const { return whole.substr(4, 4); }
     std::string_view data() const { return whole.substr(8, whole.size() - k_png_chunk_frame); }
-    /// What the checksum is of.
+    /// Returns the bytes that the checksum covers.
     std::string_view checked() const { return whole.substr(4, whole.size() - 8); }
     uint32_t checksum() const { return big_endian(whole, whole.size() - 4, 4); }
 };
 
-/// Takes the chunk at the front of what follows the signature; nothing where it is not there whole.
+/// Takes the next chunk from the rest after the signature; returns nothing if it is incomplete.
 inline std::optional<PngChunk> take_png_chunk(std::string_view& rest) {
     if (rest.size() < k_png_chunk_frame)
         return std::nullopt;

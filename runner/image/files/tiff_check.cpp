@@ -8,16 +8,16 @@
 namespace tidemark::image {
 namespace {
 
-/// Where a tag's values stand.
+/// Location of a tag's values.
 struct Values {
     uint64_t at = 0;
     uint64_t count = 0;
-    size_t bytes = 0; ///< of one
+    size_t bytes = 0; ///< per value
 };
 
 enum Tag : uint64_t { strip_offsets = 273, strip_sizes = 279, tile_offsets = 324, tile_sizes = 325 };
 
-/// Bytes of a value of each type (TIFF 6.0 and BigTIFF); 0: there is no such type.
+/// Bytes per value of each type (TIFF 6.0 and BigTIFF); 0: undefined type.
 constexpr std::array<size_t, 19> k_type_bytes = {0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8, 8};
 
 class TiffWalk {
@@ -26,12 +26,13 @@ public:
         big_ = number(2, 2) == 43;
     }
 
-    /// False where something lies behind the end of the file, or nothing is there at all.
+    /// Returns whether all directories and the data of the first picture, which must have some, lie within
+    /// the file.
     bool is_whole() {
         uint64_t directory = big_ ? number(8, 8) : number(4, 4);
         if (!read_directory(directory))
             return false;
-        constexpr int most = 1000; // pictures; they may go round in a circle
+        constexpr int most = 1000; // pictures; their links may form a cycle
         for (int i = 0; i < most && directory != 0; ++i) {
             if (!has(directory, count_bytes()) || !has(directory, directory_bytes(directory)))
                 return false;
@@ -43,7 +44,7 @@ public:
 private:
     bool has(uint64_t at, uint64_t bytes) const { return at <= file_.size() && bytes <= file_.size() - at; }
 
-    /// Zero behind the end.
+    /// Reads an integer; 0 past the end of the file.
     uint64_t number(uint64_t at, size_t bytes) const {
         if (!has(at, bytes))
             return 0;
@@ -58,10 +59,11 @@ private:
     size_t offset_bytes() const { return big_ ? 8 : 4; }
     size_t count_bytes() const { return big_ ? 8 : 2; }
     size_t entry_bytes() const { return big_ ? 20 : 12; }
-    /// With the count before its entries and the place of the next one behind them.
+    /// Returns the size of a directory, with the entry count before its entries and the offset of the next
+    /// directory after them.
     uint64_t directory_bytes(uint64_t at) const {
         const uint64_t entries = number(at, count_bytes());
-        if (entries > file_.size()) // so that nothing overflows
+        if (entries > file_.size()) // avoids overflow below
             return UINT64_MAX;
         return count_bytes() + entries * entry_bytes() + offset_bytes();
     }
@@ -82,7 +84,7 @@ private:
         const uint64_t type = number(at + 2, 2);
         Values values{at + 4 + offset_bytes(), number(at + 4, offset_bytes()),
                       type < k_type_bytes.size() ? k_type_bytes[type] : 0};
-        if (values.bytes == 0) // of a kind that libtiff passes over, too
+        if (values.bytes == 0) // libtiff skips unknown types, too
             return true;
         if (values.count > file_.size())
             return false;
@@ -105,7 +107,7 @@ private:
         }
     }
 
-    /// Sizes may be left out where nothing is compressed.
+    /// Checks that all strips or tiles lie within the file. Their sizes may be missing in uncompressed files.
     bool has_all(const Values& offsets, const Values& sizes) const {
         for (uint64_t i = 0; i < offsets.count; ++i) {
             const uint64_t size = i < sizes.count ? number(sizes.at + i * sizes.bytes, sizes.bytes) : 1;
@@ -116,7 +118,7 @@ private:
     }
 
     std::string_view file_;
-    bool from_back_; ///< the first byte of a number counts most
+    bool from_back_; ///< big-endian
     bool big_ = false;
     Values strip_offsets_, strip_sizes_, tile_offsets_, tile_sizes_;
 };

@@ -1,5 +1,5 @@
-// Whether all that a TIFF's directory speaks of is in the file: libtiff paints what is missing black without
-// a word. Classic and BigTIFF, in either byte order. No decoding.
+// Checks that a TIFF contains all its directories and the data of its first picture, because libtiff silently
+// fills missing pixels with black. Handles classic TIFF and BigTIFF in either byte order. Does not decode.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace tidemark::image {
 
-/// What is wrong with the file, or nothing.
+/// Returns the error, or nothing.
 std::optional<std::string> tiff_objection(std::string_view file);
 
 } // namespace tidemark::image

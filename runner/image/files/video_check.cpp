@@ -25,7 +25,7 @@ public:
             size_ = uint64_t(facts.st_size);
     }
     uint64_t size() const { return size_; }
-    /// Fewer at the end.
+    /// Reads up to `count` bytes, fewer at the end.
     std::string at(uint64_t place, size_t count) const {
         std::string bytes(count, '\0');
         const ssize_t read = place < size_ ? ::pread(file_.get(), bytes.data(), count, off_t(place)) : 0;
@@ -38,7 +38,8 @@ private:
     uint64_t size_ = 0;
 };
 
-/// MP4, MOV: box after box, each with its size; one of them of the type `wanted`, where one is.
+/// MP4, MOV: checks that the file consists of complete boxes and, unless `wanted` is empty, one is of that
+/// type.
 bool has_all_boxes(const FileBytes& file, std::string_view wanted = {}) {
     constexpr size_t heading = 8;
     bool found = wanted.empty();
@@ -48,7 +49,7 @@ bool has_all_boxes(const FileBytes& file, std::string_view wanted = {}) {
             return false;
         found = found || std::string_view(box).substr(4, 4) == wanted;
         uint64_t size = big_endian(box, 0, 4);
-        if (size == 0) // to the end
+        if (size == 0) // extends to the end
             return found;
         if (size == 1 && box.size() == 2 * heading)
             size = uint64_t{big_endian(box, 8, 4)} << 32 | big_endian(box, 12, 4);
@@ -59,7 +60,7 @@ bool has_all_boxes(const FileBytes& file, std::string_view wanted = {}) {
     return found;
 }
 
-/// The number of an EBML element's size, which `place` is moved behind; UINT64_MAX: not known.
+/// Reads the size of an EBML element and moves `place` past it; UINT64_MAX: unknown.
 uint64_t ebml_size(std::string_view bytes, size_t& place) {
     const uint8_t first = place < bytes.size() ? uint8_t(bytes[place]) : 0;
     size_t length = 1;
@@ -74,7 +75,7 @@ uint64_t ebml_size(std::string_view bytes, size_t& place) {
     return value == (uint64_t{1} << 7 * length) - 1 ? UINT64_MAX : value;
 }
 
-/// WebM, Matroska: a header and one segment.
+/// WebM, Matroska: checks that the header and one segment are complete.
 bool has_whole_segment(const FileBytes& file) {
     const std::string head = file.at(0, 256);
     size_t place = 4;
@@ -89,7 +90,7 @@ bool has_whole_segment(const FileBytes& file) {
     return segment == UINT64_MAX || (place <= file.size() && segment <= file.size() - place);
 }
 
-/// The last page ends with the file, and says that it is the last one.
+/// Ogg: checks that the last page ends within the file and is marked as the last one.
 bool has_last_page(const FileBytes& file) {
     constexpr uint64_t longest = 27 + 255 + 255 * 255;
     constexpr size_t heading = 27;
@@ -107,7 +108,7 @@ bool has_last_page(const FileBytes& file) {
     return size <= tail.size() - page && (uint8_t(tail[page + 5]) & last) != 0;
 }
 
-/// GIF: block after block, to the one that ends it.
+/// GIF: checks the blocks up to the trailer.
 class GifWalk {
 public:
     explicit GifWalk(const FileBytes& file) : file_(file) {}
@@ -118,11 +119,11 @@ public:
         while (at_ < file_.size())
             switch (take()) {
             case 0x3b: return true;
-            case 0x21: // an extension
+            case 0x21: // extension
                 ++at_;
                 skip_parts();
                 break;
-            case 0x2c: // a picture
+            case 0x2c: // picture
                 at_ += 8;
                 skip_colours(0);
                 ++at_;
@@ -135,12 +136,12 @@ public:
     }
 
 private:
-    /// Zero behind the end.
+    /// Reads a byte; 0 past the end.
     uint8_t take() {
         const std::string byte = file_.at(at_++, 1);
         return byte.empty() ? 0 : uint8_t(byte[0]);
     }
-    /// A table may be announced here; `more` bytes stand between.
+    /// Skips a colour table if the flags announce one, and `more` bytes before it.
     void skip_colours(uint64_t more) {
         const uint8_t flags = take();
         at_ += more + ((flags & 0x80u) != 0 ? uint64_t{3} << ((flags & 7u) + 1) : 0);

@@ -1,6 +1,6 @@
-// Whether a video's file has the length that it speaks of: ffmpeg shows what is there of one that was cut.
-// MP4 and MOV, WebM and Matroska, Ogg, GIF and AVI; the others know no length. Reads some bytes, decodes
-// nothing.
+// Checks that a video's file is as long as it declares, because ffmpeg plays the rest of a truncated file
+// without an error. Handles MP4 and MOV, WebM and Matroska, Ogg, GIF and AVI; other formats do not declare a
+// length. Reads some bytes, decodes nothing.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,11 @@
 
 namespace tidemark::image {
 
-/// True also of what cannot be read or told.
+/// Returns whether the video is complete; also true for unreadable files and other formats.
 bool is_whole_video(const std::filesystem::path& path);
 
-/// Whether the file is whole and of the kind that ffmpeg calls so: `mp4`, `mov`, `matroska`, `webm`, `gif`,
-/// `webp`. Of MP4 and MOV it must say where its pictures are.
+/// Returns whether the file is complete and of the format that ffmpeg calls `mp4`, `mov`, `matroska`, `webm`,
+/// `gif` or `webp`. MP4 and MOV must contain an index (`moov`).
 bool is_video_of(const std::filesystem::path& path, std::string_view muxer);
 
 } // namespace tidemark::image

@@ -14,7 +14,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// The filter that makes rows go from the top down and says by which matrix colours were coded.
+/// Filters that reverse the rows and set the colour matrix.
 // ffmpeg 7 takes the tags of a video from its frames, ffmpeg 5 from the options in `colour_words`.
 #define TIDEMARK_BT709                                                                                       \
     "scale=out_color_matrix=bt709:out_range=tv,"                                                             \
@@ -43,7 +43,7 @@ Words bt709(Words encoder) {
     return tagged(with(std::move(encoder), {"-vf", k_upright_bt709}));
 }
 
-/// Half the colour resolution, which every player takes, needs even sizes in H.264.
+/// Encodes with half the colour resolution, which every player supports; H.264 then needs even sizes.
 Words h264(const VideoFormat& format, std::string_view) {
     const bool even = format.extent.width % 2 == 0 && format.extent.height % 2 == 0;
     return bt709({"-c:v", "libx264", "-crf", "18", "-pix_fmt", even ? "yuv420p" : "yuv444p"});
@@ -53,7 +53,7 @@ Words vp9(const VideoFormat&, std::string_view) {
     return bt709(libvpx({"-pix_fmt", "yuv420p"}));
 }
 
-/// Its own words in the file would name its threads. Players of Apple's want the tag.
+/// The encoder's info would record the number of threads in the file. Apple's players need the tag.
 Words hevc(const VideoFormat& format, std::string_view encoder) {
     const bool even = format.extent.width % 2 == 0 && format.extent.height % 2 == 0;
     return tagged({"-c:v", std::string(encoder), "-crf", "18", "-x265-params", "log-level=error:info=0",
@@ -67,8 +67,8 @@ Words av1(const VideoFormat&, std::string_view encoder) {
                       : with(std::move(words), {"-b:v", "0", "-cpu-used", "6", "-row-mt", "1"}));
 }
 
-/// Of 4444 all colours are kept, in 10 bits, and alpha in 16. The encoder takes what frames say of their
-/// colours.
+/// ProRes 4444 keeps the full colour resolution, in 10 bits, and alpha in 16. The encoder reads the colour
+/// tags of the frames.
 Words prores(const VideoFormat& format, std::string_view) {
     const bool alpha = format.alpha != Alpha::where_needed;
     return tagged(
@@ -76,7 +76,7 @@ Words prores(const VideoFormat& format, std::string_view) {
              {"-pix_fmt", alpha ? "yuva444p10le" : "yuv444p10le", "-alpha_bits", alpha ? "16" : "0"}));
 }
 
-/// H.264 has no alpha.
+/// Keeps frames without loss: as H.264, or as PNG if there is alpha, which H.264 lacks.
 Words lossless(const VideoFormat& format, std::string_view) {
     if (format.alpha != Alpha::where_needed)
         return {"-vf", "vflip", "-c:v", "png", "-pix_fmt", "rgba"};
@@ -86,11 +86,11 @@ Words lossless(const VideoFormat& format, std::string_view) {
 struct Encoder {
     std::string_view codec;
     std::string_view name;
-    int step = 1;     ///< a side is a multiple of it
-    int shortest = 1; ///< side
+    int step = 1;     ///< sides must be multiples of it
+    int shortest = 1; ///< smallest side
 };
 
-/// Of a codec that an ffmpeg may lack, the best first. SVT-AV1 refuses odd and small pictures.
+/// Encoders that an ffmpeg may lack, the best first. SVT-AV1 rejects odd and small pictures.
 constexpr Encoder k_encoders[] = {
     {"hevc", "libx265", 1, 16}, {"av1", "libsvtav1", 2, 64}, {"av1", "libaom-av1"}};
 
@@ -99,7 +99,7 @@ bool takes(const Encoder& encoder, Extent extent) {
     return side(extent.width) && side(extent.height);
 }
 
-/// What `ffmpeg -encoders` prints; asked once.
+/// Returns the output of `ffmpeg -encoders`, which runs once.
 const Result<std::string>& known_encoders() {
     static const Result<std::string> known =
         output_of({"ffmpeg", "-hide_banner", "-loglevel", "error", "-encoders"}, {1 << 20}, k_get_ffmpeg);
@@ -113,8 +113,8 @@ const std::vector<VideoEncoding>& encodings() {
     static const Words mp4{"-c:v", "copy", "-c:a", "aac", "-b:a", "192k", "-movflags", "+faststart"};
     static const Words mkv{"-c:v", "copy", "-c:a", "aac", "-b:a", "192k"};
     static const Words webm{"-c:v", "copy", "-c:a", "libopus"};
-    // A second stream inside, which no other file of segments has a place for, and frames that nobody sees
-    // would put out of step.
+    // VP9 stores alpha in a second stream, for which MP4 segments have no place and which hidden frames would
+    // desynchronise.
     static const Words webm_alpha =
         tagged(libvpx({"-vf", k_bt709, "-pix_fmt", "yuva420p", "-auto-alt-ref", "0", "-c:a", "libopus"}));
     static const Words gif{"-filter_complex", k_palettes, "-loop", "0"};
@@ -180,7 +180,7 @@ Words colour_words() {
 }
 
 Words ffmpeg_words() {
-    // Without -xerror ffmpeg ends well where a full disk kept the last blocks of the file from it.
+    // Without -xerror ffmpeg reports success when a full disk lost the last blocks of the file.
     return {"ffmpeg", "-xerror", "-nostats", "-loglevel", "error", "-y"};
 }
 

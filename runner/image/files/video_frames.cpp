@@ -16,7 +16,7 @@
 namespace tidemark::image {
 namespace {
 
-/// Farther ahead than this many frames, it is faster to seek than to decode on.
+/// Beyond this many frames, a seek is faster than decoding on.
 constexpr size_t k_farthest_ahead = 64;
 constexpr size_t k_most_text = size_t{256} << 20;
 
@@ -28,7 +28,7 @@ std::vector<std::string> first_arguments() {
     return {"ffmpeg", "-hide_banner", "-nostdin", "-nostats", "-loglevel", "level+info", "-copyts"};
 }
 
-/// Decodes all of it for the times alone, for the few files that do not say them.
+/// Decodes the whole video for its frame times, for the few files that do not store them.
 Result<void> replace_guessed_times(const std::filesystem::path& path, VideoTimes& times) {
     std::vector<std::string> arguments = first_arguments();
     for (std::string& argument : video_input_arguments(path))
@@ -57,7 +57,7 @@ Result<void> replace_guessed_times(const std::filesystem::path& path, VideoTimes
 std::vector<std::string> decoder_arguments(const std::filesystem::path& path, const VideoTimes& times,
                                            size_t from) {
     std::vector<std::string> arguments = first_arguments();
-    // From the key frame at or before the time; what is not wanted of it is dropped here, by its own time.
+    // Seek to the key frame at or before the time; earlier frames are dropped below, by their own times.
     if (from > 0)
         for (std::string argument :
              {std::string("-noaccurate_seek"), std::string("-seek_timestamp"), std::string("1"),
@@ -80,8 +80,8 @@ struct TimedFrame {
     Image image{};
 };
 
-/// One run of ffmpeg. The pixels come on its standard output; the filter `showinfo` says each frame's time on
-/// standard error before the frame is written.
+/// One run of ffmpeg. The pixels come on its standard output; the filter `showinfo` prints each frame's time
+/// on standard error before the frame is written.
 class Decoder {
 public:
     static Result<Decoder> start(const std::filesystem::path& path, const VideoTimes& times, size_t from) {
@@ -92,7 +92,7 @@ public:
         return Decoder(std::move(*child), times.extent);
     }
 
-    /// The next frame; nothing at the end.
+    /// Returns the next frame; nothing at the end.
     Result<std::optional<TimedFrame>> next() {
         TimedFrame frame{0, Image(extent_, 4, SampleType::u8)};
         for (size_t filled = 0; filled < frame.image.bytes.size();) {
@@ -151,7 +151,7 @@ struct VideoFrames::State {
     std::optional<Decoder> decoder{};
     std::optional<TimedFrame> current{};
     std::optional<TimedFrame> ahead{};
-    size_t current_index = 0; ///< of the frame that was asked for when `current` became so
+    size_t current_index = 0; ///< the requested frame when `current` was set
     bool ended = false;
 
     Result<void> read_ahead();
@@ -168,7 +168,7 @@ Result<void> VideoFrames::State::read_ahead() {
     return {};
 }
 
-/// Puts a frame at or before the one wanted into `current`.
+/// Sets `current` to a frame at or before the requested one.
 Result<void> VideoFrames::State::start(size_t index) {
     current.reset();
     for (const size_t from : {index, size_t{0}}) {
@@ -180,7 +180,7 @@ Result<void> VideoFrames::State::start(size_t index) {
         if (Result<void> read = read_ahead(); !read)
             return read;
         current = std::exchange(ahead, {});
-        // Some seeks end behind their aim; from the start there is nothing before the first frame.
+        // Some seeks end after their target; then decode from the start, which is before every frame.
         if (current && current->start <= times.starts[index])
             break;
     }
@@ -197,7 +197,7 @@ Result<void> VideoFrames::State::advance_to(size_t index) {
         if (Result<void> started = start(index); !started)
             return started;
     current_index = index;
-    // A frame that the file lists and the decoder leaves out is covered by the one before it.
+    // A frame that the file lists but the decoder skips is replaced by the previous one.
     while (current->start < wanted) {
         if (!ahead && !ended)
             if (Result<void> read = read_ahead(); !read)

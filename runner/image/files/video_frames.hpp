@@ -1,4 +1,4 @@
-// Pictures of a video at given times, through the program `ffmpeg` as a child process.
+// Delivers the picture of a video at a given time, through a child process `ffmpeg`.
 #pragma once
 
 #include "base/result.hpp"
@@ -9,16 +9,17 @@
 
 namespace tidemark::image {
 
-/// The longest video that is taken, in frames.
+/// The limit of a video's length, in frames.
 inline constexpr int k_most_video_frames = 1 << 20;
 
-/// Frames are told apart by the times at which the file wants them shown, so a time gives the same picture
-/// whatever was asked for before. One child decodes onward while times rise and is started anew, at the right
-/// place, when they fall or jump. No child outlives this object. To be used from one thread at a time.
+/// A video opened for reading. Frames are identified by their display times in the file, so a time gives the
+/// same picture regardless of earlier requests. One child decodes forwards while times rise, and is restarted
+/// at the right place when they fall or jump. The child ends with the object. For use on one thread at a
+/// time.
 class VideoFrames {
 public:
-    /// Reads the times of all frames. ErrorCode::load: no such file, no video in it, too large, or no ffmpeg
-    /// and ffprobe in PATH (the message says which package has them).
+    /// Reads the times of all frames. Fails (ErrorCode::load) if the file does not exist, has no video or is
+    /// too large, or if ffmpeg and ffprobe are not in PATH (the message names the package).
     static Result<VideoFrames> open(const std::filesystem::path& path);
 
     VideoFrames(VideoFrames&&) noexcept;
@@ -27,13 +28,13 @@ public:
 
     Extent extent() const;
     int frame_count() const;
-    /// From the first frame's appearance to the end of the last one's, in seconds; above 0.
+    /// Returns the time from the start of the first frame to the end of the last one, in seconds; above 0.
     double duration() const;
 
-    /// Which frame is shown at `seconds` after the start, counted from 0.
+    /// Returns the index of the frame that is shown at `seconds` after the start.
     size_t index_at(double seconds) const;
-    /// The frame that is shown at `seconds` after the start: RGBA, u8, row 0 the bottom row. Times beyond the
-    /// end and before 0 are taken modulo the duration.
+    /// Returns the frame that is shown at `seconds` after the start: RGBA, u8, row 0 the bottom row. Times
+    /// after the end and before 0 are taken modulo the duration.
     Result<Image> at(double seconds);
 
 private:

@@ -8,8 +8,9 @@
 namespace tidemark::image {
 namespace {
 
-// ISO/IEC 14496-12, 8.1.2: a box begins with its size and its type; `free` is passed over. In ours: the note,
-// the checksum of all bytes before it, and the size of the box again, by which it is found from the end.
+// ISO/IEC 14496-12, 8.1.2: a box begins with its size and its type; players skip `free`. Ours contains the
+// note, the checksum of all bytes before it, and the size of the box again, so that it can be found from the
+// end.
 constexpr std::string_view k_type = "free";
 constexpr size_t k_checksum = 64;
 constexpr size_t k_frame = 4 + k_type.size() + k_checksum + 4;

@@ -1,4 +1,4 @@
-// A text at the end of an .mp4, in a box that players pass over, with a checksum of the whole file.
+// Stores a text at the end of an .mp4 or .mov, in a box that players skip, with a checksum of the whole file.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,10 @@
 
 namespace tidemark::image {
 
-/// What is to be appended to `video` so that `note_at_end` finds the note.
+/// Returns the bytes to append to `video` so that `note_at_end` finds the note.
 std::string note_box(std::string_view video, std::string_view note);
 
-/// The note; nothing where there is none, or the checksum is another.
+/// Returns the note; nothing if there is none, or the checksum does not match.
 std::optional<std::string> note_at_end(std::string_view file);
 
 } // namespace tidemark::image

@@ -7,7 +7,7 @@
 namespace tidemark::image {
 namespace {
 
-/// BT.709-6, 3.2 and 3.3; twice what blue and red lack of luma.
+/// BT.709-6, 3.2 and 3.3. The divisors are twice (1 - weight) of blue and red.
 constexpr double k_red = 0.2126, k_green = 0.7152, k_blue = 0.0722;
 constexpr double k_blue_difference = 2 * (1 - k_blue), k_red_difference = 2 * (1 - k_red);
 
@@ -15,7 +15,7 @@ uint16_t rounded(double code) {
     return uint16_t(code + 0.5);
 }
 
-/// As a file of 16 bits holds it. NaN fails both comparisons.
+/// Rounds a sample to 16 bits, clamped to 0..1; NaN gives 0.
 double shown(float sample) {
     constexpr double k_largest = 65535;
     return sample > 0.0f ? (sample < 1.0f ? rounded(k_largest * double(sample)) / k_largest : 1.0) : 0.0;

@@ -19,14 +19,14 @@ constexpr size_t k_most_pixels = size_t{1} << 26;
 std::optional<int64_t> number(std::string_view text) {
     int64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    // Ticks of a sane clock; sums and differences of them do not overflow.
+    // A range of ticks in which sums and differences do not overflow.
     constexpr int64_t most = std::numeric_limits<int64_t>::max() / 4;
     if (error != std::errc() || end != text.data() + text.size() || value > most || value < -most)
         return {};
     return value;
 }
 
-/// "section|key=value|key=value…"
+/// A line of the form "section|key=value|key=value…".
 class Line {
 public:
     explicit Line(std::string_view text) : text_(text) {}
@@ -67,7 +67,7 @@ void read_stream(const Line& line, VideoTimes& times) {
         times.tick = double(*numerator) / double(*denominator);
 }
 
-/// The last frame is as long as the file says, else as the one before it.
+/// Returns the end of the last frame, whose length is that in the file, or else that of the previous frame.
 int64_t end_of(const std::vector<Packet>& packets) {
     const Packet& last = packets.back();
     int64_t duration = last.duration;
@@ -106,7 +106,7 @@ tl::expected<VideoTimes, std::string> parse_video_times(std::string_view text) {
                 start = line.number_at("dts");
                 times.guessed = true;
             }
-            // D: decoded for what follows, but not to be shown
+            // D: a packet that must be decoded but not shown
             if (start && line["flags"].find('D') == std::string_view::npos)
                 packets.push_back({*start, line.number_at("duration").value_or(0)});
         }
@@ -116,7 +116,7 @@ tl::expected<VideoTimes, std::string> parse_video_times(std::string_view text) {
     }
     if (const auto why = objection(times, packets.size()))
         return tl::unexpected<std::string>(*why);
-    if (turned) // ffmpeg turns the picture as a player does
+    if (turned) // ffmpeg rotates the picture, as players do
         std::swap(times.extent.width, times.extent.height);
     std::sort(packets.begin(), packets.end(),
               [](const Packet& a, const Packet& b) { return a.start < b.start; });
@@ -158,7 +158,7 @@ size_t VideoTimes::frame_at(double seconds) const {
     const auto after = std::partition_point(starts.begin(), starts.end(), [&](int64_t start) {
         return double(start - starts.front()) * tick <= time + early;
     });
-    // Half a millisecond before the end is the start of the next round.
+    // The last half millisecond belongs to the next loop.
     if (time + early >= length)
         return 0;
     return size_t(std::max<ptrdiff_t>(1, after - starts.begin())) - 1;

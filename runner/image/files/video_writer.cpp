@@ -21,7 +21,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// A segment is read back whole to be checked: of the largest ones that anybody makes.
+/// The limit for reading a segment back to check it; larger than real segments.
 constexpr size_t k_largest_segment = size_t{1} << 34;
 
 template <class... More>
@@ -30,7 +30,7 @@ Words joined(Words words, const More&... more) {
     return words;
 }
 
-/// Frames as `SegmentWriter::push` hands them over.
+/// Returns ffmpeg's pixel format of the frames that `SegmentWriter::push` sends.
 const char* layout_of(const VideoEncoding& encoding, Alpha alpha) {
     const bool has_alpha = alpha != Alpha::where_needed;
     if (encoding.ten_bits)
@@ -38,8 +38,8 @@ const char* layout_of(const VideoEncoding& encoding, Alpha alpha) {
     return has_alpha ? "rgba" : "rgb0";
 }
 
-/// The staged file by a name that ends with this process: an ffmpeg that outlives us (kill -9) then makes no
-/// file where the next run has tidied up.
+/// Names the staged file through /proc of this process, so that an ffmpeg that outlives us (kill -9) does not
+/// create a file where the next run has cleaned up.
 std::string output_for_ffmpeg(const StagedFile& staged) {
     return fmt::format("file:/proc/{}/fd/{}", ::getpid(), staged.descriptor());
 }
@@ -66,7 +66,7 @@ Words words_for_joining(const StagedFile& staged, const VideoEncoding& encoding,
                   Words{"-f", std::string(muxer_of(encoding.extension)), output_for_ffmpeg(staged)});
 }
 
-/// As ffmpeg's lists of files want it.
+/// Quotes a path for ffmpeg's lists of files.
 std::string quoted(const fs::path& path) {
     std::string text = "'file:";
     for (const char c : fs::absolute(path).string())
@@ -74,8 +74,8 @@ std::string quoted(const fs::path& path) {
     return text + "'";
 }
 
-/// The times at which segments begin are rounded one by one to microseconds, not added up from rounded
-/// lengths: so that each frame appears in the very tick of the video's clock in which it would without joins.
+/// Lists the segments for ffmpeg. Their start times are rounded to microseconds one by one instead of adding
+/// rounded lengths, so that each frame gets the same tick of the video's clock as without joins.
 std::string list_of(std::span<const SegmentFile> segments, double fps) {
     std::string list = "ffconcat version 1.0\n";
     size_t frames = 0;
@@ -100,7 +100,7 @@ tl::unexpected<Error> failure(const fs::path& video, const std::string& words) {
                                               why.empty() ? "ended without a word" : "says: " + why));
 }
 
-/// What is called ffmpeg in PATH may be something else, or broken.
+/// Returns the error for an ffmpeg in PATH that is another program or broken.
 tl::unexpected<Error> no_video(const fs::path& video) {
     return fail(
         ErrorCode::write,
@@ -118,7 +118,7 @@ Result<ChildProcess> start(const Words& words, const fs::path& video) {
     return encoder;
 }
 
-/// Waits for the end: it prints nothing, and a long film may take it more than a minute.
+/// Waits for the end of ffmpeg, which prints nothing meanwhile; a long film may take it more than a minute.
 bool ended_well(ChildProcess& encoder, std::string& words) {
     encoder.close_input();
     std::byte none{};

@@ -1,5 +1,5 @@
-// Videos out: frames go to ffmpeg as they are drawn, segment by segment, each whole or not at all; segments
-// are joined to a video without being decoded.
+// Writes videos: sends frames to ffmpeg as they are drawn, in segments, each of which is written whole or not
+// at all; then joins the segments, in most formats without decoding them.
 #pragma once
 
 #include "base/child_process.hpp"
@@ -17,47 +17,46 @@
 
 namespace tidemark::image {
 
-/// The most frames a second that a GIF can show: it counts in hundredths, and viewers slow one hundredth
-/// down.
+/// The highest frame rate of a GIF: it counts hundredths of a second, and viewers slow down one hundredth.
 inline constexpr double k_fastest_gif = 50;
 
-/// Whether the name is one of a video: `.mp4`, `.mkv`, `.webm`, `.mov`, `.gif`, `.webp`.
+/// Returns whether the name is one of a video: `.mp4`, `.mkv`, `.webm`, `.mov`, `.gif`, `.webp`.
 bool is_video_name(const std::filesystem::path& path);
 
-/// The codecs that a video of that name may have, as `--codec` names them, its own first: of `.mp4` h264,
-/// hevc, av1; of a `.gif` none.
+/// Returns the codecs for a video of that name, as `--codec` names them, the default first: for `.mp4` h264,
+/// hevc, av1; for a `.gif` none.
 std::vector<std::string_view> codecs_of(const std::filesystem::path& path);
 
-/// Whether a video of that name and codec (empty: its own) has 10 bits a sample; else it has 8.
+/// Returns whether a video of that name and codec (empty: the default) has 10 bits per sample; otherwise 8.
 bool has_ten_bits(const std::filesystem::path& path, std::string_view codec);
 
-/// Whether a video of that name and codec (empty: its own) may hold alpha in that way: .webp and VP9
-/// straight, .mov in both.
+/// Returns whether a video of that name and codec (empty: the default) can hold alpha in that way: .webp and
+/// VP9 straight, .mov in both.
 bool video_holds_alpha(const std::filesystem::path& path, std::string_view codec, Alpha alpha);
 
-/// Of the segments of a video of that name: `.mp4`, or `.mov`.
+/// Returns the file extension of the segments of a video of that name: `.mp4`, or `.mov`.
 std::string_view segment_extension(const std::filesystem::path& video);
 
 struct VideoFormat {
     Extent extent;
     double fps = 60;
-    std::string codec{};               ///< empty: that which the name says
-    Alpha alpha = Alpha::where_needed; ///< that: none
+    std::string codec{};               ///< empty: the default of the name
+    Alpha alpha = Alpha::where_needed; ///< where_needed: none
 };
 
-/// One segment, which begins with a frame of its own and depends on no other.
+/// Writes one segment, which starts with a key frame and depends on no other.
 class SegmentWriter {
 public:
-    /// Starts ffmpeg. `video`: what the segment is to become a part of. Fails (ErrorCode::write) when it is
-    /// not installed, naming the package, or lacks the codec.
+    /// Starts ffmpeg. `video`: the video that the segment is part of. Fails (ErrorCode::write) when ffmpeg is
+    /// not installed (the error names the package) or lacks the codec.
     static Result<SegmentWriter> create(const OutputPath& segment, const std::filesystem::path& video,
                                         const VideoFormat& format);
 
-    /// Of four channels, in bytes or floats. Waits while the encoder is busy. ErrorCode::write has the
-    /// encoder's last words.
+    /// Adds a frame of four channels, in bytes or floats. Waits while the encoder is busy. Fails
+    /// (ErrorCode::write) with the encoder's last message.
     Result<void> push(const Image& image);
-    /// Waits for the encoder, puts `note` behind the pictures and moves the file to its place. Without it
-    /// nothing is left behind.
+    /// Waits for the encoder, appends `note` to the file and moves it to its place. Without this call no file
+    /// remains.
     Result<void> finish(std::string_view note);
 
 private:
@@ -79,10 +78,11 @@ struct SegmentFile {
     size_t frames = 0;
 };
 
-/// The note of a segment that is whole; nothing where it is not, or is none of ours.
+/// Returns the note of a complete segment; nothing if it is incomplete or not ours.
 std::optional<std::string> note_of_segment(const std::filesystem::path& segment);
 
-/// `sound`: a WAV file to go with it; empty: silent. Whole or not at all (ErrorCode::write).
+/// Joins segments to a video, written whole or not at all (ErrorCode::write). `sound`: a WAV file to add;
+/// empty: silent.
 Result<void> join_segments(const OutputPath& video, std::span<const SegmentFile> segments,
                            const VideoFormat& format, const std::filesystem::path& sound);
 

@@ -12,7 +12,7 @@ namespace {
 constexpr int k_shift_x = 37;
 constexpr int k_shift_y = 17;
 
-/// A stream of its own for each kind, so that grey noise is not the RGBA noise's green.
+/// Separate random streams, so that grey noise differs from the green of the RGBA noise.
 enum class Stream : uint32_t { grey_256 = 1, grey_64, rgba_64, blue, volume };
 
 std::mt19937 random_of(Stream stream, uint32_t seed) {
@@ -26,7 +26,8 @@ size_t texel(int x, int y) {
     return size_t(y % k_noise_side) * size_t{k_noise_side} + size_t(x % k_noise_side);
 }
 
-/// The engine's raw output is fixed by the standard; a std::uniform_int_distribution's is not.
+/// Returns uniform bytes from the engine's raw output, which the standard fixes, unlike that of
+/// std::uniform_int_distribution.
 std::vector<uint8_t> uniform_bytes(std::mt19937& random, size_t count) {
     assert(count % 4 == 0);
     std::vector<uint8_t> bytes(count);
@@ -38,7 +39,7 @@ std::vector<uint8_t> uniform_bytes(std::mt19937& random, size_t count) {
     return bytes;
 }
 
-/// `sample(x, y, channel)` with y from the top, as in a file.
+/// Draws a picture by `sample(x, y, channel)`, with y from the top, as in a file.
 template <class Sample>
 Image draw(int side, int channels, const Sample& sample) {
     Image image({side, side}, channels, SampleType::u8);
@@ -76,7 +77,8 @@ Image make_blue(uint32_t seed) {
     });
 }
 
-/// B. E. Bayer, 1973: the order of a texel interleaves the bits of x xor y and of y, the lowest first.
+/// Returns a level of B. E. Bayer's pattern (1973): the order of a texel interleaves the bits of x xor y and
+/// of y, the lowest first.
 uint8_t bayer_level(int x, int y) {
     int order = 0;
     for (int bit = 0; bit < 3; ++bit) {

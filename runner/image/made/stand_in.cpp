@@ -43,8 +43,8 @@ uint32_t seed_of(std::string_view name) {
     return seed;
 }
 
-/// Value noise of several octaves in a cube of side 1 that repeats in every direction. Sums and products
-/// only: the bytes must not depend on a mathematics library.
+/// Value noise of several octaves in a cube of side 1 that repeats in every direction. Uses only sums and
+/// products, so that the bytes do not depend on a mathematics library.
 class Clouds {
 public:
     explicit Clouds(uint32_t seed) {
@@ -54,7 +54,7 @@ public:
             value = float(random() >> 8) / float(1 << 24);
     }
 
-    /// 0..1, about 1/2. The place is not negative.
+    /// Returns 0..1, about 1/2 on average. The coordinates must not be negative.
     double at(double x, double y, double z) const {
         double sum = 0.0, weight = 0.5, total = 0.0;
         for (int octave = 0, cells = k_lattice; octave < k_octaves; ++octave, cells *= 2) {
@@ -74,7 +74,7 @@ public:
 private:
     static constexpr size_t k_values = 1 << 12;
 
-    /// One of the random values, the same for corners that are a whole period apart.
+    /// Returns one of the random values, the same for corners that are a whole period apart.
     double corner(int x, int y, int z, int cells, int octave) const {
         const auto wrapped = [&](int i) { return uint32_t(i & (cells - 1)); };
         uint32_t index = wrapped(x) * 0x9e3779b1u + wrapped(y) * 0x85ebca77u + wrapped(z) * 0xc2b2ae3du;
@@ -96,7 +96,7 @@ private:
             const int dx = i & 1, dy = i >> 1 & 1, dz = i >> 2;
             const double weight = (dx ? part[0] : 1.0 - part[0]) * (dy ? part[1] : 1.0 - part[1]) *
                                   (dz ? part[2] : 1.0 - part[2]);
-            if (weight > 0.0) // in a picture z is 0: half of the corners count nothing
+            if (weight > 0.0) // in a picture z is 0, so half of the corners have no weight
                 sum += weight * corner(cell[0] + dx, cell[1] + dy, cell[2] + dz, cells, octave);
         }
         return sum;
@@ -110,7 +110,7 @@ uint8_t byte_of(double value) {
     return uint8_t(std::clamp(value, 0.0, 1.0) * 255.0 + 0.5);
 }
 
-/// One pixel of 1 to 4 channels; the lightness alone where there is no colour.
+/// Writes one pixel of 1 to 4 channels; with fewer than 3, the lightness alone.
 void put(const Clouds& clouds, double lightness, int channels, uint8_t* to) {
     if (channels <= 2) {
         to[0] = byte_of(0.2 + 0.6 * lightness);
@@ -153,7 +153,7 @@ CubeFaces make_stand_in_cube(std::string_view name, int side, int channels) {
                 const Direction d = direction_of({face, (x + 0.5) / side, (y + 0.5) / side});
                 const double scale = 0.4 / std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
                 const double light = clouds.at(0.5 + scale * d.x, 0.5 + scale * d.y, 0.5 + scale * d.z);
-                // A sky is lighter than the ground: which way is up must be seen.
+                // The sky is lighter than the ground, so that "up" is visible.
                 put(clouds, std::clamp(0.75 * light + 0.125 + 0.3 * scale * d.y, 0.0, 1.0), channels,
                     &image.u8()[(size_t(y) * size_t(side) + size_t(x)) * size_t(channels)]);
             }

@@ -1,5 +1,5 @@
-// Something to look at in the place of a picture, cube or volume that is not to be had: a cloudy texture in a
-// few colours with values of the middle range. Made from a name: the same name gives the same bytes.
+// Makes a placeholder for a missing picture, cube or volume: a cloudy texture in a few colours with values of
+// the middle range. The same name gives the same bytes.
 #pragma once
 
 #include "image/files/cubemap_file.hpp"
@@ -10,13 +10,14 @@
 
 namespace tidemark::image {
 
-/// u8 samples, 1 to 4 channels (of 2 and 4 the last is alpha, 255). Pictures and volumes tile without a seam.
+/// Makes a picture of u8 samples, 1 to 4 channels (of 2 and 4 the last is alpha, 255). Pictures and volumes
+/// tile seamlessly.
 Image make_stand_in_picture(std::string_view name, Extent size, int channels);
 
-/// In the place of what a camera shows.
+/// Makes a placeholder for a camera's picture.
 Image make_stand_in_camera();
 
-/// Without a seam between the faces.
+/// Makes a cube without seams between the faces.
 CubeFaces make_stand_in_cube(std::string_view name, int side, int channels);
 
 VolumeData make_stand_in_volume(std::string_view name, int width, int height, int depth, int channels);

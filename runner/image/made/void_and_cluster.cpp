@@ -11,9 +11,9 @@ namespace {
 
 constexpr int k_side = k_blue_side;
 constexpr int k_texels = k_side * k_side;
-constexpr int k_reach = 7; ///< of the Gaussian; beyond it is less than 2^-15
+constexpr int k_reach = 7; ///< of the Gaussian; it is below 2^-15 beyond
 constexpr int k_width = 2 * k_reach + 1;
-constexpr int k_block = 16; ///< texels of a row whose least energy is kept
+constexpr int k_block = 16; ///< texels in a row that share a stored minimum of the energy
 constexpr int k_row_blocks = k_side / k_block;
 constexpr int32_t k_taken = std::numeric_limits<int32_t>::max();
 
@@ -33,11 +33,12 @@ Energies gaussian() {
 
 static_assert(k_width <= k_block + 1);
 
-/// Points on a torus and how crowded each texel is. So that the largest void is found fast, the least energy
-/// of every block of texels without a point is kept up to date.
+/// Points on a torus and the energy (crowding) of each texel. Keeps the least energy of every block of texels
+/// without a point up to date, so that the largest void is found fast.
 class Pattern {
 public:
-    /// A little noise decides between texels that are equally crowded; else they would be taken row by row.
+    /// Adds a little noise to decide between texels of equal energy; otherwise they would be taken row by
+    /// row.
     Pattern(std::mt19937& random, const Energies& kernel) : kernel_(&kernel) {
         for (int32_t& energy : energy_)
             energy = int32_t(random() & 15u);
@@ -111,7 +112,7 @@ private:
     std::array<int32_t, k_texels / k_block> least_;
 };
 
-/// A tenth of the texels, moved from crowds into voids until the move would be undone.
+/// Places a tenth of the texels and moves them from clusters into voids until a move would be undone.
 Pattern initial_pattern(std::mt19937& random, const Energies& kernel) {
     Pattern pattern(random, kernel);
     for (int points = 0; points < k_texels / 10;) {

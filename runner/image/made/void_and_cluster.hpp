@@ -1,4 +1,4 @@
-// Blue noise of one channel: a mask in which like values keep their distance.
+// Blue noise of one channel: a mask in which similar values keep their distance.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@ namespace tidemark::image {
 /// The side of the mask.
 inline constexpr int k_blue_side = 128;
 
-/// A mask of k_blue_side² bytes, row by row, that tiles; each value 0..255 is there 64 times. Void and
-/// cluster (R. Ulichney, "The void-and-cluster method for dither array generation", 1993) with a Gaussian
-/// of 1.9 texels. The energies are whole numbers, so the bytes are the same on every machine.
+/// Returns a mask of k_blue_side² bytes, row by row, that tiles; each value 0..255 occurs 64 times. Void and
+/// cluster (R. Ulichney, "The void-and-cluster method for dither array generation", 1993) with a Gaussian of
+/// deviation 1.5 texels. The energies are integers, so the bytes are the same on every machine.
 std::vector<uint8_t> make_blue_mask(std::mt19937& random);
 
 } // namespace tidemark::image

@@ -1,6 +1,6 @@
-// What the program and the picture plug-in say to each other: bytes of a file in, samples out, and the
-// other way round; or rows into a file that the program has opened. Both are built together; the version
-// refuses a plug-in of another build. Nothing is thrown across.
+// Interface between the program and the picture plug-in: decodes a file's bytes to samples, and encodes
+// samples to bytes or row by row into an open file. Both sides are built together; the version rejects a
+// plug-in of another build. No exceptions cross it.
 #pragma once
 
 #include "image/files/picture_file.hpp"
@@ -20,18 +20,18 @@ namespace tidemark::image {
 
 enum class FileFormat { png, jpeg, tiff, exr, hdr, bmp, webp, pnm, tga };
 
-/// Samples in the type that the file will hold (half: as f32, the codec narrows), rows from the bottom.
+/// Samples in the type of the file (half: as f32, which the codec narrows), rows from the bottom.
 struct EncodeJob {
     FileFormat format = FileFormat::png;
     SampleDepth depth = SampleDepth::u8;
     Extent extent;
     int channels = 3;
     std::vector<std::byte> samples;
-    std::vector<std::pair<std::string, std::string>> attributes; ///< text, under its final name
-    std::optional<Transfer> transfer{};                          ///< of these samples
-    std::vector<std::byte> icc_profile{};                        ///< that says the same; empty: none
-    bool premultiplied = false;                                  ///< colours, by alpha
-    std::string part{};                                          ///< its name among several in a file
+    std::vector<std::pair<std::string, std::string>> attributes; ///< texts, under their final names
+    std::optional<Transfer> transfer{};                          ///< of `samples`
+    std::vector<std::byte> icc_profile{};                        ///< matches `transfer`; empty: none
+    bool premultiplied = false;                                  ///< colours are multiplied by alpha
+    std::string part{};                                          ///< name of the part in a file of several
 };
 
 /// The error is the reason alone, in one line.
@@ -39,15 +39,15 @@ using EncodeResult = tl::expected<std::vector<unsigned char>, std::string>;
 using DecodeResult = tl::expected<Image, std::string>;
 using TextsResult = tl::expected<std::vector<std::pair<std::string, std::string>>, std::string>;
 
-/// A picture on its way into a file, from the top down.
+/// Writes a picture into a file, from the top down.
 class RowEncoder {
 public:
     using Done = tl::expected<void, std::string>;
 
     virtual ~RowEncoder() = default;
-    /// The next rows below those that were given before; within `samples` they run from the bottom.
+    /// Adds the next rows below the earlier ones; within `samples` they run from the bottom.
     virtual Done add(std::span<const std::byte> samples, int rows) noexcept = 0;
-    /// After the last row. The file is not closed.
+    /// Completes the picture after the last row. Does not close the file.
     virtual Done finish() noexcept = 0;
 };
 using RowEncoderResult = tl::expected<std::unique_ptr<RowEncoder>, std::string>;
@@ -56,11 +56,11 @@ struct PictureCodec {
     unsigned version;
     EncodeResult (*encode)(const EncodeJob&) noexcept;
     DecodeResult (*decode)(FileFormat, std::span<const std::byte>) noexcept;
-    /// The texts of a picture's header, which no pixel is read for.
+    /// Reads the texts of a picture's header, without its pixels.
     TextsResult (*texts)(FileFormat, std::span<const std::byte>) noexcept;
-    /// Of a job without samples, into an empty file. The file must outlive it.
+    /// Starts to encode a job without samples into an empty file, which must outlive the encoder.
     RowEncoderResult (*encode_rows)(const EncodeJob&, std::FILE*) noexcept;
-    /// Several pictures in one file, each under its name. They may differ in size, channels and depth.
+    /// Encodes several named pictures in one file. They may differ in size, channels and depth.
     EncodeResult (*encode_parts)(std::span<const EncodeJob>) noexcept;
 };
 

@@ -1,4 +1,4 @@
-// The picture plug-in: the only place that knows OpenImageIO.
+// The picture plug-in: the only user of OpenImageIO.
 #include "image/plugin/picture_codec.hpp"
 #include "image/plugin/webp_colours.hpp"
 
@@ -19,8 +19,8 @@
 namespace tidemark::image {
 namespace {
 
-/// OpenImageIO's reader from memory, made safe: its reads are wrong when they begin behind the last byte,
-/// which is where a damaged file sends them. The JPEG reader wants this very class and takes its buffer.
+/// OpenImageIO's memory reader with a bounds check: its own reads are wrong past the last byte, where damaged
+/// files lead them. It must derive from this class because the JPEG reader casts to it and uses its buffer.
 class MemoryReader : public OIIO::Filesystem::IOMemReader {
 public:
     explicit MemoryReader(std::span<const std::byte> bytes) : IOMemReader(bytes.data(), bytes.size()) {}
@@ -38,10 +38,10 @@ public:
     }
 };
 
-/// OpenImageIO's name of the format. Asked for a reader by a file's name it would open that file.
+/// Returns OpenImageIO's name of the format. A lookup by file name would open that file.
 const char* codec_name(FileFormat format) {
     switch (format) {
-    case FileFormat::png: break; // libpng's own
+    case FileFormat::png: break; // handled by libpng
     case FileFormat::jpeg: return "jpeg";
     case FileFormat::tiff: return "tiff";
     case FileFormat::exr: return "openexr";
@@ -54,7 +54,7 @@ const char* codec_name(FileFormat format) {
     return "";
 }
 
-/// Stands where OpenImageIO wants a file name; nothing of that name is opened.
+/// Dummy for OpenImageIO's file name parameter; no such file is opened.
 constexpr std::string_view k_no_file = "<picture>";
 
 void replace_all(std::string& text, std::string_view what, std::string_view by) {
@@ -62,7 +62,8 @@ void replace_all(std::string& text, std::string_view what, std::string_view by) 
         text.replace(at, what.size(), by);
 }
 
-/// The first line of what OpenImageIO says, without the made-up file name and who passed the words on.
+/// Returns the first line of OpenImageIO's message, without the dummy file name and the names of the modules
+/// that passed it on.
 std::string tidied(std::string message, const char* otherwise) {
     message.resize(std::min(message.size(), message.find('\n')));
     for (const std::string_view noise :
@@ -85,7 +86,7 @@ tl::unexpected<std::string> cannot_decode(std::string why) {
     return tl::unexpected<std::string>(tidied(std::move(why), "the file is damaged or cut short"));
 }
 
-/// Makes values of whatever a library throws.
+/// Converts exceptions of the libraries to errors.
 template <class Outcome, class Action>
 Outcome guarded(const Action& action) noexcept {
     try {
@@ -114,13 +115,14 @@ constexpr float k_bt709[] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 
 
 OIIO::ImageSpec spec_of(const EncodeJob& job) {
     OIIO::ImageSpec spec(job.extent.width, job.extent.height, job.channels, file_type(job.depth));
-    if (job.channels == 2) { // grey and alpha; OpenImageIO would take them for red and green
+    if (job.channels == 2) { // grey and alpha; OpenImageIO would assume red and green
         spec.channelnames = {"Y", "A"};
         spec.alpha_channel = 1;
     }
-    spec.attribute("oiio:UnassociatedAlpha", job.premultiplied ? 0 : 1); // as it is in either case
+    // prevents OpenImageIO from converting
+    spec.attribute("oiio:UnassociatedAlpha", job.premultiplied ? 0 : 1);
     spec.attribute("Software", "Tidemark");
-    spec.attribute("DateTime", 0); // not a text: no date, where else there would be today's
+    spec.attribute("DateTime", 0); // an integer suppresses today's date
     if (job.format == FileFormat::jpeg) {
         spec.attribute("Compression", "jpeg:95");
         spec.attribute("jpeg:subsampling", "4:4:4");
@@ -141,7 +143,7 @@ OIIO::ImageSpec spec_of(const EncodeJob& job) {
     return spec;
 }
 
-/// The parts of an OpenEXR share one display window: that of the first.
+/// Lists the specs of the parts of an OpenEXR, which share the display window of the first.
 std::vector<OIIO::ImageSpec> specs_of(std::span<const EncodeJob> jobs) {
     std::vector<OIIO::ImageSpec> specs;
     for (const EncodeJob& job : jobs) {
@@ -152,7 +154,7 @@ std::vector<OIIO::ImageSpec> specs_of(std::span<const EncodeJob> jobs) {
     return specs;
 }
 
-/// What OpenImageIO writes of one picture, from the top down, or of one part of a file after the other.
+/// Writes one picture from the top down through OpenImageIO, or the parts of a file one after another.
 class Rows {
 public:
     explicit Rows(FileFormat format) : output_(OIIO::ImageOutput::create(codec_name(format))) {}
@@ -163,13 +165,14 @@ public:
         take(job);
         return done(output_->set_ioproxy(&sink) && output_->open(std::string(k_no_file), spec_of(job)));
     }
-    /// Into a file of that name: OpenImageIO 2.4 writes several parts into no other place.
+    /// Starts a file of that name for several parts, because OpenImageIO 2.4 writes parts only to named
+    /// files.
     RowEncoder::Done begin_parts(const std::string& file, const std::vector<OIIO::ImageSpec>& specs) {
         if (!output_)
             return cannot_encode(OIIO::geterror());
         return done(output_->open(file, int(specs.size()), specs.data()));
     }
-    /// All of it. The first one is begun by `begin_parts`.
+    /// Writes a whole part. `begin_parts` has already begun the first.
     RowEncoder::Done add_part(const std::string& file, const OIIO::ImageSpec& spec, const EncodeJob& job,
                               bool first) {
         take(job);
@@ -213,7 +216,7 @@ EncodeResult encode_or_throw(const EncodeJob& job) {
         .map([&] { return std::move(bytes); });
 }
 
-/// A file that is nowhere but in memory and has a name all the same, within this process.
+/// A file in memory that has a name within this process.
 class MemoryFile {
 public:
     MemoryFile() : descriptor_(::memfd_create("picture", MFD_CLOEXEC)) {}
@@ -265,7 +268,7 @@ private:
     Rows rows_;
 };
 
-/// Why a picture of this shape is not read, or nothing.
+/// Returns why a picture of this shape is rejected, or nothing.
 std::string objection(const OIIO::ImageSpec& spec) {
     if (spec.deep)
         return "it holds deep pixels";
@@ -279,7 +282,7 @@ std::string objection(const OIIO::ImageSpec& spec) {
     return {};
 }
 
-/// Fills `pixels`, rows of which run from the bottom.
+/// Fills `pixels`, with rows from the bottom.
 bool read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int channels, const OIIO::TypeDesc& type,
                void* pixels) {
     const auto row = OIIO::stride_t(size_t(spec.width) * size_t(channels) * type.size());
@@ -287,7 +290,8 @@ bool read_rows(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, int channel
     return input.read_image(0, 0, 0, channels, type, top, OIIO::AutoStride, -row);
 }
 
-/// 16-bit samples are divided here: OpenImageIO multiplies by a rounded 1/65535, which is not v/65535.
+/// Reads all samples. Divides 16-bit samples itself, because OpenImageIO multiplies by a rounded 1/65535,
+/// which is not v/65535.
 bool read_samples(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, Image& image) {
     if (spec.format.basetype != OIIO::TypeDesc::UINT16) {
         const auto type = image.type == SampleType::u8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT;
@@ -308,7 +312,7 @@ Input open_input(FileFormat format, MemoryReader& source, OIIO::ImageSpec& spec)
     if (!input)
         return cannot_decode(OIIO::geterror());
     OIIO::ImageSpec request;
-    request.attribute("oiio:UnassociatedAlpha", 1); // "do not multiply by it"
+    request.attribute("oiio:UnassociatedAlpha", 1); // do not multiply by alpha
     OIIO::Filesystem::IOProxy* proxy = &source;     // set_ioproxy is undone by an open with a request
     request.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     if (!input->open(std::string(k_no_file), spec, request))
@@ -375,8 +379,7 @@ TextsResult texts(FileFormat format, std::span<const std::byte> file) noexcept {
     return guarded<TextsResult>([&] { return texts_or_throw(format, file); });
 }
 
-/// Sets no handlers of libtiff's messages: OpenImageIO 2.5 keeps a message, and lets libtiff print it as
-/// well.
+/// Removes libtiff's message handlers: OpenImageIO 2.5 stores a message, but also lets libtiff print it.
 void silence_libtiff() {
     using SetHandler = void* (*)(void*);
     if (void* library = ::dlopen("libtiff.so.6", RTLD_LAZY | RTLD_NOLOAD))
@@ -389,11 +392,10 @@ void silence_libtiff() {
 
 extern "C" __attribute__((visibility("default"))) const void* tidemark_picture_codec() {
     static const PictureCodec codec = [] {
-        // One picture at a time on the thread that asks: the other cores draw, and no pool of threads is
-        // left to be ended at exit.
+        // Use only the calling thread: the other cores draw, and no thread pool remains to be ended at exit.
         OIIO::attribute("threads", 1);
         OIIO::attribute("exr_threads", -1);
-        OIIO::attribute("debug", 0); // Debian's build talks on stderr otherwise
+        OIIO::attribute("debug", 0); // Debian's build prints on stderr otherwise
         silence_libtiff();
         return PictureCodec{k_picture_codec_version, encode, decode, texts, encode_rows, encode_parts};
     }();

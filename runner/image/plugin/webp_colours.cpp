@@ -7,8 +7,8 @@
 namespace tidemark::image {
 namespace {
 
-/// Of libwebp, which OpenImageIO brings along: webp/decode.h, unchanged since its first release. No header of
-/// it is needed for two functions of plain types.
+/// Functions of libwebp, which OpenImageIO depends on: webp/decode.h, unchanged since its first release. Two
+/// functions of plain types need no header.
 struct WebpLibrary {
     int (*info)(const uint8_t* file, size_t size, int* width, int* height) = nullptr;
     uint8_t* (*decode)(const uint8_t* file, size_t size, uint8_t* rgba, size_t room, int row_bytes) = nullptr;
@@ -24,7 +24,7 @@ const WebpLibrary* webp_library() {
     return complete ? &functions : nullptr;
 }
 
-/// Rows from the bottom; false where libwebp is not there, or says no.
+/// Decodes to rows from the bottom; returns false when libwebp is missing or fails.
 bool decode_straight(std::span<const std::byte> file, Image& image) {
     const WebpLibrary* const webp = webp_library();
     const auto* const bytes = reinterpret_cast<const uint8_t*>(file.data());

@@ -1,4 +1,4 @@
-// The colours of a WebP with alpha, which OpenImageIO (2.4) multiplies by it whatever it is asked for.
+// Restores the colours of a WebP with alpha, which OpenImageIO (2.4) always multiplies by alpha.
 #pragma once
 
 #include "image/image.hpp"
@@ -7,9 +7,9 @@
 
 namespace tidemark::image {
 
-/// `decoded`: what OpenImageIO made of the file, bytes with alpha. Its colours become those of the file; of
-/// an animation, which libwebp's simple functions do not read, they are divided by alpha again, as exact as
-/// eight bits of a product are.
+/// Replaces the colours of `decoded`, OpenImageIO's bytes with alpha, by those of the file. For an animation,
+/// which libwebp's simple functions cannot read, divides them by alpha again, as exactly as eight-bit
+/// products allow.
 void restore_colours(std::span<const std::byte> file, Image& decoded);
 
 } // namespace tidemark::image

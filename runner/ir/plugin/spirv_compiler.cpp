@@ -12,7 +12,7 @@
 namespace tidemark::ir {
 namespace {
 
-/// What is larger is not worth waiting for: the passes below take more than linear time.
+/// Larger modules take too long: the passes below take more than linear time.
 constexpr size_t k_most_words = 400'000;
 
 tl::expected<std::vector<uint32_t>, std::string> front_end(const std::string& text, Names names) {
@@ -41,9 +41,9 @@ tl::expected<std::vector<uint32_t>, std::string> front_end(const std::string& te
     return words;
 }
 
-/// Everything into one function, its variables into SSA form; nothing is reordered or contracted. What is
-/// computed twice is computed once, so that intervals see that it is the same, but for names, of which each
-/// keeps its own.
+/// Registers passes that inline everything into one function and convert its variables to SSA form; nothing
+/// is reordered or contracted. Without names, repeated computations are merged, so intervals see that they
+/// are equal; with names, each is kept under its own name.
 void register_passes(spvtools::Optimizer& optimizer, Names names) {
     using namespace spvtools;
     const auto ssa = [&optimizer] {

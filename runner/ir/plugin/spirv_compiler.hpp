@@ -1,5 +1,5 @@
-// What the program and the plug-in of glslang and SPIRV-Tools say to each other: a fragment shader in, one
-// inlined function in SPIR-V out. Both are built together. Nothing is thrown across.
+// Interface between the program and the plug-in of glslang and SPIRV-Tools: a fragment shader in, one inlined
+// function in SPIR-V out. Both are built together. No exceptions cross it.
 #pragma once
 
 #include <tl/expected.hpp>
@@ -10,18 +10,18 @@
 
 namespace tidemark::ir {
 
-/// The words of a module whose entry point calls nothing and has its variables in SSA form as far as their
-/// kinds allow. The error is the compiler's log, or why it was not tried.
+/// The words of a module whose entry point has no calls and has its variables in SSA form as far as their
+/// types allow. The error is the compiler's log, or the reason why the text was not compiled.
 using SpirvResult = tl::expected<std::vector<uint32_t>, std::string>;
 
-/// Whether a function knows the variables of its text (source_names.hpp): that makes modules some times
-/// larger. With `keep` a text has no values of global variables outside of `main` (glslang 12 crashes on
-/// them: glsl::assign_globals_in_main).
+/// Whether a function keeps the names of the text (source_names.hpp); that makes modules several times
+/// larger. With `keep`, a text must not initialise global variables outside of `main` (glslang 12 crashes:
+/// glsl::assign_globals_in_main).
 enum class Names { drop, keep };
 
 struct SpirvCompiler {
     unsigned version;
-    /// `text` is a whole fragment shader of OpenGL.
+    /// `text` is a whole fragment shader for OpenGL.
     SpirvResult (*compile)(const std::string& text, Names names) noexcept;
 };
 

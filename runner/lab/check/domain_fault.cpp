@@ -16,7 +16,7 @@ using glsl::DomainReading;
 bool is_bound(const glsl::DomainSite& site, const DomainReading& reading) {
     switch (site.kind) {
     case DomainKind::function: return false;
-    case DomainKind::quotient: return reading.limit != 0; // of whole numbers
+    case DomainKind::quotient: return reading.limit != 0; // 1: of whole numbers, 0: of floats
     default: return true;
     }
 }

@@ -19,19 +19,20 @@
 namespace tidemark::lab {
 namespace {
 
-constexpr Extent k_asked{640, 360}; ///< the size that `capture` has
-constexpr Extent k_part{32, 18};    ///< what is drawn of it at once
+constexpr Extent k_asked{640, 360}; ///< default size of `capture`
+constexpr Extent k_part{32, 18};    ///< pixels drawn of it at a time
 constexpr size_t k_most_confirmed = 3;
-constexpr int k_most_edge_steps = 320; ///< towards edges
+constexpr int k_most_edge_steps = 320; ///< golden-section steps towards edges
 constexpr int k_steps_of_one = 14;
 constexpr int k_rounds = 2;
-constexpr size_t k_valleys = 3; ///< moments that are near an edge among their neighbours
+constexpr size_t k_valleys = 3; ///< local minima over time that are followed per objective
 constexpr size_t k_most_places = 40;
 
-/// Milliseconds of CPU until each part of the search is ended; on the wall five times as many.
+/// Milliseconds of CPU time after which each part of the search ends. The limit of wall-clock time is five
+/// times as high.
 constexpr double k_looks_end = 1000, k_steps_end = 1500, k_places_end = 1900, k_pictures_end = 2300;
 
-/// A whole picture that would take longer is left out.
+/// A whole picture that would take longer, in milliseconds of CPU time, is not drawn.
 constexpr double k_longest_picture = 5000;
 
 constexpr float k_far = std::numeric_limits<float>::infinity();
@@ -40,10 +41,10 @@ std::string counted(size_t number, std::string_view what) {
     return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
 }
 
-/// One look at all passes.
+/// The result of drawing all passes in one situation.
 struct Look {
     SearchPoint point;
-    std::vector<glsl::DomainRoom> rooms; ///< one for each objective of each pass
+    std::vector<glsl::DomainRoom> rooms; ///< one per objective, passes in order
 };
 
 class Explorer {
@@ -58,10 +59,10 @@ public:
                 break;
             TRY(look(point, coarse()));
             if (looks_.size() == 1)
-                watch_ = Stopwatch(); // without what compiling took
+                watch_ = Stopwatch(); // leaves out the time for compiling
         }
         surveyed_ = looks_.size();
-        // Behind a comparison that goes another way there may be more of them.
+        // After a comparison went the other way, more objectives may come into reach.
         for (int round = 1; round <= k_rounds; ++round)
             TRY(step_to_edges(k_most_edge_steps * round / k_rounds));
         spent_ = watch_.elapsed().cpu;
@@ -75,7 +76,7 @@ private:
     struct WatchedPass {
         const PassText& text;
         WatchedDomains watched;
-        size_t first; ///< objective
+        size_t first; ///< its first objective
     };
 
     Result<void> prepare() {
@@ -93,7 +94,7 @@ private:
             extent_ = k_probe_extent;
             return {};
         }
-        // Where other passes are drawn before, each look costs a picture of theirs.
+        // With several passes or feedback, each look also draws what it depends on: use a small picture.
         texts_ = *std::move(texts);
         extent_ = texts_.size() > 1 || (renderer)->plan().feedback ? k_probe_extent : k_asked;
         for (const PassText& text : texts_)
@@ -128,7 +129,7 @@ private:
         return {stride, stride / 2, stride / 2};
     }
 
-    /// Draws all passes in that situation and notes what is new; `last_` is what was seen.
+    /// Draws all passes in that situation and records new findings; `last_` receives the result.
     Result<void> look(const SearchPoint& point, const PixelGrid& grid) {
         const FrameState at = space_->state(point, extent_);
         last_ = {point, {}};
@@ -172,7 +173,7 @@ private:
 
     void reach(size_t objective, bool reached) { reached_[objective] = reached_[objective] || reached; }
 
-    /// What is new, with its operand in the first pixel that showed it.
+    /// Records a new site, with its operand in the first pixel that reached it.
     void record(WatchedPass& pass, const PassPreview& preview, const PixelGrid& grid, const FrameState& at,
                 size_t site, glsl::DomainReading reading) {
         const glsl::DomainWatch& watch = pass.watched.watch();
@@ -194,7 +195,7 @@ private:
                                     pixel.y, at.seconds());
     }
 
-    /// The text itself, without what watches it, and without the pixels left out.
+    /// Draws the scene's own text, all of its pixels, to confirm that a pass is not finite.
     Result<void> confirm(const FrameState& at) {
         if (!result_.not_finite.empty())
             return {};
@@ -204,11 +205,11 @@ private:
         return {};
     }
 
-    /// An objective that the survey came near to, and where from.
+    /// A situation from which to step towards an objective.
     struct Start {
         size_t objective;
         SearchPoint point;
-        double low, high; ///< moments around it that are less near
+        double low, high; ///< neighbouring moments, which are farther away
         double score;
     };
 
@@ -221,7 +222,7 @@ private:
                glsl::DomainKind::comparison;
     }
 
-    /// The survey's looks that differ from the plain one by their moment only, by moments.
+    /// Returns the looks with default knobs and without the mouse, in the order of their moments.
     std::vector<const Look*> time_line() const {
         const SearchPoint plain = space_->plain();
         std::vector<const Look*> line;
@@ -232,7 +233,7 @@ private:
         return line;
     }
 
-    /// Empty where nothing that the scene reads moves it.
+    /// Returns no starts if no input that the scene reads changes the objective.
     std::vector<Start> starts_of(size_t objective, const std::vector<const Look*>& line) const {
         float least = k_far, most = -k_far;
         size_t zeros = 0;
@@ -248,7 +249,7 @@ private:
                 best = &each;
             }
         }
-        // What is 0 as a rule is kept there by a max() or a clamp().
+        // An objective that is often exactly 0 is kept there by a max() or a clamp().
         if (!best || !(most > least) || zeros > looks_.size() / 4)
             return {};
         std::vector<Start> starts;
@@ -269,8 +270,8 @@ private:
         return starts;
     }
 
-    /// Whether a knob was seen to move it, when it alone was set to something else; where nothing is known of
-    /// it, it may.
+    /// Returns whether the survey saw the objective change when only that knob did; true if the survey did
+    /// not try that.
     bool moves(const SearchAxis& axis, size_t objective) const {
         const float plain = looks_.front().rooms[objective].least;
         if (axis.kind != SearchAxis::Kind::knob || plain == k_far)
@@ -315,7 +316,7 @@ private:
         return {};
     }
 
-    /// Golden section along one axis; `point` becomes the nearest one.
+    /// Searches along one axis by golden section; `point` becomes the best point found.
     Result<void> step(const Start& start, const SearchAxis& axis, SearchPoint& point) {
         constexpr double k_ratio = 0.6180339887498949;
         const double here = SearchSpace::value(point, axis);
@@ -334,7 +335,7 @@ private:
         auto of_left = room_at(left), of_right = room_at(right);
         for (int i = 2; of_left && of_right && i < k_steps_of_one && !reached_[start.objective]; ++i) {
             if (*of_left == *of_right && i == 2 && !time)
-                return {}; // moves nothing
+                return {}; // the axis has no effect
             if (*of_left <= *of_right) {
                 high = std::exchange(right, left);
                 of_right = of_left;
@@ -353,7 +354,7 @@ private:
         return {};
     }
 
-    /// The pixels around the nearest one, of each objective that was not reached.
+    /// Draws the pixels around the nearest one, for each objective that was not reached.
     Result<void> zoom_in() {
         std::vector<std::pair<size_t, const Look*>> nearest;
         for (const bool ways : {false, true})
@@ -398,7 +399,7 @@ private:
         return {};
     }
 
-    /// Milliseconds of CPU that one may take, by the looks so far.
+    /// Returns the estimated CPU time of one whole picture in milliseconds, from the looks so far.
     double whole_picture() const {
         const auto pixels = double((extent_.width == k_asked.width ? k_part : extent_).pixels());
         return spent_ / double(std::max<size_t>(looks_.size(), 1)) * double(k_asked.pixels()) / pixels;
@@ -451,17 +452,17 @@ private:
     Extent extent_ = k_asked;
     std::vector<PassText> texts_;
     std::vector<WatchedPass> passes_;
-    bool finite_ = true;        ///< the last look
-    std::vector<bool> reached_; ///< objectives
+    bool finite_ = true;        ///< in the last look
+    std::vector<bool> reached_; ///< per objective
     std::set<size_t> followed_;
     std::set<std::pair<size_t, size_t>> outside_; ///< pass, site
-    std::deque<Look> looks_;                      ///< at the coarse grid, first those of the survey
+    std::deque<Look> looks_;                      ///< at the coarse grid; those of the survey come first
     size_t surveyed_ = 0;
     Look last_;
     Explored result_;
     size_t confirmed_ = 0, zooms_ = 0, pictures_ = 0;
     int steps_ = 0;
-    double spent_ = 0; ///< on the looks, milliseconds of CPU
+    double spent_ = 0; ///< CPU time of all looks, milliseconds
 };
 
 } // namespace

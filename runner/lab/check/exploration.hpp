@@ -1,8 +1,7 @@
-// Looks for situations in which a scene's numbers break: moments, knobs and places of the mouse by lot and at
-// the numbers of the text, then towards the edge of each function's domain and the other way of each
-// comparison, as the watched text reports how near they came; and the pixels of a large picture around the
-// nearest. The same scene is searched in the same way each time, as far as its patience reaches: it proves
-// nothing where it finds nothing.
+// Searches for situations in which a scene's numbers break: random moments, knobs and mouse positions and
+// those from the text's numbers, then steps towards the edge of each function's domain and towards the other
+// outcome of each comparison, guided by an instrumented text, then the pixels of a large picture around the
+// nearest ones. The search is deterministic up to its time limit. Finding nothing proves nothing.
 #pragma once
 
 #include "lab/check/explored.hpp"
@@ -10,7 +9,7 @@
 
 namespace tidemark::lab {
 
-/// Once for a bench; what it saw then stays there.
+/// Searches once per bench; later calls return the stored result, which the bench owns.
 Result<const Explored*> explore(ProbeBench& bench);
 
 } // namespace tidemark::lab

@@ -1,4 +1,4 @@
-// What a search through a scene's moments, knobs and mouse has seen (lab/check/exploration.hpp).
+// Results of the search through a scene's moments, knobs and mouse positions (lab/check/exploration.hpp).
 #pragma once
 
 #include "lab/check/probe_state.hpp"
@@ -8,32 +8,34 @@
 
 namespace tidemark::lab {
 
-/// Which pixels of a pass are drawn: every `stride`-th from one on.
+/// The pixels of a pass to draw: every `stride`-th, starting at (left, down).
 struct PixelGrid {
     int stride = 1;
     int left = 0;
     int down = 0;
 };
 
-/// A finer grid of as many pixels, within a picture of `whole`; its middle is where `grid` has its pixel
-/// number `pixel`, of `part` pixels row by row from the bottom.
+/// Returns a grid with as many pixels but a smaller stride, inside a picture of size `whole`. Its middle is
+/// the place of pixel number `pixel` of `grid`, counted row by row from the bottom; `part` is the size of the
+/// grids in pixels.
 PixelGrid finer(const PixelGrid& grid, Extent part, uint32_t pixel, Extent whole);
 
-/// A value that left its domain, where it first did.
+/// A site at which a value left its domain, with the first situation that showed it.
 struct Outside {
     FrameState where;
     PixelGrid grid;       ///< of the pixels that showed it
-    bool bound = false;   ///< of an index, a shift, a divisor, a texel or a conversion
-    std::string sentence; ///< of a bound: place, operand, pixel and moment
+    bool bound = false;   ///< index, shift, whole-number divisor, texel or conversion
+    std::string sentence; ///< only if `bound`: place, operand, pixel and moment
 };
 
 struct Explored {
-    /// In which a pass was not finite, the first one first; drawn once more as it is, and still so.
+    /// Situations in which a pass is not finite, confirmed by drawing the scene's own text; the first one
+    /// found comes first.
     std::vector<FrameState> not_finite;
-    std::vector<Outside> outside; ///< one for each site
-    /// "sampled: 240 situations, …": what was looked at, and how.
+    std::vector<Outside> outside; ///< one per site
+    /// "sampled: 240 situations, …": what was sampled, and how.
     std::string sentence;
-    std::string left_out; ///< why the text was not followed; empty: it was
+    std::string left_out; ///< why the text was not instrumented; empty: it was
 };
 
 } // namespace tidemark::lab

@@ -1,5 +1,5 @@
-// The distance that a scene's march measures, at any place on its rays: in float, and in real arithmetic with
-// bounds. Known from the text, where no march_field says it.
+// The distance that a scene's march computes, at any place on its rays: in float, and in real arithmetic with
+// bounds. Derived from the scene's text, so it needs no march_field.
 #pragma once
 
 #include "lab/check/probe_bench.hpp"
@@ -13,25 +13,28 @@ namespace tidemark::lab {
 
 class FieldOnRays {
 public:
-    /// Of a grid of pixels in that state. The bench must draw no other one meanwhile.
+    /// Prepares the rays of a grid of pixels in that state. Fails if the text cannot be followed. The bench
+    /// must not draw another state while the result exists.
     static Result<FieldOnRays> create(ProbeBench& bench, const FrameState& state);
 
     size_t rays() const { return rays_.size(); }
-    /// How far it is to what the march hits, in units; none: it hits nothing.
+    /// Returns the distance from the ray's start to the march's hit, in world units, or nothing if the march
+    /// misses.
     std::optional<double> hit(size_t ray) const;
-    /// The longest distance that the march measured.
+    /// Returns the largest distance that the march computed along the ray, or 0.
     double longest(size_t ray) const;
 
-    /// So many units from the ray's start. Nothing where the loop is left before it measures; NaN and
-    /// infinities as they come.
+    /// Returns the distance `units` from the ray's start in float; it may be NaN or infinite. Nothing if the
+    /// loop ends before it computes a distance there.
     std::optional<double> in_float(size_t ray, double units);
-    /// Nothing where its bounds are wider than a millionth of it and of 1, too.
+    /// Returns the same in real arithmetic. Nothing also if the bounds are wider than 1e-6 times the larger
+    /// of 1 and the distance, or if it may be NaN or infinite.
     std::optional<double> exact(size_t ray, double units);
 
 private:
     explicit FieldOnRays(const DrawnPass& drawn) : source_(std::make_unique<MarchRays>(drawn)) {}
 
-    std::unique_ptr<MarchRays> source_; ///< has the textures that the rays read
+    std::unique_ptr<MarchRays> source_; ///< owns the textures that the rays read
     std::vector<MarchRay> rays_;
 };
 

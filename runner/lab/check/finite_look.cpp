@@ -11,7 +11,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// The picture in grey, pixels with a NaN or an infinity magenta.
+/// A picture in grey with non-finite pixels in magenta, and the number of these.
 struct Marked {
     image::Image map;
     size_t bad = 0; ///< pixels
@@ -40,7 +40,8 @@ std::string kinds(const image::FiniteCensus& census) {
     return text;
 }
 
-/// Nothing when the scene as it stands is finite; otherwise `times` has reported it already.
+/// Returns nothing if the plain state is finite; otherwise the answer that refers to `times`, which reports
+/// it.
 Result<std::optional<Answer>> known_before(ProbeBench& bench) {
     const auto passes = TRY(bench.passes(plain_state()));
     if (not_finite(bench, plain_state(), passes))

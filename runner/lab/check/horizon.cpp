@@ -6,7 +6,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// Of a second.
+/// A third of a second.
 constexpr double k_third = 1.0 / 3;
 
 } // namespace

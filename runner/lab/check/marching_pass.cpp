@@ -10,10 +10,11 @@ namespace tidemark::lab {
 namespace {
 
 constexpr Extent k_rays{16, 9};
-/// Of all rays of a moment: some seconds of a field of seven octaves.
+/// Most field evaluations for all rays of a moment; a field with seven octaves takes some seconds for them.
 constexpr uint64_t k_most_of_all = 50'000;
 
-/// The i-th of the rays, evenly spread over the picture however many are taken.
+/// Returns the pixel of the i-th ray. The first rays are evenly spread over the picture, however many are
+/// used.
 glm::ivec2 pixel_of(size_t i, Extent whole) {
     const auto at = int(spread(i, k_rays.pixels()));
     const int x = at % k_rays.width, y = at / k_rays.width;

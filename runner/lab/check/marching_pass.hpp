@@ -1,4 +1,5 @@
-// The pass of a scene that marches along rays, and what is proved of those that probes look at.
+// Finds the pass of a scene that marches along rays, and counts the verdicts of proofs on a sample of its
+// rays.
 #pragma once
 
 #include "lab/check/probe.hpp"
@@ -10,10 +11,11 @@
 
 namespace tidemark::lab {
 
-/// The moments in which rays are looked at, and what the proof of one may take.
+/// Moments, in seconds, at which rays are sampled.
 inline constexpr double k_ray_moments[] = {1.0 / 3, 10};
+/// Most field evaluations for the proof of one ray.
 inline constexpr uint64_t k_most_of_a_ray = 20'000;
-/// Of the decided rays; below that is a matter of silhouettes.
+/// Percent of the decided rays that may be wrong: the last ones are a matter of silhouettes.
 inline constexpr double k_most_wrong_percent = 0.5;
 
 struct MarchingPass {
@@ -21,19 +23,20 @@ struct MarchingPass {
     const PassFunction* function;
 };
 
-/// Image, if it does; else the first of those that lead to it.
+/// Returns Image if it marches, else the first pass in the plan that does, else nothing.
 Result<std::optional<MarchingPass>> marching_pass(ProbeBench& bench);
 
-/// Why nothing can be proved of the rays of a scene that has none.
+/// Returns the answer for a scene without such a pass, with the reason.
 Answer without_march(ProbeBench& bench);
 
-/// Pixels evenly spread over the picture; `look` says how many evaluations the ray of a pixel took, and what
-/// is left when some seconds are over is not looked at.
+/// Calls `look` with pixels evenly spread over the picture; `look` returns the field evaluations it used.
+/// Stops after 144 pixels or when 50,000 evaluations are spent.
 void look_at_rays(Extent whole, const std::function<uint64_t(glm::ivec2 pixel)>& look);
 
+/// Proves the first hits of the sampled rays of `pass` at both moments, and counts the outcomes.
 Result<RayCounts> count_proved(ProbeBench& bench, const MarchingPass& pass);
 
-/// Of the decided rays, those that step over their first hit or miss it.
+/// Returns the percentage of the decided rays that step over their first hit or miss it.
 double wrong_percent(const RayCounts& counts);
 
 } // namespace tidemark::lab

@@ -13,13 +13,13 @@ namespace tidemark::lab {
 
 namespace {
 
-/// Of the samples of each pixel.
+/// Returns the largest sample difference of each pixel.
 std::vector<double> largest_differences(const image::Image& left, const image::Image& right) {
     std::vector<double> largest(left.extent.pixels());
     const auto channels = size_t(left.channels);
     for (size_t i = 0; i < left.samples(); ++i) {
         const double difference = std::abs(double(left.f32()[i]) - double(right.f32()[i]));
-        // What is a number in one only is as different as can be.
+        // A sample that is finite in one picture only gets the largest difference.
         const bool same =
             left.f32()[i] == right.f32()[i] || (std::isnan(left.f32()[i]) && std::isnan(right.f32()[i]));
         double& most = largest[i / channels];

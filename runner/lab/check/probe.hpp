@@ -1,5 +1,5 @@
-// Questions about the numbers of a scene, each with a verdict: what `tidemark check` asks. A probe looks, and
-// leaves the scene as it is.
+// Probes: the checks that `tidemark check` runs, each with a verdict on a scene's numbers. A probe does not
+// change the scene.
 #pragma once
 
 #include "base/result.hpp"
@@ -12,30 +12,32 @@
 
 namespace tidemark::lab {
 
-/// `cut`: it was not asked, or not until it answered.
+/// `cut`: the time budget ran out before or while the probe ran.
 enum class Verdict { pass, warn, fail, not_applicable, cut };
 std::string_view to_string(Verdict verdict);
 
 struct Answer {
     Verdict verdict = Verdict::pass;
-    std::string sentence; ///< what was found; why the probe does not apply
-    /// Where it shows first, and what it looks like there, with the pixels or rays in question in magenta.
+    std::string sentence; ///< what was found, or why the probe does not apply
+    /// The first situation that shows the finding and its picture, with the affected pixels or rays in
+    /// magenta.
     std::optional<FrameState> where{};
     std::optional<image::Image> picture{};
-    bool non_finite = false; ///< a NaN or an infinity is there, which can be traced to its origin
+    bool non_finite = false; ///< there is a NaN or an infinity, whose origin can be traced
 };
 
 struct Probe {
     std::string_view name;
-    std::string_view about; ///< what it looks at and when it fails
-    /// An error is one of the scene (it does not compile so), not of its numbers.
+    std::string_view about; ///< what it checks and when it fails
+    /// Fails if the scene does not compile in the way that the probe needs; faulty numbers are an Answer.
     Result<Answer> (*ask)(ProbeBench& bench);
 };
 
-/// In the order they are asked: the cheap ones first.
+/// Returns all probes in the order in which they run: the cheap ones first.
 std::span<const Probe> all_probes();
 
-/// Today's name of a probe that version 0.1 called so; of any other word the word itself.
+/// Returns the current name of a probe that had another name in version 0.1; other names are returned
+/// unchanged.
 std::string_view probe_name(std::string_view name);
 
 } // namespace tidemark::lab

@@ -26,7 +26,7 @@ Result<scene::Scene> ProbeBench::scene_of(const FrameState& state, Entry entry) 
 
 namespace {
 
-/// `knobs` with the values of `values`, which has the first of them.
+/// Returns `knobs` with its first entries replaced by `values`.
 std::vector<scene::Knob> turned(std::vector<scene::Knob> knobs, const std::vector<scene::Knob>& values) {
     std::ranges::copy(values, knobs.begin());
     return knobs;
@@ -34,7 +34,7 @@ std::vector<scene::Knob> turned(std::vector<scene::Knob> knobs, const std::vecto
 
 } // namespace
 
-/// What stands in the text is compiled; knobs are turned.
+/// Definitions and channels need a renderer of their own; knobs are only set.
 Result<render::Renderer*> ProbeBench::renderer(const FrameState& state, Entry entry,
                                                glsl::Precision precision) {
     std::string key = fmt::format("{} {}", int(entry), int(precision));
@@ -50,7 +50,7 @@ Result<render::Renderer*> ProbeBench::renderer(const FrameState& state, Entry en
                              .samples = image::SampleType::f32,
                              .precision = precision,
                              .specialise = glsl::Specialise::unreachable,
-                             .extras = {.unchanged = true}}); // a probe asks whether a drawing repeats
+                             .extras = {.unchanged = true}}); // a probe checks whether a drawing repeats
         if (!made)
             return fail(std::move(made.error()));
         found = renderers_.emplace(std::move(key), *std::move(made)).first;
@@ -127,7 +127,7 @@ std::string ProbeBench::try_main_hit() {
     auto made = renderer(plain_state(), Entry::main_hit, glsl::Precision::single);
     if (made)
         return {};
-    if (!made.error().diagnostics.empty()) { // of which the first says it
+    if (!made.error().diagnostics.empty()) { // keep only the first, which names the cause
         made.error().message.clear();
         made.error().diagnostics.resize(1);
     }

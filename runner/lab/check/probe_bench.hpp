@@ -1,5 +1,5 @@
-// Where probes look at a scene: draws it in any situation and keeps what was compiled for the next question.
-// A context must be current as long as it lives.
+// Draws a scene in any situation for the probes and keeps its compiled programs for later calls. A context
+// must be current while it exists.
 #pragma once
 
 #include "lab/check/explored.hpp"
@@ -16,76 +16,79 @@
 
 namespace tidemark::lab {
 
-/// What one pass holds after a frame.
+/// The contents of one pass after a frame.
 struct PassPicture {
     std::string pass;
     image::Image picture; ///< RGBA, floats
 };
 
-/// RGB of Image as `picture` has it, drawn elsewhere.
+/// Draws Image as ProbeBench::picture does (RGB floats), but in another process.
 using DrawElsewhere = std::function<Result<image::Image>(const FrameState&)>;
 
 class ProbeBench {
 public:
-    /// `with_one_thread`: empty where the driver does not let itself be set so.
+    /// `with_one_thread` is empty if the number of the driver's threads cannot be set.
     ProbeBench(const scene::Scene& scene, Promises promises, DrawElsewhere with_one_thread = {});
 
     const scene::Scene& scene() const { return scene_; }
     const Promises& promises() const { return promises_; }
 
-    /// RGB of Image, floats. A scene with feedback is drawn from its start, first_frame_of that state.
+    /// Returns Image, RGB floats. A scene with feedback is drawn from frame first_frame_of(state) on.
     Result<image::Image> picture(const FrameState& state,
                                  glsl::Precision precision = glsl::Precision::single);
-    /// All passes that are drawn, but cubemaps. Alpha is what a buffer's text wrote; Image's is always 1.
+    /// Returns all drawn passes except cubemaps. Alpha is what a buffer's text wrote; Image's is always 1.
     Result<std::vector<PassPicture>> passes(const FrameState& state);
 
     const DrawElsewhere& with_one_thread() const { return with_one_thread_; }
 
-    /// Whether a frame depends on the one before it.
+    /// Returns whether a frame depends on the one before it.
     Result<bool> has_feedback();
-    /// Draws frame after frame from 0 on and shows each, with all its passes but cubemaps, until `see` says
-    /// false.
+    /// Draws frame after frame from 0 on and passes each to `see`, with all its passes except cubemaps, until
+    /// `see` returns false.
     using See = std::function<bool(const FrameState&, const std::vector<PassPicture>&)>;
     Result<void> step(const See& see);
 
-    /// Whether it is known what rays meet: from a mainHit that compiles or, where the text has none, from the
-    /// march of mainImage, recorded.
+    /// Returns whether hits are available: from a mainHit that compiles or, if the text has none, from the
+    /// recorded march of mainImage.
     bool has_hits();
-    /// Why not.
+    /// Returns why has_hits() was false.
     const std::string& hit_problem() const { return hit_problem_; }
     bool has_main_hit() const { return has_main_hit_; }
     Result<Hits> hits(const FrameState& state, glsl::Precision precision = glsl::Precision::single);
 
-    /// Why the march of mainImage cannot be recorded; empty: it can.
+    /// Returns why the march of mainImage cannot be recorded; empty if it can.
     const std::string& recording_problem();
-    /// What it answers, RGBA in floats.
+    /// Draws one answer of the recorded march, RGBA floats.
     Result<image::Image> recorded(const FrameState& state, glsl::RecordAnswer answer,
                                   glsl::Precision precision = glsl::Precision::single);
-    /// Whether hits say where a sample was below the surface.
+    /// Returns whether hits flag samples below the surface.
     bool sees_below() const { return has_main_hit_ || sees_below_; }
 
-    /// Whether a march that is recorded goes on by a constant.
+    /// Returns whether the recorded march advances by a constant.
     bool fixed_steps() const { return fixed_steps_; }
 
-    /// Image as a function in SSA form.
+    /// Returns Image as a function in SSA form.
     const Result<PassFunction>& image_function() { return function_of(scene_.image_index()); }
     const Result<PassFunction>& function_of(size_t pass);
 
-    /// A pass that is about to be drawn in that state: all frames before are drawn.
+    /// Returns a pass that is about to be drawn in that state; all that it depends on is drawn.
     Result<render::PassPreview> preview(const FrameState& state, size_t pass);
-    /// What the scene as it stands was compiled to; the same with its textures as that state leaves them.
+    /// Returns the renderer of the unchanged scene; `drawn` also draws that state, so that the textures hold
+    /// it.
     Result<const render::Renderer*> compiled();
     Result<const render::Renderer*> drawn(const FrameState& state);
 
-    /// Compiles anew, where `picture` takes what it has.
+    /// Compiles the scene again, while `picture` reuses programs. It drops all programs kept so far.
     Result<image::Image> fresh_picture(const FrameState& state);
 
-    /// The promoted scene's hashes; the error of a scene that cannot be promoted.
+    /// Returns the hashes that the scene's double version keeps in float. Fails if the scene cannot be
+    /// promoted.
     Result<std::vector<glsl::KeptHash>> hashes();
 
-    /// What a search has seen; none: nobody has searched yet (lab/check/exploration.hpp).
+    /// The stored result of a search; empty before the first (lab/check/exploration.hpp).
     std::optional<Explored>& explored() { return explored_; }
-    /// "; see bounds: …" where it saw what may draw any bytes; else empty.
+    /// Returns "; see bounds: …" if the search found an access out of bounds, after which any bytes may be
+    /// drawn; else an empty text.
     std::string see_bounds() const;
 
 private:

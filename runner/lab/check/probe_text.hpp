@@ -1,4 +1,4 @@
-// The texts of a scene's passes as a probe reads them. A context must be current.
+// The parsed texts of a scene's passes, for probes. A context must be current.
 #pragma once
 
 #include "glsl/syntax/parsed_text.hpp"
@@ -11,20 +11,21 @@
 
 namespace tidemark::lab {
 
-/// One pass that is drawn, cubemaps left out.
+/// The text of one drawn pass.
 struct PassText {
     size_t pass = 0;
     std::unique_ptr<const glsl::ParsedText> text;
     glsl::TreeFacts facts;
 };
 
-/// `as_written`: as lab/trace/watched_run.hpp has it. Fails where a text cannot be followed.
+/// Parses the texts of all drawn passes except cubemaps. `as_written` as in lab/trace/watched_run.hpp. Fails
+/// if a text cannot be parsed.
 Result<std::vector<PassText>> read_texts(ProbeBench& bench, bool as_written);
 
-/// `waves.glsl:12`, of a word; empty for a line of our own.
+/// Returns the place of a token, such as `waves.glsl:12`; empty for a line that Tidemark generated.
 std::string place_of(const glsl::ParsedText& text, size_t word);
 
-/// `a, b and 3 more`.
+/// Joins up to four names: `a, b, c, d and 3 more`.
 std::string listed(const std::vector<std::string>& names);
 
 } // namespace tidemark::lab

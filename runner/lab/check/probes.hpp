@@ -1,4 +1,4 @@
-// The probes themselves, by subject. What each asks stands in lab/check/probe.cpp, where people read it too.
+// The probe functions, by subject. The table in lab/check/probe.cpp describes each, also for users.
 #pragma once
 
 #include "lab/check/probe.hpp"

@@ -1,5 +1,5 @@
-// Whether a scene's mainHit still is what its mainImage draws: the march is recorded while mainImage runs,
-// and both are held against each other.
+// Checks whether a scene's mainHit still matches its mainImage: compares its hits with those of the march,
+// recorded while mainImage runs.
 #include "base/try.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
@@ -13,14 +13,14 @@ namespace tidemark::lab {
 namespace {
 
 struct Drift {
-    size_t rays = 0, entered = 0; ///< entered: the march, in the recording
-    size_t differing = 0;         ///< one met something, the other nothing or something else
-    double largest = 0;           ///< of the distances where both met something
+    size_t rays = 0, entered = 0; ///< entered: rays that enter the march in the recording
+    size_t differing = 0;         ///< one hits and the other misses, or both hit different places
+    double largest = 0;           ///< difference of the distances if both hit
     std::vector<bool> marks{};
 };
 
-/// mainHit may interpolate behind the last sample that is recorded: within a pixel's width, or a hundredth of
-/// the way, is the same hit.
+/// mainHit may interpolate past the last recorded sample. Distances within a pixel's width, or within one
+/// hundredth, are the same hit.
 bool is_same(double written, double recorded, Extent extent) {
     if (std::isnan(written) || std::isnan(recorded))
         return std::isnan(written) == std::isnan(recorded);

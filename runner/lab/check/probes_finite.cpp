@@ -1,4 +1,4 @@
-// Non-finite numbers: drawn in many situations, counted by bits on the CPU.
+// Looks for NaN and infinity by drawing the scene in many situations and counting bits on the CPU.
 #include "base/try.hpp"
 #include "gl/capabilities.hpp"
 #include "lab/check/exploration.hpp"
@@ -30,7 +30,7 @@ Result<Answer> ask_times(ProbeBench& bench) {
 }
 
 Result<Answer> ask_frames(ProbeBench& bench) {
-    constexpr int k_frames = 600; // ten seconds of the clock
+    constexpr int k_frames = 600; // ten seconds at 60 frames per second
     constexpr std::chrono::seconds k_patience(5);
     const auto feedback = TRY(bench.has_feedback());
     if (!feedback)

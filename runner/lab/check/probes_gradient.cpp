@@ -1,5 +1,5 @@
-// The bound of slopes that a solver's steps rely on, held against the largest slope that is to be found: of
-// scenes with mainHit whose field is the march_field of shaders/lib/march.glsl.
+// Compares the slope bound that a solver's steps rely on with the largest slope that a search finds. For
+// scenes with a mainHit whose field is the march_field of shaders/lib/march.glsl, and for recorded marches.
 #include "base/try.hpp"
 #include "lab/check/field_bench.hpp"
 #include "lab/check/probes.hpp"
@@ -13,10 +13,10 @@
 namespace tidemark::lab {
 namespace {
 
-/// Looks at sixteen places of a ray: the ray of a pixel of the window tidemark_pixels (low and high corner),
-/// as far as it goes, and of that what is within tidemark_distances. Answers with the steepest: its pixel,
-/// its distance, and the slope there from a difference over tidemark_step to either side. No difference is
-/// steeper than the field somewhere between its ends: what is found is never too much.
+/// Samples sixteen places of the ray through a pixel of the window tidemark_pixels (low and high corner), up
+/// to its hit and within tidemark_distances. Outputs the steepest: its pixel, its distance, and the slope
+/// from the difference over tidemark_step to either side. By the mean value theorem that is a slope of the
+/// field between both ends, so apart from rounding the result is never too large.
 constexpr std::string_view k_steepest_hit = R"(void mainHit(out vec4 hit, in vec2 fragCoord) {
     vec2 pixel = mix(tidemark_pixels.xy, tidemark_pixels.zw, fragCoord / iResolution.xy);
     tidemark_own_hit(hit, pixel);
@@ -48,13 +48,13 @@ bool steeper(const Steep& one, const Steep& other) {
     return one.slope > other.slope;
 }
 
-/// A part of a picture, and of the distances along its rays.
+/// A window of the picture and of the distances along its rays.
 struct Window {
     glm::dvec2 low{0}, high{k_ray_extent.width, k_ray_extent.height};
     double near = 0, far = 0;
 };
 
-/// The window around a place that is `part` of the whole to each side.
+/// Returns the window that extends to each side of a place by `part` of the whole.
 Window around(const Steep& place, const Window& whole, double part) {
     const glm::dvec2 pixels = part * (whole.high - whole.low);
     const double distance = part * (whole.far - whole.near);
@@ -73,7 +73,7 @@ public:
         return SlopeSearch(std::move(field), furthest);
     }
 
-    /// Climbs from the best of all samples of several views.
+    /// Samples several views, then climbs from the three steepest samples.
     Steep steepest(const std::vector<FrameState>& views) {
         constexpr size_t k_climbs = 3;
         std::vector<Steep> starts;
@@ -86,7 +86,7 @@ public:
         return std::ranges::min(starts, steeper);
     }
 
-    /// Every window is half as wide as the one before, and lies around the best place so far.
+    /// Climbs by sampling windows around the best place so far, each half as wide as the one before.
     Steep climbed(Steep best) {
         constexpr int k_halvings = 8;
         double part = 1.0 / 32;
@@ -126,13 +126,13 @@ std::vector<FrameState> views_over_time() {
     return views;
 }
 
-/// The distance of the furthest that a ray meets; 0: none meets anything.
+/// Returns the largest distance of a hit; 0 if no ray hits.
 Result<double> furthest_of(ProbeBench& bench, const std::vector<FrameState>& views) {
     double furthest = 0;
     for (const FrameState& view : views) {
         const auto hits = TRY(bench.hits(view));
         for (const double distance : hits.distance)
-            furthest = std::max(furthest, distance); // never a NaN, which compares as false
+            furthest = std::max(furthest, distance); // a NaN compares as false and is skipped
     }
     return furthest;
 }
@@ -144,7 +144,7 @@ Result<image::Image> map_of(ProbeBench& bench, const Steep& place) {
     return ray_map(hits, k_ray_extent, [pixel](size_t i) { return i == pixel; });
 }
 
-/// Over so short a step the roundings of a field in floats are slopes, too.
+/// Tolerance for fields in float, whose rounding looks like a slope over so short a step.
 constexpr double k_float_slack = 1.05;
 constexpr std::string_view k_too_long = ": steps that rely on that bound are too long";
 
@@ -158,7 +158,7 @@ std::string place_of(const Steep& found) {
                        found.pixel.x, found.pixel.y, found.distance);
 }
 
-/// Held against the bound that the scene states; `slack`: what roundings may add.
+/// Compares a slope with the bound that the scene states; `slack` is the factor that rounding may add.
 Result<Answer> judged(ProbeBench& bench, const std::string& seen, const Steep& found, double slack) {
     const double stated = bench.promises().largest_slope;
     Answer answer{Verdict::pass, seen + bound_of(stated) + place_of(found)};
@@ -171,8 +171,8 @@ Result<Answer> judged(ProbeBench& bench, const std::string& seen, const Steep& f
     return answer;
 }
 
-/// Of a march that is recorded: by how much its distance falls between two samples, a unit of the way. No
-/// less than that is a slope of the field somewhere between them.
+/// Checks a recorded march by how much its distance falls per unit between two samples. The field has at
+/// least that slope somewhere between them.
 Result<Answer> ask_recorded_march(ProbeBench& bench) {
     if (!bench.sees_below())
         return without_sign();

@@ -1,4 +1,4 @@
-// What rays met, of scenes whose hits are known: steps that were too long, and too many of them.
+// Checks the hits of rays for steps that were too long and for step budgets that run out.
 #include "base/try.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
@@ -13,7 +13,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// The largest share of flagged rays in the usual views, against what is promised.
+/// Compares the largest percentage of flagged rays over the usual views with the promised limit.
 Result<Answer> most_flagged(ProbeBench& bench, glsl::HitFlag flag, double promised, const char* what) {
     if (!bench.has_hits())
         return without_hits(bench);
@@ -32,7 +32,8 @@ Result<Answer> most_flagged(ProbeBench& bench, glsl::HitFlag flag, double promis
 
 constexpr double k_multiples[] = {0, 0.5, 2, 4};
 
-/// Both ends of the knob's range and multiples of its value in between; multiples alone where it has none.
+/// Returns both ends of the knob's range and multiples of its value inside; only multiples if it has no
+/// range.
 std::vector<Setting> ends_and_multiples(const scene::Knob& knob, const Promises& promises) {
     auto range = knob.range;
     if (const auto promised = promises.ranges.find(knob.name); promised != promises.ranges.end()) {
@@ -62,8 +63,8 @@ std::vector<Setting> ends_and_multiples(const scene::Knob& knob, const Promises&
     return settings;
 }
 
-/// Multiples of the numbers that a text defines by a name of heights or scales. Each is compiled: of at most
-/// four names.
+/// Returns multiples of the numbers that the text defines under names of heights or scales. At most four
+/// names, as each value needs a compilation.
 std::vector<Setting> multiples_of_definitions(const ProbeBench& bench) {
     std::vector<DefinedNumber> numbers =
         defined_numbers(bench.scene(), {"height", "ampl", "scale", "steep", "chop"});

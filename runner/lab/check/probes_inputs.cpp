@@ -1,4 +1,4 @@
-// What pictures a scene can be given.
+// Looks for NaN and infinity with other pictures in the scene's input channels.
 #include "base/try.hpp"
 #include "image/census.hpp"
 #include "lab/check/finite_look.hpp"
@@ -12,17 +12,17 @@
 namespace tidemark::lab {
 namespace {
 
-/// A channel from which a pass reads a picture that comes from outside.
+/// A channel in which a pass reads a picture from a file or another outside source.
 struct Input {
     std::string name;    ///< `iChannel0 of Buffer A`
-    std::string setting; ///< `Buffer A:0`, as --channel has it; of Image without the pass
+    std::string setting; ///< `Buffer A:0` as in --channel; without the pass for Image
 };
 
 bool comes_from_outside(const scene::Scene& scene, const scene::ChannelInput& input) {
     return !source_pass(input) && scene::texture_kind(scene, input) == scene::TextureKind::flat;
 }
 
-/// Of the passes that are drawn.
+/// Returns the inputs of all drawn passes whose channels the text mentions.
 Result<std::vector<Input>> inputs_read(ProbeBench& bench) {
     const auto renderer = TRY(bench.compiled());
     const scene::Scene& scene = bench.scene();
@@ -42,7 +42,8 @@ Result<std::vector<Input>> inputs_read(ProbeBench& bench) {
     return inputs;
 }
 
-/// A NaN that comes in may go out: no fault, but good to know. Of the pixels, in percent.
+/// Returns the percentage of pixels that a NaN in the input spreads to. Passing a NaN on is not a fault, but
+/// useful to report.
 Result<double> spread_of_nan(ProbeBench& bench, const Input& input) {
     FrameState state = plain_state();
     state.channels = {input.setting + "=nan"};

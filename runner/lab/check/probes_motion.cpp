@@ -1,4 +1,5 @@
-// The same again, and the next pixel of the mouse.
+// Checks whether a picture repeats exactly, with one thread too, and whether it changes evenly with the
+// mouse.
 #include "base/try.hpp"
 #include "image/census.hpp"
 #include "image/compare/metrics.hpp"
@@ -15,11 +16,11 @@
 namespace tidemark::lab {
 namespace {
 
-/// Narrow and high: small steps of the mouse in few pixels.
+/// Narrow and high: small mouse steps in few pixels.
 constexpr Extent k_strip{16, 180};
-/// A step that changes the picture so much more than the steps before and after it is a turn.
+/// A mouse step jumps if its PSNR is this much below that of the steps before and after it.
 constexpr double k_turn = 4; // dB
-/// Pictures that are closer do not jump, however alike their neighbours are.
+/// Pictures closer than this do not count as a jump, however alike their neighbours are.
 constexpr double k_alike = 60; // dB
 
 } // namespace
@@ -46,7 +47,7 @@ Result<Answer> ask_repeats(ProbeBench& bench) {
 Result<Answer> ask_threads(ProbeBench& bench) {
     if (!bench.with_one_thread())
         return Answer{Verdict::not_applicable, "this driver does not let us choose its number of threads"};
-    // Drivers deal out squares of 64 pixels.
+    // Drivers distribute squares of 64 pixels to their threads, so the picture needs several.
     const FrameState state = state_at(2, {200, 136});
     const auto alone = bench.with_one_thread()(state);
     if (!alone)
@@ -63,7 +64,7 @@ Result<Answer> ask_threads(ProbeBench& bench) {
 
 namespace {
 
-/// The mouse moved by a pixel at a time along one side of the picture, the other in the middle.
+/// A mouse movement pixel by pixel along one axis, with the other coordinate in the middle.
 struct Sweep {
     const char* axis;
     Extent extent;
@@ -75,12 +76,12 @@ struct Sweep {
     }
 };
 
-/// The step that changes the picture most beside its neighbours, and the first picture that is not finite.
+/// The largest jump of a sweep relative to the steps around it, and its first picture that is not finite.
 struct Swept {
     bool changes = false;
-    double most = 0; ///< dB less than the steps before and after it
+    double most = 0; ///< PSNR below that of the steps before and after, dB
     double psnr = 0;
-    int step = 1; ///< from this pixel to the next
+    int step = 1; ///< the jump is from this pixel to the next
     std::optional<int> not_finite{};
 };
 
@@ -106,7 +107,7 @@ Result<Swept> swept(ProbeBench& bench, const Sweep& sweep) {
     return found;
 }
 
-/// The answer, where there is a fault.
+/// Returns the answer if the sweep shows a fault.
 Result<std::optional<Answer>> fault(ProbeBench& bench, const Sweep& sweep, const Swept& found) {
     const auto show = [&](int pixel, std::string sentence) -> Result<std::optional<Answer>> {
         const FrameState where = sweep.at(pixel);

@@ -1,5 +1,5 @@
-// That no NaN can arise: value ranges of each pass, over all pixels, a span of time and the knobs' ranges.
-// Passes may read each other: that none makes a NaN of numbers holds for all frames, then.
+// Proves that no NaN can arise, by value ranges of each pass over all pixels, a span of time and the knobs'
+// ranges. Passes may read each other: if no pass makes a NaN from numbers, this holds for all frames.
 #include "base/try.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/march/pass_ranges.hpp"
@@ -21,7 +21,7 @@ std::string range(const ir::Interval& interval) {
                                          : fmt::format("[{:.4g}, {:.4g}]", interval.low, interval.high);
 }
 
-/// What an operation does with which operands.
+/// Describes an operation and its operands.
 std::string operation(const ir::Function& function, const ir::PartialOperation& what) {
     if (what.value == ir::k_no_value || what.operands.empty())
         return "a number that is infinite, or an input that may be NaN";
@@ -43,7 +43,7 @@ std::string operation(const ir::Function& function, const ir::PartialOperation& 
     }
 }
 
-/// Why a pass may make a NaN; empty: it cannot.
+/// Returns why the pass may make a NaN; empty if it cannot.
 Result<std::string> doubt_of(const render::Renderer& renderer, size_t index, const FrameState& state,
                              double seconds) {
     const scene::Pass& pass = renderer.scene().passes[index];

@@ -1,6 +1,5 @@
-// Where a camera may stand and look, of scenes whose hits are known: under the surface, far away, along the
-// horizon, to the far plane. A probe moves the orbit camera of a scene that declares iCamera, or its knob
-// camera_position.
+// Checks unusual camera positions of scenes with known hits: under the surface, far away, along the horizon,
+// and at the far plane. Moves the orbit camera of a scene that declares iCamera, or its knob camera_position.
 #include "base/try.hpp"
 #include "image/census.hpp"
 #include "lab/check/field_on_rays.hpp"
@@ -36,7 +35,7 @@ FrameState moved(const scene::Knob& position, const glm::dvec3& by) {
     return state;
 }
 
-/// `distance` units from where the camera stands; none: the scene has no camera that can be moved.
+/// Returns a view `distance` units away from the camera's place; nothing if the camera cannot be moved.
 std::optional<FrameState> away(const ProbeBench& bench, double distance) {
     if (const scene::Knob* position = knob_of(bench.scene(), "camera_position"))
         return moved(*position, {distance, 0, distance});
@@ -65,7 +64,7 @@ std::vector<FrameState> below_and_above(const ProbeBench& bench) {
     return states;
 }
 
-/// What is wrong there with the picture or with the rays, as a sentence; empty: nothing is.
+/// Describes what is wrong with the picture or the hits; empty if nothing is.
 Result<std::string> broken(ProbeBench& bench, const FrameState& state) {
     const auto passes = TRY(bench.passes(state));
     for (const PassPicture& pass : passes)
@@ -83,7 +82,7 @@ std::string place_of(const FrameState& state) {
                                : to_string(state.knobs);
 }
 
-/// How far out rays hit the same in float and double.
+/// Finds the distance up to which rays hit the same in float and double.
 Result<Answer> how_far(ProbeBench& bench) {
     double good = 0;
     for (const double distance : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
@@ -112,7 +111,7 @@ Result<Answer> how_far(ProbeBench& bench) {
                   "float and double agree to 1e6 units away; no NaN or infinity below and high above"};
 }
 
-/// Mouse heights at which part of the rays hit something and part nothing: the horizon is in sight.
+/// Returns views that show the horizon: between 5 % and 95 % of the rays hit.
 Result<std::vector<FrameState>> views_of_the_horizon(ProbeBench& bench) {
     std::vector<FrameState> views;
     std::vector<FrameState> candidates;
@@ -134,7 +133,7 @@ Result<std::vector<FrameState>> views_of_the_horizon(ProbeBench& bench) {
     return views;
 }
 
-/// A picture of an odd height whose middle row looks exactly level, where the camera can be set so.
+/// Returns a view of odd height whose middle row is exactly level, if the camera can be set so.
 std::optional<FrameState> level_view(const scene::Scene& scene) {
     FrameState state = state_at(10, {k_ray_extent.width, k_ray_extent.height + 1});
     if (has_orbit_camera(scene)) {
@@ -152,12 +151,12 @@ std::optional<FrameState> level_view(const scene::Scene& scene) {
 
 namespace {
 
-/// Of the rays, so far from their starts.
+/// Counts of rays at one distance from their starts.
 struct FarAway {
-    size_t ended = 0;      ///< the march does not come there
-    size_t known = 0;      ///< where the field is bounded
-    size_t not_finite = 0; ///< of those: in float it is NaN or infinite
-    size_t off = 0;        ///< in float it is another distance
+    size_t ended = 0;      ///< the march ends before this distance
+    size_t known = 0;      ///< in real arithmetic, by bounds
+    size_t not_finite = 0; ///< of the known: NaN or infinite in float
+    size_t off = 0;        ///< of the known: a different distance in float
 
     double off_percent() const { return 100.0 * double(off) / double(known); }
 };
@@ -178,7 +177,7 @@ FarAway far_away(FieldOnRays& field, double units) {
     return seen;
 }
 
-/// Of a camera that cannot be moved: the field where its rays lead.
+/// Checks the distance along the rays of a camera that cannot be moved.
 Result<Answer> along_the_rays(ProbeBench& bench) {
     auto field = FieldOnRays::create(bench, typical_view());
     if (!field || field->rays() == 0)
@@ -270,7 +269,7 @@ namespace {
 struct FarPlane {
     double distance;
     std::string name;
-    const scene::Knob* knob; ///< none: it is a definition
+    const scene::Knob* knob; ///< none: a definition
 
     void move(FrameState& state, double to) const {
         if (knob)
@@ -280,7 +279,7 @@ struct FarPlane {
     }
 };
 
-/// Whether a march gives up at that number.
+/// Returns whether a march ends at that distance.
 bool is_limit(const PassFunction& function, double number) {
     return std::ranges::any_of(function.loops(), [&](const ir::MarchingLoop& loop) {
         if (!loop.limited())
@@ -290,7 +289,7 @@ bool is_limit(const PassFunction& function, double number) {
     });
 }
 
-/// The knob of that name, or the one definition that has the number at which the march gives up.
+/// Returns the knob far_distance, or the only definition whose value is the distance at which the march ends.
 std::optional<FarPlane> far_plane(ProbeBench& bench) {
     if (const scene::Knob* knob = knob_of(bench.scene(), "far_distance"))
         return FarPlane{knob->value[0], knob->name, knob};
@@ -307,7 +306,7 @@ std::optional<FarPlane> far_plane(ProbeBench& bench) {
 
 } // namespace
 
-/// A far plane that moves by a thousandth may take or give what lies beyond it, and nothing before it.
+/// Moves the far plane by a thousandth, which may only change hits beyond it.
 Result<Answer> ask_far(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);

@@ -1,4 +1,4 @@
-// What other GPUs, drivers and roundings would make of the picture.
+// Imitates the arithmetic of other GPUs and drivers and compares the pictures.
 #include "base/try.hpp"
 #include "glsl/instrument/variation.hpp"
 #include "image/compare/difference.hpp"
@@ -17,7 +17,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// Late enough for arguments of sines to have grown as they do while people look.
+/// Late enough for the arguments of sines to be as large as in typical use.
 const FrameState k_state = state_at(10);
 
 struct Mode {
@@ -25,18 +25,18 @@ struct Mode {
     const char* name;
 };
 
-/// One way to write a text, and what it stands for.
+/// A way to rewrite a text, with the modes that it offers.
 struct Manner {
     glsl::Variation (*vary)(const glsl::ParsedText& text, const glsl::TreeFacts& facts);
     std::vector<Mode> modes;
 };
 
-/// What the modes of one manner change, over all passes.
+/// Draws a scene's passes in the modes of rewritten texts and collects the differences.
 class PortabilityProbe {
 public:
     explicit PortabilityProbe(ProbeBench& bench) : bench_(bench) {}
 
-    /// Fails where a text cannot be written in that manner, or the driver refuses it.
+    /// Fails if a text cannot be rewritten so, or if the driver refuses it.
     Result<void> add(const Manner& manner) {
         const auto texts = TRY(read_texts(bench_, false));
         for (const PassText& pass : texts)
@@ -48,7 +48,7 @@ public:
 
     bool asked() const { return asked_; }
 
-    /// The one that moved most comes first.
+    /// Returns the answer, with the largest difference first; `sound` is its text if none is visible.
     Answer answer(const std::string& sound) {
         std::ranges::stable_sort(seen_, std::greater(), &Seen::gap);
         std::vector<std::string> visible, hardly;
@@ -84,7 +84,7 @@ private:
         return stand_in.picture();
     }
 
-    /// By the author's own text.
+    /// Draws the author's text.
     static image::Image as_drawn(const StandIn& stand_in, const PassPreview& preview) {
         stand_in.draw_own(preview);
         return stand_in.picture();
@@ -107,7 +107,7 @@ private:
 
     ProbeBench& bench_;
     bool asked_ = false;
-    /// A mode that made other bytes.
+    /// A mode that changed the bytes.
     struct Seen {
         std::string sentence;
         double gap;

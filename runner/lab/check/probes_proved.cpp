@@ -1,4 +1,4 @@
-// What is proved of a scene's rays from its text alone, without a mainHit.
+// Checks that need no mainHit: they prove facts about a scene's rays from its text alone.
 #include "base/try.hpp"
 #include "ir/step_scale.hpp"
 #include "lab/check/marching_pass.hpp"
@@ -68,14 +68,14 @@ Result<Answer> ask_first_hit(ProbeBench& bench) {
 
 namespace {
 
-/// Of a ray, beside what its first hit takes.
+/// Most evaluations for the scale of one ray, in addition to those for its first hit.
 constexpr uint64_t k_most_for_scale = 400;
-/// Of all areas of a picture.
+/// Most evaluations for all areas of a picture.
 constexpr uint64_t k_most_of_areas = 20'000;
-/// A step that is as long as the distance, but for roundings.
+/// Factor that allows for rounding in steps as long as the distance.
 constexpr double k_rounded = 1.001;
 
-/// The steps of the march as multiples of the distances they were taken for.
+/// Appends the march's steps as multiples of the distances for which they were taken.
 void add_own(ir::MarchSlice& slice, const ir::March& march, std::vector<double>& scales) {
     for (size_t i = 0; i + 1 < march.turns.size(); ++i) {
         const double at = slice.parameter(march.turns[i]);
@@ -87,18 +87,19 @@ void add_own(ir::MarchSlice& slice, const ir::March& march, std::vector<double>&
 
 struct Scales {
     size_t hits = 0;            ///< rays whose first hit is proved
-    std::vector<double> safe{}; ///< of those, where it is known
-    std::vector<double> own{};  ///< of all steps on those
+    std::vector<double> safe{}; ///< of those rays with a known scale
+    std::vector<double> own{};  ///< of all steps on those rays
+    /// The scale with the smallest unsafe multiple, and the ray it was found on.
     ir::StepScale least{.safe = ir::k_longest_scale};
-    size_t loop = 0; ///< of that ray
+    size_t loop = 0;
     glm::ivec2 pixel{0};
     FrameState state{};
-    AreaSlopes areas{}; ///< between the rays, too
+    AreaSlopes areas{}; ///< over the whole picture, between the rays too
 
-    bool bounded() const { return 2 * safe.size() > hits; } ///< on most of them
+    bool bounded() const { return 2 * safe.size() > hits; } ///< known on most of the rays
 };
 
-/// Of one ray; what it took.
+/// Adds one ray; returns the evaluations it took.
 uint64_t add(MarchRay& ray, glm::ivec2 pixel, const FrameState& state, Scales& scales) {
     ir::MarchSlice& slice = *ray.slice;
     const double last = slice.end(ray.march);
@@ -137,7 +138,7 @@ Result<Scales> scales_of(ProbeBench& bench, const MarchingPass& pass) {
     return scales;
 }
 
-/// Of all rays of a picture, not only those that are looked at.
+/// Describes the slopes over all rays of a picture, not only the sampled ones.
 std::string areas_sentence(const AreaSlopes& areas) {
     const double way = areas.way(), bounded = areas.bounded_way();
     if (!(way > 0))
@@ -187,7 +188,7 @@ Result<Answer> ask_step_scale(ProbeBench& bench) {
     const Scales scales = TRY(scales_of(bench, *pass));
     if (scales.hits == 0)
         return none("no ray is proved to come to a zero of the distance");
-    // A march that waits for a sample below the surface goes back from it.
+    // A march that waits for a sample below the surface returns from it, so its steps are never too long.
     const bool too_long =
         loops[scales.loop].stops_before && median(scales.own) > scales.least.unsafe * k_rounded;
     if (!scales.bounded() && !too_long)

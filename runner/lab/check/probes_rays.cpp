@@ -1,5 +1,5 @@
-// What floats lose of the rays of scenes whose hits are known, held against the same scene in doubles: as
-// time goes on, near the surface, far out on the lattice of a noise, in waves that fold over.
+// Compares the rays of scenes with known hits in float and in double: as time goes on, near the surface, with
+// large noise coordinates, and in waves that intersect themselves.
 #include "base/try.hpp"
 #include "lab/check/probes.hpp"
 #include "lab/check/rays.hpp"
@@ -25,7 +25,8 @@ Result<Answer> ask_rays(ProbeBench& bench) {
     double good = 0;
     for (const double time : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
         const FrameState state =
-            render::at_time(time + 1.0 / 3, typical_view()); // a moment like most, which is no float
+            // A typical moment, which binary32 cannot represent.
+            render::at_time(time + 1.0 / 3, typical_view());
         const auto both = float_mismatch(bench, state);
         if (!both)
             return without_doubles(both.error());
@@ -48,8 +49,8 @@ Result<Answer> ask_rays(ProbeBench& bench) {
     return Answer{Verdict::pass, "float and double agree up to 1e6 s, to a pixel's width"};
 }
 
-/// A solver that waits for a smaller value than the rounding of its field leaves will wait in vain; in
-/// doubles the same value comes.
+/// Checks for a hit distance below the rounding error of the field: in float the solver never reaches it, in
+/// double it does.
 Result<Answer> ask_epsilon(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);
@@ -86,7 +87,7 @@ Result<Answer> ask_epsilon(ProbeBench& bench) {
 
 namespace {
 
-/// A number of octaves that a text defines or a knob sets.
+/// A number of octaves, from a definition or a knob.
 struct Count {
     std::string name;
     double value;
@@ -104,11 +105,11 @@ std::vector<Count> counts_of_octaves(const scene::Scene& scene) {
     return counts;
 }
 
-/// As few as the scene allows, or one; and as many, or half as many again as it has.
+/// Range of a number of octaves: as the scene states it, or from 1 to 1.5 times the current number.
 struct Extremes {
     double least = 1;
     double most = 0;
-    bool stated = true; ///< by the scene
+    bool stated = true; ///< the scene states the range
 };
 Extremes extremes_of(const ProbeBench& bench, const Count& count) {
     const auto promised = bench.promises().ranges.find(count.name);
@@ -175,8 +176,8 @@ Result<Answer> ask_octaves(ProbeBench& bench) {
     return all;
 }
 
-/// A train of trochoidal waves is as steep as its height times its wavenumber; trains that add up to 1 and
-/// more fold over themselves, and the water over a place is no function of the place any more.
+/// Checks waves for self-intersection. A trochoidal wave train's steepness is its height times its
+/// wavenumber; where trains add up to 1 or more, the surface is not a function of the horizontal position.
 Result<Answer> ask_self_intersection(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);
@@ -186,7 +187,7 @@ Result<Answer> ask_self_intersection(ProbeBench& bench) {
     if (knob != bench.scene().knobs.end())
         for (const double part : knob->value)
             sum += std::abs(part);
-    // Where it alone moves no ray, a factor of another name, like a foam's, is taken for that of waves.
+    // A steepness that moves no ray on its own may belong to something else, such as foam.
     if (sum == 0)
         return Answer{Verdict::not_applicable, "no knob is a steepness of waves"};
     const auto as_is = TRY(bench.hits(typical_view()));

@@ -1,5 +1,5 @@
-// Slopes from differences of the field, as normals are made: of scenes with mainHit whose field is the
-// march_field of shaders/lib/march.glsl, and of those whose march is known from the text.
+// Checks the slopes that differences of the field give, as used for normals. For scenes with a mainHit whose
+// field is the march_field of shaders/lib/march.glsl, and for marches known from the text.
 #include "lab/check/field_bench.hpp"
 #include "lab/check/field_on_rays.hpp"
 #include "lab/check/probes.hpp"
@@ -17,7 +17,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// Answers with the distance and the field's slope along the ray there, from differences over the knob
+/// Outputs the hit's distance and the field's slope along the ray there, from the difference over the knob
 /// tidemark_step to either side.
 constexpr std::string_view k_slope_hit = R"(void mainHit(out vec4 hit, in vec2 fragCoord) {
     tidemark_own_hit(hit, fragCoord);
@@ -27,7 +27,7 @@ constexpr std::string_view k_slope_hit = R"(void mainHit(out vec4 hit, in vec2 f
 }
 )";
 
-/// Of each pixel; NaN where the ray meets nothing.
+/// Returns the slope of each pixel; NaN if its ray misses.
 std::vector<double> slopes(FieldBench& bench, double step, const FrameState& state) {
     const image::Image image = bench.ask({scene::KnobValue{step}}, state);
     std::vector<double> slopes;
@@ -38,7 +38,8 @@ std::vector<double> slopes(FieldBench& bench, double step, const FrameState& sta
     return slopes;
 }
 
-/// The median of the angles between two slopes, degrees; none where no ray hits the surface in both.
+/// Returns the median angle between two sets of slopes in degrees, or nothing if no ray has a finite slope in
+/// both.
 std::optional<double> median_angle(const std::vector<double>& slopes, const std::vector<double>& truth) {
     std::vector<double> angles;
     for (size_t i = 0; i < slopes.size(); ++i)
@@ -49,7 +50,7 @@ std::optional<double> median_angle(const std::vector<double>& slopes, const std:
     return median(std::move(angles));
 }
 
-/// The distance of differences that the scene itself takes, where it has a name for it.
+/// Returns the step widths of the scene's own differences, found by their names.
 std::vector<double> own_steps(const scene::Scene& scene) {
     std::vector<double> steps;
     for (const DefinedNumber& number :
@@ -64,18 +65,18 @@ std::vector<double> own_steps(const scene::Scene& scene) {
     return steps;
 }
 
-/// Angles that this much of the rays' slopes err by show as facets.
+/// Angle above which errors of the slopes show as facets.
 constexpr double k_visible_angle = 1; // degree
 
-/// Over so far to either side.
+/// Returns each ray's slope from the difference over `step` to either side.
 using SlopesOver = std::function<std::vector<double>(double step)>;
 
 Answer without_a_hit() {
     return {Verdict::not_applicable, "no ray hits the surface"};
 }
 
-/// What differences over the distance that the scene itself takes are off by; none: it names none, or they
-/// do.
+/// Checks the differences over the scene's own step widths; returns nothing if they are good or the scene
+/// names none.
 std::optional<Answer> fault_of_own(const ProbeBench& bench, const SlopesOver& in_float,
                                    const std::vector<double>& truth, double best_step) {
     for (const double step : own_steps(bench.scene())) {
@@ -99,7 +100,7 @@ std::optional<Answer> fault_of_own(const ProbeBench& bench, const SlopesOver& in
 
 Answer judged(const ProbeBench& bench, const SlopesOver& in_float, const SlopesOver& exact) {
     const std::vector<double> truth = exact(1e-6);
-    // A picture's filter has steps, and a noise of floats: then there is no slope to be right about.
+    // Filtered pictures and noise in floats have steps, so a true slope to compare with does not exist.
     if (const auto own = median_angle(exact(1e-5), truth); own && *own > 0.1)
         return {Verdict::not_applicable,
                 fmt::format("the field is not smooth: in double its slopes over 1e-5 and 1e-6 are {:.2g} "
@@ -141,7 +142,7 @@ Result<Answer> ask_march_field(ProbeBench& bench) {
         [&](double step) { return slopes(*in_double, step, typical_view()); });
 }
 
-/// Where the march of the text itself ends: the field is known from that text.
+/// Checks the slopes at the march's hits, with the field from the scene's text.
 Result<Answer> ask_recorded(ProbeBench& bench) {
     auto field = FieldOnRays::create(bench, typical_view());
     if (!field)

@@ -1,4 +1,4 @@
-// What is found by reading the text alone.
+// Probes that only read the text.
 #include "glsl/analysis/divergence.hpp"
 #include "glsl/analysis/unassigned.hpp"
 #include "lab/check/probe_text.hpp"

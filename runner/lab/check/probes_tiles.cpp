@@ -1,4 +1,4 @@
-// Large pictures are drawn in tiles (render/tile_grid.hpp): whether their seams would show.
+// Checks whether a picture drawn in tiles, as large ones are (render/tile_grid.hpp), equals one drawn whole.
 #include "base/try.hpp"
 #include "image/compare/metrics.hpp"
 #include "lab/check/picture_gap.hpp"
@@ -10,15 +10,15 @@
 namespace tidemark::lab {
 namespace {
 
-/// Odd, so that tiles stick out on both sides.
+/// Not divisible by the tile's size, so that tiles extend past both sides.
 constexpr Extent k_odd{61, 37};
 constexpr Extent k_tile{16, 8};
-constexpr double k_same_to_the_eye = 50; ///< PSNR in dB
+constexpr double k_same_to_the_eye = 50; ///< PSNR in dB above which differences are invisible
 
 } // namespace
 
 Result<Answer> ask_tiles(ProbeBench& bench) {
-    const FrameState state = state_at(0, k_odd); // no frame goes before
+    const FrameState state = state_at(0, k_odd); // frame 0, so that no earlier frame is needed
     const render::FrameInputs inputs = inputs_of(state);
     const auto drawn = [&](std::optional<Extent> tile) {
         auto renderer = render::Renderer::create(
@@ -34,7 +34,7 @@ Result<Answer> ask_tiles(ProbeBench& bench) {
     const auto whole = TRY(drawn(std::nullopt));
     const image::Image uncut = whole.read_back();
     const size_t different = different_pixels(tiled, uncut);
-    // Mesa 25 reads the levels of a texture a little otherwise in each tile.
+    // Mesa 25 reads texture levels slightly differently in each tile.
     if (const auto gap = image::compare(uncut, tiled); different > 0 && gap && gap->psnr >= k_same_to_the_eye)
         return Answer{Verdict::pass,
                       fmt::format("{} of {} pixels differ in {} tiles, by less than shows: {:.0f} dB",

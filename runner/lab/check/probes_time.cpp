@@ -1,4 +1,4 @@
-// What becomes of a scene as its clock runs: rounding, cuts, and random numbers that hang on roundings.
+// Checks a scene as its clock runs: rounding, jumps, and random numbers that depend on rounding.
 #include "base/try.hpp"
 #include "image/compare/metrics.hpp"
 #include "lab/check/horizon.hpp"
@@ -17,16 +17,16 @@
 namespace tidemark::lab {
 namespace {
 
-/// Between two pictures that show whether motion goes on or is cut: a hundredth of a frame at 60 a second, or
-/// as many steps of iTime in binary32 as motion needs to show.
+/// Returns the seconds between two pictures that tell a jump from motion: a hundredth of a frame at 60 fps,
+/// or eight steps of iTime in binary32 if that is more.
 double instant(double time) {
     return std::max(1.0 / 6000, 8 * (double(std::nextafter(float(time), 1e9f)) - double(float(time))));
 }
 
-/// Frames that are closer than this do not jump, whatever their neighbours do.
+/// Pictures closer than this do not count as a jump, whatever their neighbours are.
 constexpr double k_close_psnr = 45; // dB
 
-/// Numbers in the text and among the knobs that time may be taken modulo of.
+/// Returns numbers from 1 to 1e5 of the text and the knobs, any of which time may be taken modulo of.
 std::vector<double> possible_periods(const scene::Scene& scene) {
     std::set<double> periods;
     const auto note = [&](double number) {
@@ -40,12 +40,12 @@ std::vector<double> possible_periods(const scene::Scene& scene) {
     return {periods.begin(), periods.end()};
 }
 
-/// How alike, dB.
+/// PSNRs of pictures around a moment, dB.
 struct Jump {
     image::Image after;   ///< the picture just after the moment
-    double psnr = 0;      ///< the pictures an instant before and after the moment
-    double elsewhere = 0; ///< their neighbours, the less alike ones; infinite: nothing moves there
-    bool wraps = false;   ///< what moves is after the moment where it was at its start
+    double psnr = 0;      ///< of the pictures half an instant before and after the moment
+    double elsewhere = 0; ///< of each with its other neighbour, the lower one; infinite: nothing moves there
+    bool wraps = false;   ///< the picture after the moment equals that of the start
 
     double drop() const { return std::min(elsewhere, 2 * k_close_psnr) - psnr; }
 };
@@ -71,7 +71,7 @@ Result<Jump> jump_at(ProbeBench& bench, double moment) {
 } // namespace
 
 Result<Answer> ask_horizon(ProbeBench& bench) {
-    TRY(bench.picture(state_at(1))); // what is wrong with the scene itself is no matter of doubles
+    TRY(bench.picture(state_at(1))); // report errors of the scene itself first, not as a lack of doubles
     const auto horizon = find_horizon(bench);
     if (!horizon)
         return Answer{Verdict::not_applicable, "cannot be drawn in double: " + to_string(horizon.error())};
@@ -96,7 +96,8 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
 
 namespace {
 
-/// What no promise covers is a warning: a cut may be meant. That the clock starts again is not.
+/// A jump fails if the clock restarts or the file promises smoothness; otherwise it is a warning, since a cut
+/// may be intended.
 Answer answer_of(const Jump& jump, double moment, bool promised) {
     const std::string elsewhere =
         std::isinf(jump.elsewhere) ? "no change" : fmt::format("{:.1f} dB", jump.elsewhere);
@@ -117,7 +118,7 @@ Result<Answer> ask_time_discontinuity(ProbeBench& bench) {
     const std::vector<double> periods = possible_periods(bench.scene());
     const Promises& promises = bench.promises();
     Answer answer;
-    double worst = 0; // of those with the answer's verdict
+    double worst = 0; // of the findings with the answer's verdict
     for (const double period : periods) {
         const auto jump = TRY(jump_at(bench, period));
         if (!(jump.drop() > promises.smoothest_jump) || jump.psnr > k_close_psnr)
@@ -138,7 +139,7 @@ Result<Answer> ask_hashes(ProbeBench& bench) {
     if (!hashes)
         return Answer{Verdict::not_applicable,
                       "the scene cannot be promoted to double: " + to_string(hashes.error())};
-    std::vector<std::string> found; // of each pass: what stands in Common more than once
+    std::vector<std::string> found; // Common is part of every pass, so list each once
     for (const glsl::KeptHash& hash : *hashes) {
         const std::string said = fmt::format("{}:{}{}", hash.where.file, hash.where.line,
                                              hash.function.empty() ? "" : " " + hash.function);

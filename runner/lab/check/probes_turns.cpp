@@ -1,5 +1,5 @@
-// Whether rays run out of the turns that their march has: as it goes in float, and as bounded by how far each
-// step goes at least.
+// Checks whether rays run out of their march's iterations: in float, and by proved bounds from the least
+// length of each step.
 #include "base/try.hpp"
 #include "ir/turn_bound.hpp"
 #include "lab/check/marching_pass.hpp"
@@ -14,25 +14,26 @@
 namespace tidemark::lab {
 namespace {
 
-/// Of the bound of one ray, or of one for a span of time.
+/// Most evaluations for the bound of one ray, or of one ray over a span of time.
 constexpr uint64_t k_most_of_a_bound = 500;
-/// The span that is looked at, and how far it is cut.
+/// The checked span in seconds, and the shortest part that it is divided into.
 constexpr ir::Interval k_span{0, 10};
 constexpr double k_shortest_span = 10.0 / 16;
-/// Rays that are looked at over it: of so many one.
+/// One in so many rays is checked over the span.
 constexpr size_t k_every = 4;
-/// How far behind its last turn the wall is looked for that ends a march without a limit.
+/// A march without a limit is ended by a wall; it is looked for up to this multiple of the way to the last
+/// iteration.
 constexpr double k_behind = 2;
 
 struct TurnCounts {
     size_t rays = 0, out = 0;
-    size_t looked_at = 0, proved = 0, contradicted = 0; ///< of rays that were to be bounded
-    size_t unfollowed = 0;                              ///< whose step is not one value that each turn adds
-    size_t needed = 0;                                  ///< by a march that does not run out, at most
+    size_t looked_at = 0, proved = 0, contradicted = 0; ///< of the rays to bound
+    size_t unfollowed = 0; ///< their step is not one value that each iteration adds
+    size_t needed = 0;                                  ///< most iterations of a march that does not run out
     uint32_t turns = 0;
     size_t rays_over_time = 0;
-    double proved_seconds = 0; ///< of all of those
-    glm::ivec2 pixel{0};       ///< of the first that runs out
+    double proved_seconds = 0; ///< sum over those rays
+    glm::ivec2 pixel{0};       ///< of the first ray that runs out
     FrameState state{};
     int line = 0;
 };
@@ -46,7 +47,7 @@ public:
     TurnLook(const MarchRays& rays, const FrameState& state, TurnCounts& counts)
         : rays_(rays), state_(state), counts_(counts) {}
 
-    /// As it goes in float.
+    /// Follows a ray in float and counts it.
     void follow(glm::ivec2 pixel) {
         const auto ray = enter(pixel);
         if (!ray)
@@ -60,7 +61,7 @@ public:
             counts_.needed = std::max(counts_.needed, ray->march.turns.size());
     }
 
-    /// Evaluations that it took.
+    /// Bounds the iterations of a ray and counts the result; returns the evaluations it took.
     uint64_t bound(glm::ivec2 pixel) {
         const auto ray = enter(pixel);
         if (!ray)
@@ -87,7 +88,7 @@ public:
 private:
     const ir::MarchingLoop& loop_of(const MarchRay& ray) const { return rays_.function().loops()[ray.loop]; }
 
-    /// One whose loop steps by a distance, and counts its turns.
+    /// Returns the ray if its loop steps by a distance and counts its iterations.
     std::optional<MarchRay> enter(glm::ivec2 pixel) const {
         auto ray = rays_.enter(pixel, ir::Surface::threshold);
         if (!ray || ray->march.turns.empty() || !loop_of(*ray).turns ||
@@ -127,7 +128,7 @@ private:
         return most;
     }
 
-    /// Seconds of the span: the whole, or those of its halves.
+    /// Returns for how many seconds of the span the bound holds, by bisection.
     double proved_of(glm::ivec2 pixel, const ir::Interval& span, size_t loop, double end) {
         if (bound({at(pixel.x), at(pixel.y), span}, loop, end))
             return span.width();

@@ -1,5 +1,5 @@
-// What GLSL leaves undefined: functions outside of their domain, whose value is another thing on every GPU,
-// and indices, shifts, divisions, fetches and conversions beyond their bounds.
+// Checks for what GLSL leaves undefined: functions outside their domain, whose values differ between GPUs,
+// and indices, shifts, divisions, fetches and conversions out of bounds.
 #include "base/try.hpp"
 #include "lab/check/exploration.hpp"
 #include "lab/check/probes.hpp"

@@ -57,7 +57,7 @@ std::string take_ranges(Promises& promises, const Json& ranges) {
     return {};
 }
 
-/// Under its name of version 0.1, too.
+/// Sets one number, also by its name of version 0.1.
 std::string take_number(Promises& promises, std::string name, const Json& value) {
     if (name == "most_witness_percent")
         name = "most_overstep_percent";
@@ -71,14 +71,15 @@ std::string take_number(Promises& promises, std::string name, const Json& value)
     return {};
 }
 
-/// What is wrong with one entry; empty: it was taken.
+/// Applies one entry; returns what is wrong with it, or an empty text.
 std::string take(Promises& promises, const std::string& name, const Json& value) {
     return name == "skip"     ? take_reasons(promises, value)
            : name == "ranges" ? take_ranges(promises, value)
                               : take_number(promises, name, value);
 }
 
-/// Promises that hold under a definition; the others are read, too, so that a mistake is reported at once.
+/// Applies the entries whose definition holds. The others are parsed as well, so that their errors are
+/// reported.
 std::string take_conditional(Promises& promises, const Json& conditional, const DefinitionOf& definition_of) {
     constexpr const char* k_form = "'when' takes {\"NAME=VALUE\": {promises}}";
     if (!conditional.is_object())
@@ -96,13 +97,13 @@ std::string take_conditional(Promises& promises, const Json& conditional, const 
     return {};
 }
 
-/// What is wrong with them all.
+/// Applies all entries; returns what is wrong with the first invalid one, or an empty text.
 std::string take_all(Promises& promises, const Json& entries, const DefinitionOf& definition_of) {
     for (const auto& [name, value] : entries.items())
         if (name != "when")
             if (std::string wrong = take(promises, name, value); !wrong.empty())
                 return wrong;
-    // Last: a condition overrides the plain entries, whatever the order in the file.
+    // Conditional entries come last: they override the plain ones, in any order of the file.
     return entries.contains("when") ? take_conditional(promises, entries["when"], definition_of) : "";
 }
 

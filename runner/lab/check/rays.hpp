@@ -1,5 +1,5 @@
-// What the rays of a scene meet in a situation, in parts of all rays, and how much of that
-// floats lose: what probes of hits have in common.
+// Statistics of a scene's hits in a situation, as percentages of all rays, and the effect of floats on them.
+// Shared by the probes of hits.
 #pragma once
 
 #include "glsl/hit.hpp"
@@ -13,52 +13,60 @@ namespace tidemark::lab {
 
 inline constexpr Extent k_ray_extent{96, 54};
 
-/// Straight, to the horizon, down and grazing, for scenes that turn with the mouse.
+/// Returns four views at 10 s: straight ahead with the mouse untouched and, in scenes that turn with the
+/// mouse, to the horizon, down, and along the surface.
 std::vector<FrameState> usual_views();
-/// The one of them that sees most of the surface.
+/// Returns the one that shows most of the surface.
 FrameState typical_view();
 
+/// Returns the percentage of the rays that `counts` accepts by index.
 double percent(const Hits& hits, const std::function<bool(size_t)>& counts);
+/// Returns the percentage of the rays with that flag.
 double flagged(const Hits& hits, glsl::HitFlag flag);
-/// In percent: rays whose distance is NaN, infinite, or negative without being a miss.
+/// Returns the percentage of the rays without a valid distance: NaN, infinite, or negative without being a
+/// miss.
 double unanswered(const Hits& hits);
 double mean_evaluations(const Hits& hits);
 
-/// The distances in grey, the nearest white; the rays that `marks` names, and those without an answer,
-/// magenta.
+/// Draws the distances in grey, the nearest white. Rays for which `marks` is true, and those without a valid
+/// distance, are magenta.
 image::Image ray_map(const Hits& hits, Extent extent, const std::function<bool(size_t)>& marks);
 
-/// Of the usual views that with the most rays of that flag.
+/// The usual view with the most rays of a flag.
 struct FlaggedRays {
     double percent = 0;
     FrameState where{};
-    image::Image map{}; ///< of them
+    image::Image map{}; ///< of those rays
 };
-/// Of a scene whose hits are known.
+/// Requires known hits (ProbeBench::has_hits).
 Result<FlaggedRays> most_flagged(ProbeBench& bench, glsl::HitFlag flag);
 
-/// `warns`: of a mainHit that does not compile, too.
+/// Returns the answer for a scene without known hits. `warns`: a mainHit that does not compile is a warning,
+/// not a reference to the probe that reports it.
 Answer without_hits(const ProbeBench& bench, bool warns = false);
 
-/// Of a march that is recorded and does not see_below.
+/// Returns the answer for a recorded march for which ProbeBench::sees_below is false.
 Answer without_sign();
 
-/// `fail` of a scene that says what its rays meet; of a march that is recorded its author promised nothing.
+/// Returns the verdict for faulty hits: `fail` for a mainHit, `warn` for a recorded march, whose author
+/// promised nothing.
 Verdict fault(const ProbeBench& bench);
 
-/// A view in floats and in doubles; parts of all rays, percent.
+/// The hits of one view in float and in double.
 struct FloatMismatch {
     Hits in_float;
     Hits in_double;
-    /// Float hits something else: further off than a pixel is wide there.
+    /// Per ray: float hits where double misses or the reverse, or their distances differ by more than a
+    /// pixel's width there.
     std::vector<bool> mismatched;
     double mismatched_percent = 0;
-    image::Image map; ///< of them
+    image::Image map; ///< with the mismatched rays marked
 };
-/// The error of a scene that cannot be promoted.
+/// Fails if the scene cannot be promoted to double.
 Result<FloatMismatch> float_mismatch(ProbeBench& bench, const FrameState& state);
 
-/// Of the rays, that may differ where float and double agree: silhouettes depend on the last bit.
-inline constexpr double k_same = 1; // percent
+/// Percentage of the rays that may mismatch although float and double agree: silhouettes depend on the last
+/// bit.
+inline constexpr double k_same = 1;
 
 } // namespace tidemark::lab

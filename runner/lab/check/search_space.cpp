@@ -9,31 +9,31 @@
 namespace tidemark::lab {
 namespace {
 
-constexpr size_t k_text_numbers = 40; ///< moments that stand in the text
+constexpr size_t k_text_numbers = 40; ///< most moments taken from the text
 constexpr int k_early_moments = 128;  ///< in the first k_early seconds
 constexpr double k_early = 128;
-constexpr int k_late_moments = 32; ///< up to k_latest seconds
+constexpr int k_late_moments = 32; ///< from k_early to k_latest seconds
 constexpr double k_latest = 1e5;
 constexpr int k_knob_values = 8; ///< of each component
 constexpr size_t k_most_knob_values = 128;
 constexpr int k_mouse_places = 32;
 constexpr int k_mixed = 48;
 
-/// Number i of a sequence whose every beginning is spread evenly over [0, 1).
+/// Returns element i of a sequence whose every prefix is spread evenly over [0, 1).
 double spread(int i, double step) {
     double whole = 0;
     return std::modf(0.5 + i * step, &whole);
 }
 constexpr double k_golden = 0.6180339887498949;
-/// For two numbers at once.
+/// Steps for two coordinates at once.
 constexpr double k_plastic[] = {0.7548776662466927, 0.5698402909980532};
 
-/// Moments and values that a person reads: the search's own digits mean nothing.
+/// Rounds to a multiple of `step`, so that moments and values in messages stay short.
 double rounded(double value, double step) {
     return std::round(value / step) * step;
 }
 
-/// Those of the text, first those beside iTime, and what lies between them.
+/// Returns numbers of the text, those in a statement with iTime first, then the midpoints between neighbours.
 std::vector<double> moments_of_text(const scene::Scene& scene) {
     std::vector<double> numbers;
     const auto add = [&](double value) {
@@ -74,13 +74,13 @@ std::vector<SearchAxis> axes_of(const scene::Scene& scene, const Promises& promi
     return axes;
 }
 
-/// One from each list in turn, until all are empty.
+/// Merges the lists, each spread evenly over the result.
 std::vector<SearchPoint> in_turn(std::vector<std::vector<SearchPoint>> lists) {
     std::vector<SearchPoint> points;
     size_t longest = 0;
     for (const auto& list : lists)
         longest = std::max(longest, list.size());
-    // A long list comes more often than a short one, so that all end together.
+    // Each round takes a share of every list, so that all end together.
     for (size_t turn = 0; turn < longest; ++turn)
         for (auto& list : lists)
             for (size_t i = turn * list.size() / longest; i < (turn + 1) * list.size() / longest; ++i)

@@ -1,4 +1,4 @@
-// The moments, knobs and places of the mouse in which a scene can be: what a search moves in. Values only.
+// The space of moments, knobs and mouse positions in which a search moves. Values only; nothing is drawn.
 #pragma once
 
 #include "lab/check/probe_state.hpp"
@@ -14,12 +14,12 @@ namespace tidemark::lab {
 
 struct SearchPoint {
     double time = 1;                     ///< seconds
-    std::vector<scene::KnobValue> knobs; ///< one for each of the scene's
-    std::optional<glm::dvec2> mouse{};   ///< shares of the picture; none: never touched
-    bool down = true;                    ///< the mouse's button
+    std::vector<scene::KnobValue> knobs; ///< one value per knob of the scene
+    std::optional<glm::dvec2> mouse{};   ///< fractions of the picture; none: never touched
+    bool down = true;                    ///< state of the mouse button
 };
 
-/// One number of a point.
+/// One coordinate of a point.
 struct SearchAxis {
     enum class Kind { time, knob, mouse } kind = Kind::time;
     size_t knob = 0;
@@ -28,7 +28,7 @@ struct SearchAxis {
     double high = 1;
 };
 
-/// What of it the scene reads.
+/// The inputs, besides knobs, that the scene reads.
 struct SearchInputs {
     bool time = false;
     bool mouse = false;
@@ -40,8 +40,8 @@ public:
 
     const std::vector<SearchAxis>& axes() const { return axes_; }
     SearchPoint plain() const;
-    /// Points spread evenly over all that the scene reads, the numbers of its text among them, in an order in
-    /// which any beginning of the list is spread so, too.
+    /// Returns points spread evenly over all inputs that the scene reads, including numbers from its text.
+    /// Every prefix of the list is spread evenly, too.
     std::vector<SearchPoint> survey() const;
 
     FrameState state(const SearchPoint& point, Extent extent) const;

@@ -1,5 +1,5 @@
-// What glsl/analysis finds in a text, in words: for the probes of a text, and for whoever reads it beside
-// them.
+// Describes the findings of glsl/analysis for messages. Used by the probes of texts, by fixes and by the
+// language server.
 #pragma once
 
 #include "glsl/analysis/divergence.hpp"
@@ -13,23 +13,24 @@
 
 namespace tidemark::lab {
 
-/// `, on some path`: behind the name of what has no value.
+/// Returns, for example, `, on some path`, to follow the name of the variable without a value.
 std::string_view words_for(glsl::Unassigned::Why why);
-/// The word of a text that it is about.
+/// Returns the token of the text that the finding points to.
 size_t word_without_value(const glsl::ParsedText& text, const glsl::Unassigned& each);
 
-/// `sum (a.glsl:4)`, `hit (a.glsl:9, an `out` that some path does not write)`; empty: not the author's.
+/// Returns, for example, `sum (a.glsl:4)` or `hit (a.glsl:9, an `out` that some path does not write)`; empty
+/// if the place is in generated text.
 std::string sentence_for(const glsl::ParsedText& text, const glsl::Unassigned& each);
 
-/// `texture needs neighbouring pixels, which may have taken another branch: …`.
+/// Returns, for example, `texture needs neighbouring pixels, which may have taken another branch: …`.
 std::string words_for(const glsl::ParsedText& text, const glsl::Divergent& each);
-/// `x counts 11 turns, where its numbers make 10: each step is rounded`.
+/// Returns, for example, `x counts 11 turns, where its numbers make 10: each step is rounded`.
 std::string words_for(const glsl::FloatCounter& counter);
 
-/// `neighbours may branch at a.glsl:3`, `called after the return at a.glsl:4`.
+/// Returns, for example, `neighbours may branch at a.glsl:3` or `called after the return at a.glsl:4`.
 std::string words_for(const glsl::ParsedText& text, const glsl::DivergentBranch& branch);
 
-/// Which samplers of a pass have mipmaps, by name. The pass must live as long.
+/// Returns a predicate that is true for the names of samplers with mipmaps. `pass` must outlive it.
 std::function<bool(std::string_view sampler)> which_have_mipmaps(const scene::Pass& pass);
 
 } // namespace tidemark::lab

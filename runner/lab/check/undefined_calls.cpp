@@ -16,14 +16,14 @@
 namespace tidemark::lab {
 namespace {
 
-/// A GPU may give 0 where others give NaN or another number: the pixels that then differ visibly.
+/// Returns the share of pixels that differ visibly: a GPU may give 0 where others give NaN or another number.
 double differing(const image::Image& left, const image::Image& right) {
     return image::compare(left, right, 1.0 / 255)->differing_share();
 }
 
-/// Calls whose part in the picture is looked at, in one pass: two pictures each.
+/// Most calls per pass whose effect is measured; each needs two pictures.
 constexpr size_t k_most_calls = 16;
-/// Situations that a search adds to those of everyday.
+/// Situations that the search adds to the ordinary ones.
 constexpr size_t k_most_explored = 6;
 
 class DomainProbe {
@@ -91,7 +91,7 @@ Result<std::vector<PictureView>> usual_views(ProbeBench& bench) {
     for (const Outside& outside : (explored)->outside) {
         if (outside.bound || all.size() >= 3 + k_most_explored)
             continue;
-        // As many pixels as those of everyday, in the same place.
+        // Use as many pixels as in the ordinary views, at the same place.
         const Extent whole = outside.where.extent;
         const int stride = std::min(outside.grid.stride, whole.width / size.width);
         const auto first = [&](int at, int count, int of) {

@@ -1,4 +1,4 @@
-// Calls outside of a function's domain, and how much of the picture depends on what a GPU makes of them. A
+// Finds calls outside a function's domain and measures how much of the picture depends on their value. A
 // context must be current.
 #pragma once
 
@@ -10,27 +10,27 @@
 
 namespace tidemark::lab {
 
-/// A moment, and the pixels that are drawn of it.
+/// A moment and the pixels that are drawn of it.
 struct PictureView {
     FrameState state;
     PixelGrid grid{};
 };
 
-/// Everyday, and those in which a search saw values leave their domain.
+/// Returns three ordinary views, and up to six in which the search saw floats leave a function's domain.
 Result<std::vector<PictureView>> usual_views(ProbeBench& bench);
 
-/// A call that was undefined, with what depends on it.
+/// An undefined call and its effect.
 struct UndefinedCall {
     std::string sentence;
-    size_t pass = 0; ///< of the scene
+    size_t pass = 0; ///< index in the scene
     glsl::NodeId node = glsl::k_no_node;
-    double percent = 0; ///< of the pixels; 0: none shows it
+    double percent = 0; ///< of the pixels that depend on it; 0: none
     FrameState where;
-    image::Image picture; ///< those pixels
+    image::Image picture; ///< the difference that those pixels show
 };
 
-/// The most visible first. `texts` as they are linked (read_texts, not as written). The error is that of a
-/// driver which refuses the text that reports.
+/// Returns the undefined calls of the views, the most visible first. `texts` come from read_texts with
+/// as_written = false. Fails if the driver refuses the instrumented text.
 Result<std::vector<UndefinedCall>> find_undefined(ProbeBench& bench, const std::vector<PassText>& texts,
                                                   const std::vector<PictureView>& views);
 

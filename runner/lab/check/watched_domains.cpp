@@ -31,7 +31,7 @@ void WatchedDomains::set(int site, double value, const PixelGrid& grid, size_t o
 std::vector<uint32_t> WatchedDomains::draw(const PassPreview& preview, const PixelGrid& grid) {
     const ShaderWords words(std::max<size_t>(watch_.words(), 1));
     set(-1, 0, grid, watch_.objectives.size());
-    gl::clear(stand_in_.target()); // of what an earlier draw left where this one discards
+    gl::clear(stand_in_.target()); // pixels that this draw discards would keep an earlier draw's values
     stand_in_.draw(preview);
     return words.read();
 }

@@ -1,5 +1,5 @@
-// A pass that watches its domains (glsl/instrument/domains.hpp), drawn in its place. A context must be
-// current.
+// Draws a pass with an instrumented text that reports its domains (glsl/instrument/domains.hpp). A context
+// must be current.
 #pragma once
 
 #include "glsl/instrument/domains.hpp"
@@ -15,19 +15,20 @@ namespace tidemark::lab {
 
 class WatchedDomains {
 public:
-    /// `part`: the size of what is drawn of the pass. Where the driver refuses the text with all of it
-    /// watched, the functions of floats are.
+    /// Links the instrumented text; `part` is the size to draw. If the driver refuses it with everything
+    /// instrumented, only functions of floats are.
     static Result<WatchedDomains> link(const PassPreview& preview, const PassText& pass, Extent part);
 
     const glsl::DomainWatch& watch() const { return watch_; }
 
-    /// What the sites met and how near the objectives came.
+    /// Draws the grid and returns the buffer: what each site reached and how near each objective came.
     std::vector<uint32_t> draw(const PassPreview& preview, const PixelGrid& grid);
-    /// What the pass shows where that site gives `value` outside of its domain, and all others 0.
+    /// Draws the pass with `value` as the result of that site outside its domain, and 0 for all other sites.
+    /// `site` may be one past the last: 0 for all.
     image::Image picture_with(const PassPreview& preview, const PixelGrid& grid, size_t site, double value);
-    /// What the last draw made.
+    /// Returns whether the last drawn picture is finite.
     bool finite() const;
-    /// Where in the picture a pixel is that the buffer numbers.
+    /// Returns the place in the picture of a pixel that the buffer numbers.
     glm::ivec2 pixel(const PixelGrid& grid, uint32_t number) const;
 
 private:

@@ -33,7 +33,7 @@ Result<ExpectedJson> read_expected(const fs::path& project) {
     return expected;
 }
 
-/// What people did before a frame, one frame after the other.
+/// Mouse and keyboard, moved by the events before each frame.
 struct Hands {
     render::Mouse mouse;
     render::Keyboard keyboard;
@@ -70,7 +70,7 @@ Result<render::FrameInputs> inputs_of_expected(const ExpectedJson& frame, const 
     return inputs;
 }
 
-/// One expected pixel: red, green, blue and, where it is given, alpha.
+/// Checks one pixel: red, green, blue and, if given, alpha.
 Result<void> pixel_is(const Image& image, int x, int y, const ExpectedJson& wanted, double tolerance) {
     const size_t at = 4 * (size_t(y) * size_t(image.extent.width) + size_t(x));
     for (size_t channel = 0; channel < wanted.size(); ++channel) {
@@ -94,7 +94,7 @@ Result<void> picture_is(const Image& image, const ExpectedJson& frame) {
     return {};
 }
 
-/// Samples of the Sound pass: [number, left, right] in 16 bits; a row by itself, and the block that has it.
+/// Checks samples of the Sound pass, [number, left, right] in 16 bits, in a row drawn alone and in its block.
 Result<void> sound_is(const scene::Scene& scene, const ExpectedJson& samples) {
     auto renderer = TRY(render::SoundRenderer::create(scene, render::Date{}));
     for (const ExpectedJson& sample : samples) {
@@ -176,7 +176,7 @@ Result<std::string> convention_of(const fs::path& project) {
 Result<void> conforms(const fs::path& project, render::RenderOptions options) {
     try {
         return is_drawn_as_expected(project, std::move(options));
-    } catch (const ExpectedJson::exception& error) { // a file that is not what the README says
+    } catch (const ExpectedJson::exception& error) { // the file does not have the documented format
         return fail(ErrorCode::load,
                     fmt::format("'{}': {}", (project / "expected.json").string(), error.what()));
     }

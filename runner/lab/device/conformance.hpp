@@ -1,5 +1,5 @@
-// ShaderToy's semantics as pixels worked out by hand: a project that is drawn, and what its rule makes of it
-// (tests/cases/conformance/README.md says how one is written).
+// Checks ShaderToy's semantics: draws small projects and compares pixels and sounds with values worked out by
+// hand (tests/cases/conformance/README.md has the format).
 #pragma once
 
 #include "base/result.hpp"
@@ -11,14 +11,14 @@
 
 namespace tidemark::lab {
 
-/// The projects in a folder, each in one of its own, by name.
+/// Returns the folder's subfolders, one project each, sorted by name.
 std::vector<std::filesystem::path> conformance_projects(const std::filesystem::path& folder);
 
-/// The rule that the project in that folder is about.
+/// Returns the name of the rule that the project checks.
 Result<std::string> convention_of(const std::filesystem::path& project);
 
-/// Draws it, in size and samples its own. Fails with the first pixel or sample of sound that is another one
-/// than the rule's, or as reading and compiling the project do.
+/// Draws the project in its own size and sample type. Fails with the first pixel or sound sample that differs
+/// from the rule, or if the project cannot be read or compiled.
 Result<void> conforms(const std::filesystem::path& project, render::RenderOptions options = {});
 
 } // namespace tidemark::lab

@@ -1,6 +1,6 @@
-// What a device can be trusted with, a question each: what it draws is held against IEEE 754, the precision
-// that Vulkan asks of GLSL's functions, and itself. A context must be current; nothing is read but our own
-// small texts.
+// Checks of a GPU and its driver: compares what they draw with IEEE 754, with the precision that Vulkan
+// requires of GLSL's functions, and with other drawings. It draws only small texts of its own. A context must
+// be current.
 #pragma once
 
 #include "base/result.hpp"
@@ -12,7 +12,7 @@
 
 namespace tidemark::lab {
 
-/// `warn`: scenes may look otherwise here than on other devices. `fail`: numbers of ours would be wrong.
+/// `warn`: scenes may look different from other devices. `fail`: Tidemark's numbers would be wrong.
 struct DeviceAnswer {
     Verdict verdict = Verdict::pass;
     std::string sentence;
@@ -23,7 +23,7 @@ struct DeviceCheck {
     Result<DeviceAnswer> (*ask)();
 };
 
-/// In the order they are asked: the cheap ones first.
+/// Returns all checks in the order in which they run: the cheap ones first.
 std::span<const DeviceCheck> device_checks();
 
 } // namespace tidemark::lab

@@ -1,4 +1,4 @@
-// The questions, by what they look at.
+// The check functions, by subject.
 #pragma once
 
 #include "lab/device/device_check.hpp"
@@ -21,7 +21,7 @@ Result<DeviceAnswer> ask_repeatability();
 Result<DeviceAnswer> ask_tiles();
 Result<DeviceAnswer> ask_loops();
 
-// What else the driver offers (driver_checks.cpp).
+// Other driver features (driver_checks.cpp).
 Result<DeviceAnswer> ask_program_cache();
 Result<DeviceAnswer> ask_timer();
 Result<DeviceAnswer> ask_reset();

@@ -14,7 +14,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// Every pixel another way through functions, derivatives and branches, and one that keeps the last bit.
+/// Each pixel takes another path through functions, derivatives and branches, and keeps every bit.
 constexpr std::string_view k_busy = R"(void mainImage(out vec4 c, in vec2 p) {
     vec2 z = p / iResolution.y + iTime;
     for (int i = 0; i < 40; ++i) {
@@ -41,14 +41,14 @@ Result<image::Image> drawn(std::string_view text, const render::RenderOptions& o
     return renderer.read_back();
 }
 
-/// PCG's hash, as sample_drawing.cpp has it for the device.
+/// Computes the PCG hash, as the text in sample_drawing.cpp does on the device.
 uint32_t bits(uint32_t n) {
     n = n * 747796405U + 2891336453U;
     n = ((n >> ((n >> 28U) + 4U)) ^ n) * 277803737U;
     return (n >> 22U) ^ n;
 }
 
-/// A pattern of bits that is a normal number.
+/// Changes a bit pattern to a normal number if it is not one.
 uint32_t normal(uint32_t pattern) {
     const uint32_t exponent = pattern & 0x7F800000U;
     return exponent == 0 || exponent == 0x7F800000U ? pattern ^ 0x40000000U : pattern;
@@ -107,8 +107,8 @@ Result<DeviceAnswer> ask_read_ahead() {
         fmt::format("{} pictures read behind the drawing have the bytes of those read at once", k_frames)};
 }
 
-/// OpenGL lets a driver take either neighbour of a colour between two levels. NVIDIA's H100 keeps 12 bits of
-/// it before it rounds: a colour up to 0.06 of a level above the middle goes to the lower one.
+/// Checks rounding to bytes. OpenGL allows either neighbour for a colour between two levels. NVIDIA's H100
+/// keeps 12 bits before it rounds: a colour up to 0.06 of a level above the middle becomes the lower level.
 Result<DeviceAnswer> ask_bytes() {
     auto renderer = TRY(renderer_of("void mainImage(out vec4 c, in vec2 p) {"
                                     "  float k = floor(p.x); c = vec4(k, k - 0.4, k + 0.4, k * 2.0) / 255.0;"
@@ -129,7 +129,8 @@ Result<DeviceAnswer> ask_repeatability() {
     std::vector<image::Image> pictures;
     for (int program = 0; program < 2; ++program) {
         auto renderer = TRY(renderer_of(k_busy, options_of(k_extent)));
-        for (const double time : {0.0, 1.0, 0.0, 1.0, 0.0}) { // what has not changed would not be drawn again
+        // Alternate, as an unchanged picture is not drawn again.
+        for (const double time : {0.0, 1.0, 0.0, 1.0, 0.0}) {
             renderer.draw({.time = time});
             if (time == 0.0)
                 pictures.push_back(renderer.read_back());

@@ -44,7 +44,7 @@ Result<DeviceAnswer> ask_timer() {
             const auto told = timer.milliseconds();
             if (!told)
                 return DeviceAnswer{Verdict::warn, "the driver has no timer: times are by the wall clock"};
-            if (frame > 0) // the first still compiles
+            if (frame > 0) // the first frame includes compilation
                 clocks.add(*told, watch.elapsed().wall);
         }
     }

@@ -12,15 +12,15 @@ namespace {
 constexpr int k_samples = 1 << 16;
 constexpr double k_pi = 3.14159265358979323846;
 
-/// A function of GLSL where its precision is bounded: by what Vulkan 1.3 (Precision and Operation of SPIR-V
-/// Instructions) asks of it there. GLSL itself asks less, or nothing.
+/// A GLSL function over a range in which its precision is bounded by Vulkan 1.3 (Precision and Operation of
+/// SPIR-V Instructions). GLSL itself requires less, or nothing.
 struct BoundedFunction {
-    std::string_view expression; ///< of x
+    std::string_view expression; ///< in x
     double low, high;
     double (*truth)(double);
-    double absolute;       ///< allowed error; 0: by ulps alone
-    double ulps;           ///< and this many, or
-    double ulps_per_x = 0; ///< more by this for each unit of |x|
+    double absolute;       ///< allowed absolute error; 0: use ulps
+    double ulps;           ///< allowed error in ulps
+    double ulps_per_x = 0; ///< additional ulps per unit of |x|
 };
 
 constexpr BoundedFunction k_functions[] = {
@@ -36,7 +36,7 @@ constexpr BoundedFunction k_functions[] = {
     {"atan(x)", -100, 100, [](double x) { return std::atan(x); }, 0, 4096},
 };
 
-/// The largest share of what is allowed, at `at`.
+/// The largest error as a share of the allowed one, and the x it occurs at.
 struct LargestShare {
     double share = 0;
     double error = 0;
@@ -53,7 +53,7 @@ Result<LargestShare> look_at(const BoundedFunction& function) {
         const double allowed = function.ulps + function.ulps_per_x * std::abs(double(x));
         const double error = function.absolute > 0 ? std::abs(double(got) - truth) : ulps;
         const double share = function.absolute > 0 ? error / function.absolute : error / allowed;
-        if (!(share <= largest.share)) // a NaN is the largest
+        if (!(share <= largest.share)) // also true for a NaN share
             largest = {share, error, double(x)};
     }
     return largest;
@@ -99,7 +99,7 @@ Result<DeviceAnswer> ask_large_sines() {
             fmt::format("float x = spread(i, {0:f}, {1:f}); c.rg = vec2(x, sin(x));", -range, range),
             k_samples));
         const double error = largest_error_of_sine(samples);
-        if (!(error <= 1e-5)) // a hash takes the fifth digit, and those behind it
+        if (!(error <= 1e-5)) // hashes use the fifth digit and those after it
             verdict = Verdict::warn;
         sentence += fmt::format("{}{:.2g} up to |x| = {:g}", sentence.empty() ? "sin(x) is off by " : ", ",
                                 error, range);

@@ -13,17 +13,17 @@ namespace {
 
 constexpr int k_number_samples = 1 << 16;
 
-/// Two floats of either sign and some 40 binary orders of magnitude.
+/// Two floats of any sign over 40 binary orders of magnitude.
 constexpr std::string_view k_two_floats =
     "float a = uintBitsToFloat((bits(2u * i) & 0x807FFFFFu) | ((107u + bits(7u * i) % 40u) << 23));"
     "float b = uintBitsToFloat((bits(3u * i) & 0x807FFFFFu) | ((107u + bits(5u * i) % 40u) << 23));";
 
-/// `result`: an expression of a and b.
+/// Returns a, b and `result`, an expression of both.
 Result<std::vector<Sample>> of_two_floats(std::string_view result) {
     return samples_of(fmt::format("{} c.rgb = vec3(a, b, {});", k_two_floats, result), k_number_samples);
 }
 
-/// How many are not what IEEE 754 has.
+/// Counts results that differ from those of IEEE 754.
 Result<int> wrongly_rounded(std::string_view expression, float (*truth)(float, float)) {
     int wrong = 0;
     for (const auto& [a, b, got] : TRY(of_two_floats(expression)))
@@ -38,13 +38,13 @@ Result<double> largest_float_error(std::string_view expression, double (*truth)(
     return largest;
 }
 
-/// The double that a sample has as three numbers, of 22, 22 and 20 bits.
+/// Returns the double that a sample encodes as three numbers of 22, 22 and 20 bits.
 double double_in(const Sample& sample) {
     const auto part = [&](size_t i) { return uint64_t(sample[i]); };
     return std::bit_cast<double>(part(0) | part(1) << 22 | part(2) << 44);
 }
 
-/// In units in the last place of the truth, which `truth` gives for the number of the sample.
+/// Returns the largest error in ulps of the true value; `truth` takes x, the sample's number plus 2.
 Result<double> largest_double_error(std::string_view expression, double (*truth)(double)) {
     const std::vector<Sample> samples =
         TRY(samples_of(fmt::format("double x = double(i) + 2.0lf; uvec2 u = unpackDouble2x32({});"
@@ -63,7 +63,7 @@ Result<double> largest_double_error(std::string_view expression, double (*truth)
 } // namespace
 
 Result<DeviceAnswer> ask_special_values() {
-    // iTime is 0, and no compiler knows.
+    // iTime is 0, and compilers cannot assume it.
     const Sample told = TRY(samples_of("float none = iTime / iTime, far = 1.0 / iTime;"
                                        "c.rgb = vec3(isnan(none), none != none, isinf(far));",
                                        1))[0];
@@ -120,7 +120,7 @@ Result<DeviceAnswer> ask_contraction() {
 Result<DeviceAnswer> ask_doubles() {
     const double quotient = TRY(largest_double_error("1.0lf / x", [](double x) { return 1.0 / x; }));
     const double root = TRY(largest_double_error("sqrt(x)", [](double x) { return std::sqrt(x); }));
-    // GLSL asks nothing of them. Four units are far below any error that is told of a picture.
+    // GLSL sets no limit for doubles. Four ulps are far below any error reported of a picture.
     constexpr double k_harmless = 4;
     return DeviceAnswer{
         quotient <= k_harmless && root <= k_harmless ? Verdict::pass : Verdict::fail,

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int k_row = 256;
 
-// The hash is that of PCG (O'Neill 2014), integers only: the same everywhere.
+// PCG's hash (O'Neill 2014) uses integers only, so it is the same everywhere.
 constexpr std::string_view k_frame = R"(uint bits(uint n) {{
     n = n * 747796405u + 2891336453u;
     n = ((n >> ((n >> 28u) + 4u)) ^ n) * 277803737u;

@@ -1,4 +1,4 @@
-// Numbers that a device computed: a text of our own is drawn, a sample each pixel.
+// Computes numbers on the device by drawing a text, one sample per pixel.
 #pragma once
 
 #include "base/result.hpp"
@@ -10,17 +10,18 @@
 
 namespace tidemark::lab {
 
-/// A text with mainImage.
+/// Returns a renderer for a text with mainImage.
 Result<render::Renderer> renderer_of(std::string_view text, const render::RenderOptions& options);
 
-/// Red, green and blue: the alpha of an image is 1.
+/// Red, green and blue of a pixel; an image's alpha is always 1.
 using Sample = std::array<float, 3>;
 
-/// `statements` see `uint i`, the number of the pixel, `uint bits(uint)`, a hash, and `float spread(uint, a,
-/// b)`, numbers evenly between two; they assign `c.rgb`. `count` is rounded up to whole rows.
+/// Runs `statements` per sample and returns the results. They may use `uint i`, the sample's number, `uint
+/// bits(uint)`, a hash, and `float spread(uint, a, b)`, a uniform number between a and b, and must assign
+/// `c.rgb`. `count` is rounded up to whole rows of 256.
 Result<std::vector<Sample>> samples_of(std::string_view statements, int count);
 
-/// How far apart two numbers are, in units in the last place that floats have at `truth`.
+/// Returns the distance of two numbers in units in the last place of a float at `truth`.
 double ulps_between(double truth, float got);
 
 } // namespace tidemark::lab

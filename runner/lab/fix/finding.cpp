@@ -28,11 +28,12 @@
 namespace tidemark::lab {
 namespace {
 
-/// The probes that look for what is not finite.
+/// The probes for NaN and infinity.
 constexpr Result<Answer> (*k_finite_probes[])(ProbeBench&) = {ask_times,  ask_frames, ask_mouse, ask_sizes,
                                                               ask_inputs, ask_knobs,  ask_search};
 
-/// Several probes may come to one place, and what stands in Common is found in several passes.
+/// Adds a finding unless one has the same sentence: several probes may find one place, and Common is part of
+/// several passes.
 void add_once(CurableFindings& found, Finding finding) {
     if (std::ranges::find(found.all, finding.sentence, &Finding::sentence) == found.all.end())
         found.all.push_back(std::move(finding));
@@ -78,8 +79,8 @@ private:
                           glsl::domain_guards(*pass->text, pass->facts, call.node)});
     }
 
-    /// Of a picture that is not finite: the first operation that was not, and the one whose cure is said to
-    /// cure the pixel.
+    /// Traces a picture that is not finite. Adds the first operation that was not finite and the one whose
+    /// fix, by the trace, makes the pixel finite.
     Result<void> add_origins(const FrameState& where) {
         const scene::Scene scene = TRY(in_state(bench_.scene(), where));
         auto renderer =
@@ -100,7 +101,7 @@ private:
         return {};
     }
 
-    /// One may hide behind the other: a pixel that is not finite for two reasons.
+    /// Adds a fix of both operations to the first finding, for a pixel that is not finite for two reasons.
     static void cure_both(Finding& one, const Finding& other) {
         if (!one.cures.empty() && !other.cures.empty())
             one.cures.push_back(all_of({one.cures.front(), other.cures.front()}));
@@ -118,7 +119,7 @@ private:
         add_once(found_, std::move(finding));
     }
 
-    /// Of the operation that a trace names by its place and its words.
+    /// Returns the guards for the operation that a trace names by its place and text.
     static std::vector<glsl::Cure> guards_of(const PassText& pass, const NanOrigin& origin) {
         const WatchedText watched{*pass.text, pass.facts};
         const auto& nodes = pass.text->tree().nodes;
@@ -138,7 +139,7 @@ private:
     CurableFindings found_{};
 };
 
-/// A finding of a text, with the one cure that may be known.
+/// Returns a finding of a text, with at most one fix.
 Finding found_in_text(Finding::Kind kind, std::string sentence, std::optional<glsl::Cure> cure) {
     Finding finding{kind, std::move(sentence), {}, {}};
     if (cure)
@@ -173,8 +174,7 @@ void add_divergent(CurableFindings& found, const PassText& pass, const scene::Pa
         }
 }
 
-/// What is wrong with the rays of a scene that marches: by proof where they end, and whether they run out of
-/// steps.
+/// Finds faults of a marching scene's rays: wrong first hits, by proof, and rays that run out of steps.
 class RayFinder {
 public:
     RayFinder(ProbeBench& bench, const std::vector<PassText>& texts, CurableFindings& found)
@@ -219,7 +219,7 @@ private:
         const auto lines = lines_of(*pass.function, pass.function->loops().front());
         std::vector<glsl::Cure> cures;
         if (const PassText* const text = text_of(pass)) {
-            // Only floats run out of steps: they wait for less than rounding leaves.
+            // If rays run out of steps in float only, the threshold is below the rounding error.
             const Verdict epsilon = TRY(ask_epsilon(bench_)).verdict;
             if (epsilon == Verdict::fail || epsilon == Verdict::warn)
                 cures = glsl::larger_threshold(*text->text, text->facts, place_of_march(lines));
@@ -249,10 +249,10 @@ private:
     CurableFindings& found_;
 };
 
-/// So many expressions are tried alone; then, and beyond that, all at once.
+/// Most expressions to try one by one; after these all are tried at once.
 constexpr size_t k_most_alone = 6;
 
-/// Changes that are equal in real arithmetic, of all passes; what stands in Common once.
+/// Returns changes of all passes that are equal in real arithmetic; those in Common only once.
 std::vector<glsl::Cure> equal_texts(const std::vector<PassText>& texts) {
     std::vector<glsl::Cure> cures;
     for (const PassText& pass : texts)
@@ -263,8 +263,8 @@ std::vector<glsl::Cure> equal_texts(const std::vector<PassText>& texts) {
     return cures;
 }
 
-/// What differs visibly from the picture in double at the first moment that does, as far as the scene
-/// promises to look the same; only where something could be written instead.
+/// Adds the first moment at which float and double differ visibly, if it is before the promised one. Only if
+/// there are changes that may help.
 void add_rounding(ProbeBench& bench, CurableFindings& found, const std::vector<PassText>& texts) {
     std::vector<glsl::Cure> cures = equal_texts(texts);
     if (cures.empty())
@@ -286,12 +286,12 @@ void add_rounding(ProbeBench& bench, CurableFindings& found, const std::vector<P
          horizon->mismatch->state, std::move(cures), horizon->good == 0});
 }
 
-/// By file; Common stands in several passes.
+/// Adds the hashes of large sines, those in Common only once.
 void add_hashes(CurableFindings& found, const std::vector<PassText>& texts) {
     for (const PassText& pass : texts)
         for (glsl::Cure& cure : glsl::whole_hashes(*pass.text, pass.facts)) {
             std::vector<std::string> places;
-            for (size_t i = 1; i < cure.wraps.size(); ++i) // the first is the function that hashes
+            for (size_t i = 1; i < cure.wraps.size(); ++i) // the first wrap inserts the hash function
                 places.push_back(
                     fmt::format("{}:{}", cure.wraps[i].first.where.file, cure.wraps[i].first.where.line));
             add_once(found, found_in_text(Finding::Kind::hash,

@@ -21,16 +21,17 @@ namespace {
 
 using Kind = Finding::Kind;
 
-/// A guard leaves pixels that met nothing undefined as they are. Others may change though they were finite,
-/// where a clamp hid the NaN; by more than this, and it is another picture.
+/// Largest mean FLIP of a fix that should keep the picture. A guard only changes pixels that were undefined;
+/// finite pixels may change if a clamp masked their NaN.
 constexpr double k_most_flip = 0.02;
-/// Of the pixels that a fault shows in: the percentage counts what differs visibly.
+/// Share of changed pixels allowed in addition to the fault's, which counts visible changes only.
 constexpr double k_rounding = 0.01;
-/// Nobody knows what the picture should be where it is undefined: of more than this a person has to judge.
+/// Largest share of changed pixels that a fix of undefined calls may have. What the picture should be there
+/// is unknown, so the user has to decide beyond this.
 constexpr double k_most_undefined = 0.1;
-/// Of 1, in the mean of the samples that were not finite: doubles may know some of them.
+/// Largest mean difference from the picture in double, of 1, over samples that were not finite in float.
 constexpr double k_most_gap = 0.1;
-/// Of what rounding shows: other roundings alone show a little less or more.
+/// Largest part of a rounding fault that may remain; rounding differently alone changes it somewhat.
 constexpr double k_most_left = 0.5;
 constexpr Extent k_timed_extent{320, 180};
 constexpr int k_timed_frames = 5;
@@ -119,8 +120,8 @@ bool is_of_rays(Kind kind) {
     return kind == Kind::first_hit || kind == Kind::budget;
 }
 
-/// Rays are mended as far as the probes ask: the last of them are a matter of silhouettes, and of what they
-/// may cost.
+/// Returns whether the fault is fixed. For rays the probes' limits suffice: the last wrong rays are a matter
+/// of silhouettes, and of run time.
 bool is_mended(Kind kind, const Fault& fault, const Promises& promises) {
     if (kind == Kind::rounding)
         return fault.after <= k_most_left * fault.before;
@@ -129,7 +130,7 @@ bool is_mended(Kind kind, const Fault& fault, const Promises& promises) {
     return fault.after <= (kind == Kind::first_hit ? k_most_wrong_percent : promises.most_exhausted_percent);
 }
 
-/// Adds a pass in one situation; false where a pixel is not finite any more.
+/// Adds the pixels of one pass in one situation; returns false if a finite pixel has become non-finite.
 bool compare(const image::Image& before, const image::Image& after, Judgement& judgement) {
     for (size_t i = 0; i < before.extent.pixels(); ++i) {
         const auto left = pixel_of(before, i), right = pixel_of(after, i);
@@ -165,7 +166,7 @@ Result<bool> compare_all(DrawnScene& before, DrawnScene& after, const std::vecto
     return true;
 }
 
-/// Where only the floats were not finite, doubles know what should be there.
+/// Compares the fixed samples with the picture in double where only float was not finite.
 bool is_as_in_double(const InBoth& before, const image::Image& cured) {
     double gap = 0;
     size_t samples = 0;
@@ -179,8 +180,8 @@ bool is_as_in_double(const InBoth& before, const image::Image& cured) {
     return gap <= k_most_gap * double(samples);
 }
 
-/// False where doubles say that it is another picture. RMSE of floats against doubles, of both scenes over
-/// the samples that are finite in all four pictures.
+/// Computes the RMSE of float against double for both scenes, over the samples that are finite in all four
+/// pictures. Returns false if the picture in double contradicts the fix.
 bool compare_errors(DrawnScene& before, DrawnScene& after, const FrameState& state, Judgement& judgement) {
     const auto left = before.in_both(state), right = after.in_both(state);
     if (!left || !right)
@@ -204,13 +205,13 @@ bool compare_errors(DrawnScene& before, DrawnScene& after, const FrameState& sta
     return true;
 }
 
-/// Whether the picture is another one. A few pixels that showed something undefined may show anything.
+/// Returns whether the fix changed the picture. Pixels that showed something undefined may change.
 bool is_another(const Judgement& judgement, Kind kind) {
     if (kind == Kind::no_value)
         return judgement.changed > 0;
-    if (kind == Kind::hash || kind == Kind::rounding) // it is meant to be
+    if (kind == Kind::hash || kind == Kind::rounding) // their fixes are meant to change it
         return false;
-    if (is_of_rays(kind)) // what a ray shows that meets another surface may be anything
+    if (is_of_rays(kind)) // a ray that hits another surface may change its pixel completely
         return judgement.flip > k_most_flip + judgement.fault.before / 100;
     const bool by_the_fault =
         kind == Kind::undefined &&
@@ -218,7 +219,7 @@ bool is_another(const Judgement& judgement, Kind kind) {
     return judgement.flip > k_most_flip && !by_the_fault;
 }
 
-/// Whether two scenes are one where nothing is rounded: doubles show the same of both.
+/// Returns whether both scenes look the same in double, that is, without visible rounding.
 Result<bool> agree_in_double(DrawnScene& before, DrawnScene& after, const FrameState& state) {
     for (const FrameState& each : {state, plain_state()}) {
         const InBoth left = TRY(before.in_both(each)), right = TRY(after.in_both(each));
@@ -236,7 +237,7 @@ Result<void> time_both(ProbeBench& before, ProbeBench& after, Judgement& judgeme
         for (ProbeBench* const bench : {&before, &after}) {
             const Stopwatch watch;
             TRY(bench->picture(state_at(frame, k_timed_extent)));
-            if (frame > 0) // the first one compiles
+            if (frame > 0) // the first frame includes compilation
                 times[bench == &after].push_back(watch.elapsed().cpu);
         }
     judgement.milliseconds_before = median(times[0]);
@@ -285,7 +286,7 @@ Result<double> DrawnScene::fault_of_scene(Kind kind, const std::vector<PictureVi
     case Kind::counter: return count_miscounting(bench_);
     case Kind::divergence: return count_divergent(bench_);
     case Kind::not_finite:
-    case Kind::rounding: // of one situation, both
+    case Kind::rounding: // both depend on a situation
     case Kind::undefined: break;
     }
     return undefined_percent(bench_, views);

@@ -19,7 +19,7 @@ public:
           now_(std::make_unique<DrawnScene>(scene, promises)) {}
 
     Result<void> run() {
-        TRY(now_->bench().compiled()); // where it does not compile, that is the answer
+        TRY(now_->bench().compiled()); // a compile error is the result
         for (int round = 0; round < k_most_rounds; ++round) {
             refused_.clear();
             const CurableFindings found = TRY(find_curable(now_->bench(), mending_.hashes));
@@ -34,13 +34,13 @@ public:
     }
 
 private:
-    /// Whether any was mended.
+    /// Tries to fix all findings; returns whether any was fixed.
     Result<bool> mend_all(const CurableFindings& found) {
         bool mended = false;
         for (const Finding& finding : found.all) {
             if (finding.where && finding.kind == Finding::Kind::not_finite &&
                 TRY(now_->fault(finding, found.views)) == 0)
-                continue; // an earlier cure cured it
+                continue; // fixed by an earlier fix
             const auto offer = TRY(first_better(finding, found.views));
             if (!offer)
                 continue;

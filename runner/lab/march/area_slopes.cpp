@@ -7,12 +7,13 @@ namespace tidemark::lab {
 namespace {
 
 constexpr Extent k_areas{16, 9};
-/// Of the ray's length the first piece, and of the way so far the others: they grow with the area's width.
+/// Length of the pieces: the first is this share of the ray's length, the others are this share of the way so
+/// far. They grow with the area's width.
 constexpr double k_first_piece = 1.0 / 128;
 constexpr double k_longer = 0.1;
-/// A piece that is not bounded is looked at in so many.
+/// A piece without a bound is cut into this many.
 constexpr int k_cuts = 4;
-/// A bound that is steeper says nothing of steps.
+/// Steeper bounds do not limit steps.
 constexpr double k_steepest = 100;
 
 class AreaLook {
@@ -31,7 +32,7 @@ public:
     }
 
 private:
-    /// Whether there is more in front of the surface.
+    /// Adds the bounds of a piece. Returns whether the space before the surface continues after it.
     bool look_at(const ir::Interval& piece, int cuts) {
         const auto tangent = slice_.tangent(piece);
         if (tangent && !(tangent->value.high > 0))
@@ -105,7 +106,7 @@ AreaSlopes area_slopes(const MarchRays& rays, uint64_t most_evaluations) {
             const double way = (end - one->slice->start()) * one->slice->unit();
             if (!std::isfinite(way) || !(way > 0))
                 continue;
-            if (!all || all->loop != one->loop) { // what comes before the march may differ
+            if (!all || all->loop != one->loop) { // the code before the march may differ
                 slopes.unbounded += way;
                 continue;
             }

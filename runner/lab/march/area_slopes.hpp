@@ -1,4 +1,5 @@
-// How fast the field of a march falls along its rays, over all of a picture: between the rays, too.
+// Bounds how fast the field of a march falls along its rays, over the whole picture, including between the
+// rays.
 #pragma once
 
 #include "lab/march/march_rays.hpp"
@@ -7,27 +8,27 @@
 
 namespace tidemark::lab {
 
-/// Of the space in front of the surface that the rays of a picture cross, in pieces of some pixels each and
-/// of some length along them. Ways are as long as the picture's rays go through them.
+/// Bounds for the space before the surface that a picture's rays cross, divided into pieces of some pixels
+/// each and some length along them. Lengths are those of the picture's rays through the pieces.
 struct AreaSlopes {
     struct Bound {
-        double falls; ///< by so much at most where the way is 1, beside jumps
+        double falls; ///< most the field falls per unit of length, outside of jumps
         double way;
     };
     std::vector<Bound> bounded{};
-    double may_jump = 0;   ///< of those ways
-    double unbounded = 0;  ///< ways where the field may be as steep as anything, as far as is known
-    double not_finite = 0; ///< or NaN, or infinite
+    double may_jump = 0; ///< the part of the bounded length in which it may jump
+    double unbounded = 0; ///< length in which no bound of the slope is known
+    double not_finite = 0; ///< length in which it may be NaN or infinite
 
     double bounded_way() const;
     double way() const { return bounded_way() + unbounded + not_finite; }
-    /// The least number that bounds the slope on such a part of the ways that are bounded.
+    /// Returns the least bound of the slope that holds for the share `part` of the bounded length.
     double falls_on(double part) const;
 
     void add(const AreaSlopes& more);
 };
 
-/// In the moment of the frame; nothing where no ray enters a march.
+/// Computes the bounds for the frame's time. They are empty if no ray enters a march.
 AreaSlopes area_slopes(const MarchRays& rays, uint64_t most_evaluations);
 
 } // namespace tidemark::lab

@@ -1,4 +1,4 @@
-// A pass as its text and a frame have it.
+// A pass as a function, with the frame that its uniforms come from.
 #pragma once
 
 #include "lab/march/pass_function.hpp"

@@ -1,5 +1,5 @@
-// What a pass reads, as a set of numbers for each cell of its memory: what a frame has, but for what is set
-// to a range.
+// The inputs of a pass as an interval for each memory cell: the frame's own value unless it is set to a
+// range.
 #pragma once
 
 #include "ir/interval.hpp"
@@ -17,14 +17,14 @@ class InputRanges {
 public:
     explicit InputRanges(const DrawnPass& drawn);
 
-    /// Where the pass reads it.
+    /// Sets a variable's components; no effect if the pass does not read it.
     void set(std::string_view name, std::span<const ir::Interval> ranges);
     void set(std::string_view name, const ir::Interval& range);
     /// In pixels from the lower left corner.
     void set_place(const ir::Interval& x, const ir::Interval& y);
-    /// Seconds; with it all that goes on with time.
+    /// In seconds. Also sets the ranges of the uniforms that follow the time.
     void set_time(const ir::Interval& time);
-    /// All knobs that have a range, over the whole of it.
+    /// Sets all knobs that have a range to the whole of it.
     void turn_knobs();
 
     const std::vector<ir::Interval>& memory() const { return memory_; }
@@ -34,7 +34,7 @@ private:
     std::vector<ir::Interval> memory_;
 };
 
-/// What a sampler of the pass may give where that is not what the last frame left.
+/// Returns the range of a sampler whose values change over time; nullopt if it keeps those of the last frame.
 std::optional<ir::Interval> changing(const DrawnPass& drawn, const std::string& sampler);
 
 } // namespace tidemark::lab

@@ -17,7 +17,8 @@ namespace {
 using ir::Scalar;
 using ir::Variable;
 
-/// Of a scalar or a vector, or of a matrix of four columns: what a host hands to uniforms.
+/// Returns the GL type of a scalar, a vector or a 4 x 4 matrix, the types of the host's uniforms; else
+/// GL_NONE.
 GLenum gl_type(const Variable& variable) {
     if (variable.columns == 4 && variable.rows == 4)
         return GL_FLOAT_MAT4;
@@ -29,7 +30,7 @@ GLenum gl_type(const Variable& variable) {
     return GLenum(variable.type == Scalar::real ? k_reals[size] : k_ints[size]);
 }
 
-/// Their places are those in the function's list of variables.
+/// Locations are indices into the function's list of variables.
 gl::Reflection uniforms_of(const ir::Function& function) {
     gl::Reflection reflection;
     for (size_t i = 0; i < function.variables.size(); ++i)
@@ -47,11 +48,11 @@ void store(ir::PointEvaluator<Real>& evaluator, const Variable& variable, uint32
                                                          : ir::Point<Real>{0, uint32_t(int64_t(value))};
 }
 
-/// The macros of glslang that scenes test.
+/// Macros of glslang that scenes test.
 constexpr glsl::KnownMacro k_macros[] = {
     {"__VERSION__", 450}, {"GL_FRAGMENT_PRECISION_HIGH", 1}, {"GL_core_profile", 1}};
 
-/// glslang has `0:LINE: ` where we have the author's file and line.
+/// Returns glslang's first error, with the author's file and line instead of `0:LINE: `.
 std::string first_error(const std::string& log, const text::LineMap& lines) {
     const size_t begin = log.find("ERROR: 0:");
     if (begin == std::string::npos)

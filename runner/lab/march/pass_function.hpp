@@ -1,5 +1,5 @@
-// A pass of a scene as one function in SSA form, and its pixels evaluated on the CPU with the uniforms that
-// the device has.
+// A pass of a scene as one function in SSA form, whose pixels are evaluated on the CPU with the device's
+// uniforms.
 #pragma once
 
 #include "base/result.hpp"
@@ -17,22 +17,22 @@ namespace tidemark::lab {
 
 class PassFunction {
 public:
-    /// The error says what of the text cannot be followed, with its author's line.
+    /// Compiles the pass. The error names the construct that is not supported, with the author's line.
     static Result<PassFunction> create(const scene::Scene& scene, const scene::Pass& pass,
                                        ir::Names names = ir::Names::drop);
 
     const ir::Function& function() const { return function_; }
     const std::vector<ir::MarchingLoop>& loops() const { return loops_; }
-    /// Of each of them.
+    /// By index of the loop.
     const std::vector<ir::LoopSlice>& slices() const { return slices_; }
-    /// In the author's text.
+    /// Converts a line of the compiled text to the author's file and line.
     SourceLocation locate(int line) const { return lines_.locate(line); }
 
-    /// Set up with the uniforms of a frame, for a pass in the renderer's plan.
+    /// Returns an evaluator with the uniforms of a frame, for a pass in the renderer's plan.
     template <class Real = float>
     ir::PointEvaluator<Real> frame(const render::Renderer& renderer, size_t pass,
                                    const render::FrameInputs& inputs) const;
-    /// For that pixel of the frame, counted from the lower left.
+    /// Sets the frame's pixel, counted from the lower left.
     template <class Real>
     void move_to(ir::PointEvaluator<Real>& frame, glm::ivec2 at) const;
 

@@ -1,4 +1,4 @@
-// What a pass computes, bounded over all pixels of a frame and a span of time at once.
+// Bounds the values of a pass over all pixels of a frame and a time span at once.
 #pragma once
 
 #include "ir/value_ranges.hpp"
@@ -6,8 +6,8 @@
 
 namespace tidemark::lab {
 
-/// From 0 to `seconds`, with each knob anywhere in its range, and the mouse as the drawn frame has it. What
-/// other passes drew is any number; keys, sound and videos are from 0 to 1.
+/// The time runs from 0 to `seconds`; each knob takes its whole range; the mouse is that of the drawn frame.
+/// Other passes' pictures may be any finite number; keys, sound and videos are from 0 to 1.
 ir::ValueRanges ranges_of(const DrawnPass& drawn, double seconds);
 
 } // namespace tidemark::lab

@@ -7,7 +7,7 @@ namespace {
 
 using ir::Texels;
 
-/// Of its base level. One of 4096 x 4096 is not.
+/// Limit for the base level. A texture of 4096 x 4096 exceeds it.
 constexpr size_t k_most_texels = 8'000'000;
 
 Texels::Kind kind_of(const gl::Texture& texture) {
@@ -50,7 +50,7 @@ ir::TextureSet textures_of(const render::Renderer& renderer, size_t pass) {
         const size_t* source = scene::source_pass(channel.input);
         const bool gone = source && render::frame_ref(pass, *source) == render::FrameRef::previous;
         const gl::Texture* texture = renderer.texture_at(pass, unit);
-        if (!texture) { // the linked program reads it nowhere: what the text makes of it does not matter
+        if (!texture) { // the linked program does not read it, so its value in the text does not matter
             textures.emplace(sampler, black());
             continue;
         }

@@ -1,4 +1,4 @@
-// The textures that a pass reads, read back from the device.
+// Reads back the textures of a pass from the device.
 #pragma once
 
 #include "ir/texels.hpp"
@@ -6,8 +6,8 @@
 
 namespace tidemark::lab {
 
-/// As the last frame left them, by the names of their samplers. Left out, and so unknown, are what a pass
-/// reads of the frame before (it is gone) and what is too large to be kept twice.
+/// Returns the textures as the last frame left them, by sampler name. Those of the previous frame (no longer
+/// available) and those of over 8 million texels are left out, so their values are unknown.
 ir::TextureSet textures_of(const render::Renderer& renderer, size_t pass);
 
 } // namespace tidemark::lab

@@ -13,7 +13,7 @@ namespace {
 constexpr int k_columns = 16, k_rows = 9;
 constexpr double k_most_milliseconds = 1500;
 
-/// Neighbours are not followed.
+/// Derivatives are not supported: they need the neighbouring pixels.
 bool takes_derivatives(const ir::Function& function) {
     return std::ranges::any_of(function.instructions, [](const ir::Instruction& each) {
         return each.op == ir::Op::derivative_x || each.op == ir::Op::derivative_y;
@@ -42,8 +42,7 @@ Result<PixelWork> count_work(const render::Renderer& renderer, size_t pass,
     const Extent extent = renderer.extent();
     const Stopwatch clock;
     PixelWork work;
-    // Every seventh of the grid's pixels after the other, so that those of a short time are not all in one
-    // corner.
+    // Takes every seventh pixel of the grid, so that the pixels of a short run are spread over the picture.
     for (int i = 0; i < k_columns * k_rows && clock.elapsed().wall < k_most_milliseconds; ++i) {
         const int place = i * 7 % (k_columns * k_rows);
         ir::FloatEvaluator pixel = start;

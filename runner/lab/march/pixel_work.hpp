@@ -1,5 +1,5 @@
-// How much a pass computes: the operations that its text executes, counted on the CPU. The same on every
-// machine, whatever its driver makes of the text.
+// Measures how much a pass computes: the operations that its text executes, counted on the CPU. The result
+// does not depend on the machine or its driver.
 #pragma once
 
 #include "base/result.hpp"
@@ -8,12 +8,12 @@
 namespace tidemark::lab {
 
 struct PixelWork {
-    double operations = 0; ///< of scalars, a pixel: the mean
-    size_t pixels = 0;     ///< that were counted, on a grid
+    double operations = 0; ///< scalar operations per pixel: the mean
+    size_t pixels = 0; ///< number of pixels counted, on a grid
 };
 
-/// Of a pass, in the frame that the renderer has drawn from those inputs; as many pixels as some seconds
-/// allow. Fails where the text cannot be followed.
+/// Counts for a pass in the frame that the renderer has drawn from those inputs, for up to 1.5 seconds. Fails
+/// if the text is not supported.
 Result<PixelWork> count_work(const render::Renderer& renderer, size_t pass,
                              const render::FrameInputs& inputs);
 

@@ -9,18 +9,18 @@ namespace {
 using Outcome = ProvedRay::Outcome;
 using Verdict = ir::FirstHit::Verdict;
 
-/// A march stops within its threshold, and nobody sees a step of a hundredth.
+/// A march stops within its threshold, and a step of one hundredth is invisible.
 constexpr double k_same_end = 0.01;
-/// Levels differ by more than what a hit is narrowed down to; narrower than what is seen.
+/// Mipmap levels differ by more than the usual width of a hit; this is still narrower than is visible.
 constexpr double k_width_at_any_level = 1e-3;
-/// Each asks all levels; most of what is decided so takes some fifty.
+/// Each evaluation covers all levels; most decided rays need about fifty.
 constexpr uint64_t k_most_at_any_level = 500;
-/// Below the threshold by more than a rounding.
+/// Below the threshold by more than rounding.
 constexpr float k_surely_below = -1e-5f;
 
-/// No sample of the march may have been below the threshold where that is excluded. One that goes backwards
-/// may come to what lies before its start. Of a threshold that changes by turns zero counts: the first one is
-/// not below that.
+/// Returns whether a sample of the march was below the threshold where that is excluded. A march that goes
+/// backwards may sample places before its start. For a threshold that changes with the iterations zero is
+/// used instead, because the first threshold is not below it.
 bool contradicts(const ir::MarchSlice& slice, const ir::March& march, const ir::FirstHit& found,
                  bool threshold_by_turn) {
     const double free_to = found.verdict == Verdict::none ? found.where.high : found.where.low;
@@ -31,8 +31,8 @@ bool contradicts(const ir::MarchSlice& slice, const ir::March& march, const ir::
     });
 }
 
-/// Up to where it has passed over the ray. One that looks for a change of sign ends below the surface, and
-/// goes back to it after the loop: what counts is the sample in front of that. Steps may have been taken
+/// Returns how far the march has passed along the ray. A march that looks for a change of sign ends below the
+/// surface and steps back after the loop, so the sample before that counts. Single steps may have been taken
 /// back.
 double passed_by(const ir::MarchSlice& slice, const ir::March& march) {
     const double last = slice.parameter(march.turns.back());
@@ -45,7 +45,7 @@ double passed_by(const ir::MarchSlice& slice, const ir::March& march) {
     return before;
 }
 
-/// As narrow as a march is judged.
+/// Returns whether the interval is as narrow as the tolerance by which a march is judged.
 bool is_narrow(const ir::FirstHit& found) {
     return found.verdict == Verdict::none ||
            (found.verdict == Verdict::hit &&
@@ -82,7 +82,7 @@ std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::Float
     ProvedRay ray{at, *loop_index};
     const ir::LoopSlice& loop_slice = function.slices()[*loop_index];
     const ir::FloatEvaluator entered = evaluator;
-    unknown = chooses_level = false; // from here on it is the march that reads
+    unknown = chooses_level = false; // from here on only reads of the march count
     const ir::March march = ir::follow(evaluator, function.function(), loop_slice.loop);
     ray.turns = march.turns.size();
     if (unknown) {

@@ -14,14 +14,14 @@
 namespace tidemark::lab {
 namespace {
 
-/// So many pixels, about, are compared with the CPU.
+/// Approximate number of pixels that are compared with the CPU.
 constexpr double k_compared = 900;
-/// A march that takes a turn more or less ends within its threshold of the same place.
+/// A march with an iteration more or less ends within its threshold of the same place.
 constexpr float k_same_place = 2e-3f;
 constexpr float k_same_turns = 0.05f;
 constexpr double k_least_agreeing = 0.9;
 
-/// Of the values that the loop carries the one that is the ray's parameter itself.
+/// Returns the index of the carried value that is the ray's parameter itself.
 std::optional<size_t> parameter_of(const ir::MarchingLoop& loop) {
     for (size_t i = 0; i < loop.carried.size(); ++i)
         if (loop.by_parameter() || loop.carried[i].factors.empty())
@@ -29,7 +29,7 @@ std::optional<size_t> parameter_of(const ir::MarchingLoop& loop) {
     return std::nullopt;
 }
 
-/// Each loop of the text once: one that is called from several places is inlined as often.
+/// Returns each loop of the text once: one that is called from several places is inlined several times.
 std::vector<glsl::MarchLines> marches_of(const PassFunction& image) {
     std::vector<glsl::MarchLines> marches;
     for (const ir::MarchingLoop& loop : image.loops())
@@ -39,7 +39,7 @@ std::vector<glsl::MarchLines> marches_of(const PassFunction& image) {
     return marches;
 }
 
-/// Common goes into each pass, so that Image's can be another.
+/// Copies Common into each pass, so that Image's copy can be changed.
 void inline_common(scene::Scene& scene) {
     for (scene::Pass& pass : scene.passes) {
         text::MappedText whole = scene.common;
@@ -55,7 +55,7 @@ image::Image answer(render::Renderer& renderer, glsl::RecordAnswer which, const 
     return renderer.read_back();
 }
 
-/// Of the same value, NaN or not.
+/// Lets NaN equal itself in comparisons.
 uint32_t as_bits(float value) {
     return std::bit_cast<uint32_t>(value);
 }
@@ -68,11 +68,11 @@ size_t differing_colours(const image::Image& a, const image::Image& b) {
     return count;
 }
 
-/// What the march of a pixel did on the CPU.
+/// The march of a pixel on the CPU.
 struct CpuMarch {
     bool textured = false;
     ir::March march;
-    float place = 0; ///< where the last distance was measured
+    float place = 0; ///< place on the ray of the last distance measured
 };
 
 float place_of(const ir::MarchingLoop& loop, const ir::FloatEvaluator& entered, const ir::Turn& turn) {
@@ -86,7 +86,7 @@ float place_of(const ir::MarchingLoop& loop, const ir::FloatEvaluator& entered, 
     return std::sqrt(squares);
 }
 
-/// Of the pixel that `evaluator` is at; nothing where it enters no marching loop.
+/// Runs the pixel that `evaluator` is set to; nullopt if it enters no marching loop.
 std::optional<CpuMarch> march_of(const PassFunction& image, ir::FloatEvaluator& evaluator) {
     CpuMarch result;
     evaluator.textures = [&](const ir::Lookup&, std::span<const ir::Point<float>>) {
@@ -109,8 +109,7 @@ bool same_place(float a, float b) {
            std::abs(a - b) <= k_same_place * std::max({1.0f, std::abs(a), std::abs(b)});
 }
 
-/// A march that goes astray, far off, is where rounding takes it: only one that meets something must do so at
-/// the same place.
+/// The end of a march that goes astray far away depends on rounding, so only the places of hits are compared.
 bool agrees(const CpuMarch& cpu, const float* recorded) {
     const auto turns = float(cpu.march.turns.size());
     if (turns == 0 || recorded[1] == 0)

@@ -1,6 +1,6 @@
-// Hits as the device makes them: a scene without a mainHit gets one that records the first marching loop of
-// its Image while mainImage runs. Where to record is known from the pass in SSA form; what was recorded is
-// held against the picture and against the pass evaluated on the CPU. A context must be current for that.
+// Hits as the device computes them: a scene without a mainHit gets one that records, while mainImage runs,
+// the first marching loop that each pixel enters. The pass in SSA form shows where to record; the recording
+// is checked against the picture and against the pass evaluated on the CPU. Needs a current context.
 #pragma once
 
 #include "glsl/instrument/march_record.hpp"
@@ -11,36 +11,39 @@
 
 namespace tidemark::lab {
 
-/// Where a marching loop stands in its author's text.
+/// Returns the place of a marching loop in its author's text.
 glsl::MarchLines lines_of(const PassFunction& image, const ir::MarchingLoop& loop);
 
 struct Recording {
     scene::Scene scene; ///< its Image is of kind hit; its last knob is glsl::k_record_knob
-    /// Whether a sample below the surface shows: not where the march waits for one, or goes in fixed steps.
+    /// Whether samples below the surface are recorded: false if the march ends only below it, or has fixed
+    /// steps.
     bool sees_below = true;
-    bool fixed_steps = false; ///< every march goes on by a constant
+    bool fixed_steps = false; ///< every march adds a constant
 };
 
-/// The error says why it is not known where the march stands in the text.
+/// Instruments the scene. The error gives the reason why the march's place in the text is not known.
 Result<Recording> record_hits(const scene::Scene& scene, const PassFunction& image);
 
-/// What a recording's renderer draws from now on.
+/// Selects what the recording's renderer draws from now on.
 void ask(render::Renderer& recording, glsl::RecordAnswer answer);
 
-/// Of the rays of a grid of pixels.
+/// Result of the check, for the rays of a grid of pixels.
 struct RecordingCheck {
-    size_t rays = 0;     ///< that enter a marching loop, on the CPU
-    size_t textured = 0; ///< of them: read a texture, whose texels are not followed, and are not compared
-    size_t agree = 0;    ///< of the others: hit or not, turns and place are those of the CPU, to a rounding
-    size_t other_pixels = 0; ///< of the picture: drawn otherwise by the text that records
+    size_t rays = 0; ///< number that enter a marching loop, on the CPU
+    /// of these, those that read a texture: its texels are not available, so they are not compared
+    size_t textured = 0;
+    /// of the others, those whose hit, iteration count and place equal the CPU's, up to rounding
+    size_t agree = 0;
+    size_t other_pixels = 0; ///< pixels of the picture that the recording text draws differently
 
     size_t compared() const { return rays - textured; }
 };
 
-/// `plain` and `recording` are the scene's and the recording's renderers, of one size.
+/// `plain` and `recording` are the renderers of the scene and of the recording, of the same size.
 RecordingCheck check_recording(render::Renderer& plain, render::Renderer& recording,
                                const PassFunction& image, const render::FrameState& state);
-/// Why its hits are not to be used; empty: they are.
+/// Returns the reason why the hits must not be used; empty if they may be.
 std::string refusal_of(const RecordingCheck& check);
 
 } // namespace tidemark::lab

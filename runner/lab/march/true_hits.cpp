@@ -14,12 +14,12 @@ namespace {
 
 constexpr double k_relative_width = 1e-9;
 constexpr uint64_t k_most_evaluations = 20'000;
-/// Rays that tell how long one takes.
+/// Number of rays from which the time per ray is estimated.
 constexpr size_t k_pilot = 64;
 
 constexpr ir::Interval k_miss{-1, -1};
 
-/// The interval of the first hit; of a ray that has none k_miss; nothing where it is not known.
+/// Returns the interval of the first hit; k_miss if there is none; nullopt if it is not known.
 std::optional<ir::Interval> hit_of(const MarchRays& rays, size_t number, ir::Surface surface) {
     const int width = rays.extent().width;
     auto ray = rays.enter({int(number) % width, int(number) / width}, surface);
@@ -41,7 +41,7 @@ std::optional<ir::Interval> hit_of(const MarchRays& rays, size_t number, ir::Sur
 
 using Found = std::vector<std::optional<ir::Interval>>;
 
-/// The first few rays, and how many seconds one takes.
+/// The first few rays, and the seconds that one takes.
 struct Pilot {
     ir::Surface surface;
     Found found{};
@@ -62,7 +62,7 @@ struct Pilot {
     }
 };
 
-/// Of zeros, unless most of what falls below the threshold has none.
+/// Searches for zeros, unless fewer than half of the rays that fall below the threshold have one.
 Pilot pilot_of(const MarchRays& rays) {
     Pilot zeros(rays, ir::Surface::zero), places(rays, ir::Surface::threshold);
     return 2 * zeros.hits() < places.hits() ? places : zeros;

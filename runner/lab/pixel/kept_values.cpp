@@ -8,7 +8,7 @@ namespace tidemark::lab {
 namespace {
 
 constexpr size_t k_first = 4, k_last = 3;
-/// Where turns were asked for.
+/// Limit if iterations were requested.
 constexpr size_t k_most = 1000;
 
 } // namespace

@@ -1,5 +1,5 @@
-// The values of one place in a text that are kept of all that it computed: the first and the last few, and
-// those in which something happens; or those of the turns that were asked for.
+// Keeps a bounded selection of the values computed at one place of a text: the first and last few, and those
+// with an event; or those of the requested iterations.
 #pragma once
 
 #include "lab/pixel/traced_line.hpp"
@@ -12,16 +12,16 @@ namespace tidemark::lab {
 
 class KeptValues {
 public:
-    /// In order of execution; gives it its number.
+    /// Adds the next value in order of execution, and numbers it.
     void add(TracedValue value, const std::optional<TurnRange>& turns);
-    /// In order of execution, each one once.
+    /// Returns the kept values in order of execution, each once.
     std::vector<TracedValue> all() const;
 
 private:
     uint64_t count_ = 0;
     std::vector<TracedValue> first_;
     std::deque<TracedValue> last_;
-    /// The first of its kind each; `fewest_` digits.
+    /// The first value with each event; `fewest_`: with the fewest digits.
     std::optional<TracedValue> not_finite_, mismatch_, unstable_, fewest_;
 };
 

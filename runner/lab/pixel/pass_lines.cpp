@@ -16,7 +16,7 @@ using ir::Assignment;
 using ir::Function;
 using ir::Op;
 
-/// Of the value of a line that declares no variable, as its text has it.
+/// Returns a name for a value that has none, from the text of its line.
 std::string name_of(std::string_view line) {
     for (const char* word : {"if", "while", "for", "else if", "} else if"})
         if (line.starts_with(word))
@@ -33,7 +33,7 @@ std::string name_of(std::string_view line) {
                : left.substr(left.find_last_of(" \t") + 1);
 }
 
-/// Which values are no more than steps on the way to another one of the same line and call.
+/// Returns which values are only intermediate results for another value of the same line and call.
 std::vector<bool> intermediate_values(const Function& function) {
     std::vector<uint32_t> statement_of(function.instructions.size());
     const auto& statements = function.names.statements;
@@ -56,7 +56,7 @@ bool computes(Op op) {
     return op != Op::constant && op != Op::undefined && op != Op::phi && op != Op::load && op != Op::store;
 }
 
-/// Values that follow each other by the same operation are one vector.
+/// Values that follow each other with the same operation form one vector.
 bool belongs_to(const Function& function, const Assignment& vector, uint32_t value) {
     const ir::Instruction &last = function.instructions[vector.values.back()],
                           &next = function.instructions[value];
@@ -154,14 +154,14 @@ const AuthorLine* PassLines::find(int line) const {
     return found == lines_.end() ? nullptr : &found->second;
 }
 
-/// Where mainImage, or what stands for it, has its code: the last function that a pass's text has.
+/// Returns the file of mainImage, or of the pass's other entry point: the last function in the text.
 std::string PassLines::main_file() const {
     return lines_.empty() ? "" : lines_.rbegin()->second.where.file;
 }
 
 Result<int> PassLines::compiled_line(const SourceLocation& asked) const {
     const std::string file = asked.file.empty() ? main_file() : asked.file;
-    std::map<int, int> with_code; // the author's lines of that file, and those that were compiled
+    std::map<int, int> with_code; // from the author's lines of that file to compiled lines
     for (const Assignment& each : assignments_)
         if (const SourceLocation& where = lines_.at(each.line).where; where.file == file)
             with_code.emplace(where.line, each.line);

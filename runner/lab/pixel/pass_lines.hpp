@@ -1,6 +1,5 @@
-// The lines of a pass's text that compute something, and what is computed there: variables by the names that
-// the compiler kept; and values that have none, where nothing else on
-// their line uses them.
+// The lines of a pass's text that compute something, and the values computed there: variables by the names
+// that the compiler kept, and unnamed values that no other operation on their line uses.
 #pragma once
 
 #include "base/result.hpp"
@@ -18,12 +17,12 @@ class PassLines {
 public:
     PassLines(const PassFunction& function, const scene::Scene& scene, const scene::Pass& pass);
 
-    /// What gets a value in that block, in order of execution.
+    /// Returns the assignments in a block, in order of execution.
     std::span<const ir::Assignment> in_block(uint32_t block) const;
     std::span<const ir::Assignment> assignments() const { return assignments_; }
-    /// By the line of the text that was compiled; nothing for lines of our own making.
+    /// Takes a line of the compiled text; returns nullptr for lines that Tidemark added.
     const AuthorLine* find(int line) const;
-    /// The line of the text that was compiled. An error names the nearest lines that have code.
+    /// Returns the line of the compiled text. The error names the nearest lines that have code.
     Result<int> compiled_line(const SourceLocation& asked) const;
 
 private:
@@ -35,7 +34,7 @@ private:
     const PassFunction* function_;
     std::map<int, AuthorLine> lines_;
     std::vector<ir::Assignment> assignments_;
-    std::vector<size_t> first_in_block_; ///< and one behind the last
+    std::vector<size_t> first_in_block_; ///< with an end entry after the last block
 };
 
 } // namespace tidemark::lab

@@ -15,10 +15,10 @@ namespace {
 using ir::Ended;
 using ir::Op;
 
-/// Some five seconds.
+/// Takes about five seconds.
 constexpr uint64_t k_most_operations = 50'000'000;
 
-/// The evaluator of all three numbers, with the uniforms and the place that `pixel` has.
+/// Returns an evaluator of all three numbers, with the uniforms and the place of `pixel`.
 ir::LockstepEvaluator in_lockstep(const ir::Function& function, const ir::FloatEvaluator& pixel,
                                   uint64_t seed) {
     ir::LockstepEvaluator evaluator(function, ir::LockstepSystem(seed));
@@ -28,7 +28,8 @@ ir::LockstepEvaluator in_lockstep(const ir::Function& function, const ir::FloatE
     return evaluator;
 }
 
-/// Each of the three numbers where it looks; `base_level` is set where the device would choose a mipmap.
+/// Looks up each of the three numbers at its own place; sets `base_level` if the device would choose a mipmap
+/// level.
 ir::Textures<ir::Lockstep> looked_up(const ir::TextureSet& textures, bool& base_level) {
     return [&](const ir::Lookup& lookup, std::span<const ir::Lockstep> operands) {
         const auto texels = textures.find(lookup.sampler);
@@ -57,7 +58,7 @@ bool is_unknown(const ir::Function& function, const ir::Instruction& instruction
            lookup.form == ir::Lookup::Form::query;
 }
 
-/// Of each block the first instruction that the evaluator knows no value of.
+/// Returns, for each block, the first instruction whose value the evaluator cannot compute.
 std::vector<ir::Value> unknown_values(const ir::Function& function, const ir::TextureSet& textures) {
     std::vector<ir::Value> result(function.blocks.size(), ir::k_no_value);
     for (size_t block = 0; block < result.size(); ++block)
@@ -154,7 +155,7 @@ Result<PixelTrace> trace_pixel(const render::Renderer& renderer, const render::F
 }
 
 bool is_as_drawn(const PixelTrace& trace) {
-    constexpr double k_margin = 10; // functions of a device round worse than their operations
+    constexpr double k_margin = 10; // functions of a device round worse than its operations
     for (size_t i = 0; i < trace.in_float.size(); ++i) {
         const double cpu = trace.in_float[i], device = trace.on_device[i];
         const bool same = cpu == device || (std::isnan(cpu) && std::isnan(device));

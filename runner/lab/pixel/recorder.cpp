@@ -41,7 +41,7 @@ double spread_of(const LockstepEvaluator& evaluator, const std::vector<ir::Value
     return ir::relative_spread(components);
 }
 
-/// Of an array's element: which one, where the index is computed.
+/// Returns the name; for an array element with its index, which may be computed.
 std::string name_of(const LockstepEvaluator& evaluator, const Assignment& each) {
     if (each.kind != Assignment::Kind::stored)
         return each.name;
@@ -70,7 +70,7 @@ TracedValue value_of(const LockstepEvaluator& evaluator, const ir::Function& fun
     return result;
 }
 
-/// Where a float comes of floats by one rounding or more.
+/// Returns whether the operation computes a float from floats with rounding.
 bool is_rounded(Op op) {
     return op != Op::phi && op != Op::load && op != Op::store && op != Op::select && op != Op::texel;
 }
@@ -226,7 +226,7 @@ LineInCall Recorder::call(uint32_t index, const PassFunction& function) const {
     return result;
 }
 
-/// Calls that stand in one place of the text are one.
+/// Values of calls at the same place of the text are merged.
 std::vector<LineInCall> Recorder::calls(const PassFunction& function) const {
     std::vector<LineInCall> result;
     for (const auto& [assignment, kept] : kept_) {

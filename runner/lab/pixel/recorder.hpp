@@ -1,5 +1,5 @@
-// Records what a pixel computes as it is evaluated, line by line, in bounded memory: of a long loop the first
-// and the last few turns, and those in which something happens.
+// Records a pixel's values while it is evaluated, line by line, in bounded memory: for a long loop the first
+// and last few iterations, and those with an event.
 #pragma once
 
 #include "ir/lockstep_system.hpp"
@@ -15,16 +15,16 @@ namespace tidemark::lab {
 
 class Recorder {
 public:
-    /// Keeps the values of `line` (of the text that was compiled) alone.
+    /// Keeps only the values of `line`, a line of the compiled text.
     Recorder(const ir::Function& function, const PassLines& lines, std::optional<int> line,
              std::optional<TurnRange> turns);
 
-    /// Behind each block that was executed.
+    /// Call it after each executed block.
     void record(const ir::LockstepEvaluator& evaluator, uint32_t block);
 
-    /// Those that ran.
+    /// Returns the lines that ran.
     std::vector<TracedLine> lines() const;
-    /// What was kept; `function` knows the author's places.
+    /// Returns the kept values; `function` converts lines to the author's.
     std::vector<LineInCall> calls(const PassFunction& function) const;
 
 private:
@@ -33,11 +33,11 @@ private:
         std::vector<bool> blocks{};
         uint32_t turn = 0;
     };
-    /// A line with the measures that its figures come from.
+    /// A line and the extremes that its figures come from.
     struct Line {
         TracedLine traced{};
-        double worst = 0;        ///< relative spread of a value
-        double largest_loss = 1; ///< factor by which an operation widened the spread
+        double worst = 0; ///< largest relative spread of a value
+        double largest_loss = 1; ///< largest factor by which an operation widened the spread
     };
 
     void count_turns(uint32_t block);
@@ -54,10 +54,10 @@ private:
     const PassLines* source_;
     std::optional<int> wanted_;
     std::optional<TurnRange> range_;
-    std::vector<Loop> loops_;                   ///< outer ones first
-    std::vector<std::vector<uint32_t>> around_; ///< the loops around each block
-    std::optional<uint32_t> previous_;          ///< block
-    std::vector<double> spreads_;               ///< of each instruction's result, relative
+    std::vector<Loop> loops_; ///< outer loops first
+    std::vector<std::vector<uint32_t>> around_; ///< for each block: the loops around it
+    std::optional<uint32_t> previous_; ///< the previous block
+    std::vector<double> spreads_; ///< relative spread of each instruction's result
     std::map<int, Line> lines_;
     std::map<const ir::Assignment*, KeptValues> kept_;
     uint64_t order_ = 0;

@@ -26,10 +26,10 @@
 namespace tidemark::lab {
 namespace {
 
-/// Of one pass: each costs a picture of every view.
+/// Limit for one pass: each expression costs one drawing of every view.
 constexpr size_t k_most_replaced = 32;
 
-/// The mean of an expression's last values, number by number.
+/// The mean of an expression's last values, component by component.
 struct Mean {
     std::array<double, 4> sums{};
     double count = 0;
@@ -52,7 +52,7 @@ struct Mean {
     }
 };
 
-/// A pass's text, as far as it can be followed.
+/// A pass's text, parsed.
 struct Followed {
     std::unique_ptr<const glsl::ParsedText> text;
     glsl::TreeFacts facts;
@@ -62,7 +62,8 @@ struct Followed {
         : text(std::move(read)), facts(glsl::find_facts(*text)), cutter(*text, facts) {}
 };
 
-/// By which a pass reads another; nothing where it does so in ways that make its size felt.
+/// Returns the samplers by which a pass reads the buffer `read`; nullopt if a sampler depends on the buffer's
+/// size (mipmaps or mirrored repeat).
 std::optional<std::vector<glsl::BufferSampler>> samplers_of(const scene::Pass& pass, size_t read) {
     std::vector<glsl::BufferSampler> samplers;
     for (size_t i = 0; i < pass.channels.size(); ++i) {
@@ -139,7 +140,7 @@ private:
             add(*std::move(cut));
     }
 
-    /// Common stands in several passes.
+    /// Adds a cut once: Common is part of several passes.
     void add(glsl::Cut cut) {
         const glsl::Wrap& wrap = cut.change.wraps.front();
         std::string words;
@@ -167,7 +168,7 @@ private:
                 add(cutter.replaced(all[i], (*means)[i].values(all[i].type.rows)));
     }
 
-    /// Over all views; of what the text has no place for, none.
+    /// Returns the means over all views; empty if the text has no place for them.
     Result<std::vector<Mean>> means_of(render::Renderer& renderer, size_t pass, const glsl::ParsedText& text,
                                        const std::vector<glsl::Replaceable>& all) {
         std::vector<glsl::NodeId> nodes;

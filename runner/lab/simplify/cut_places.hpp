@@ -1,4 +1,4 @@
-// The cuts that a scene's texts allow, passes taken together. A context must be current.
+// Finds the cuts that a scene's texts allow, over all passes. Needs a current context.
 #pragma once
 
 #include "base/result.hpp"
@@ -13,15 +13,15 @@
 namespace tidemark::lab {
 
 struct CutPlaces {
-    std::vector<glsl::Cut> cuts;     ///< the most work first
-    std::vector<std::string> left{}; ///< sentences: what was not looked at, and why
+    std::vector<glsl::Cut> cuts; ///< those with the most work first
+    std::vector<std::string> left{}; ///< sentences: code that was not examined, and why
 };
 
-/// What numbers could stand for has the mean of its values in these views, drawn at that size.
+/// Expressions that a number could replace get the mean of their values in these views, drawn at that size.
 Result<CutPlaces> find_cuts(const scene::Scene& scene, const std::vector<View>& views, Extent extent,
                             const KeepGoing& keep_going);
 
-/// Whether `inner` is a part of the words that `outer` takes away or changes, or the same.
+/// Returns whether `inner` lies within the text that `outer` removes or changes, or is the same text.
 bool is_inside(const glsl::Cure& inner, const glsl::Cure& outer);
 
 } // namespace tidemark::lab

@@ -12,24 +12,24 @@ namespace tidemark::lab {
 namespace {
 
 constexpr size_t k_fewest_trials = 3, k_most_trials = 25;
-constexpr double k_enough_milliseconds = 120; ///< of rounds
-/// A picture has so many parts, in each of which the RMSE is at most so many times what is allowed.
+constexpr double k_enough_milliseconds = 120; ///< for the timing rounds
+/// A picture is divided into this many parts; the RMSE of each may be this many times the allowed error.
 constexpr int k_part_columns = 16, k_part_rows = 9;
 constexpr double k_most_in_a_part = 3;
 
-/// A small difference that a measure rounds to nothing is one, too.
+/// Small differences that the measure rounds to zero count as more than zero.
 double error_of(Measure measure, const Outcome& outcome) {
     if (outcome.picture.samples.equal())
         return 0;
     return std::max(error_by(measure, outcome), std::numeric_limits<double>::min());
 }
 
-/// By the clock that counts the work: the CPU's where the CPU draws.
+/// Returns the CPU time if the CPU draws, else the wall time.
 double clocked(const Elapsed& elapsed, bool by_cpu) {
     return by_cpu ? elapsed.cpu : elapsed.wall;
 }
 
-/// RMSE of what a screen shows of a part; what is NaN or infinite in the own picture does not count.
+/// Returns the RMSE of a part as displayed; pixels that are NaN or infinite in the own picture do not count.
 double rmse_of_part(const image::Image& own, const image::Image& cut, int part) {
     const auto [width, height] = own.extent;
     const int column = part % k_part_columns, row = part / k_part_columns;
@@ -100,7 +100,7 @@ double CutBench::seconds_of_trial() {
     return milliseconds() * 1e-3 * drawn;
 }
 
-/// The median of what it takes, of rounds in which both are drawn in turns.
+/// Returns the median ratio of the times, over rounds that draw both alternately.
 double CutBench::relative_time(Specimen& one, Specimen& other) const {
     std::vector<Elapsed> ones, others;
     const Stopwatch clock;

@@ -1,5 +1,5 @@
-// A scene with cuts against the same scene as it is: how far its pictures are off, and what part of the time
-// it takes. A context must be current.
+// Compares a scene with cuts with the unchanged scene: the error of its pictures, and its share of the time.
+// Needs a current context.
 #pragma once
 
 #include "glsl/cure/cure.hpp"
@@ -16,26 +16,26 @@ namespace tidemark::lab {
 
 struct CutTrial {
     Specimen specimen;
-    double error = 0; ///< in the worst view; 0: every byte of the floats is the same
-    double time = 1;  ///< of a frame, as a part of the other scene's
+    double error = 0; ///< in the worst view; 0: all bytes of the floats are equal
+    double time = 1; ///< of a frame, as a share of the other scene's
 };
 
-/// Whether no part of the picture is much further off than the goal allows for the whole of it: a small thing
-/// that is gone is little in a mean.
+/// Returns whether the error in each part of the picture is at most 3 times the goal for the whole picture: a
+/// small object that is missing hardly changes the mean.
 bool keeps_parts(const Goal& goal, const image::Image& own, const image::Image& cut);
 
 class CutBench {
 public:
-    /// Draws the scene as it is. Fails (ErrorCode::check_failed) where its picture is NaN or infinite.
+    /// Draws the unchanged scene. Fails (ErrorCode::check_failed) if its picture is NaN or infinite.
     static Result<CutBench> create(const scene::Scene& scene, Extent extent, std::vector<View> views);
 
     Specimen& own() { return own_; }
-    /// Of a view of the scene as it is, in the mean.
+    /// Returns the time for one view of the unchanged scene, averaged over the views.
     double milliseconds();
-    /// Of cuts that save nothing, guessed.
+    /// Estimates the seconds of a trial whose cuts save nothing.
     double seconds_of_trial();
-    /// Timed against `other`. Nothing where the cuts cannot be made, where the driver refuses the text, and
-    /// where the error is more than the goal's, of the whole or of a part.
+    /// Draws the scene with the cuts, and times it against `other`. Returns nullopt if the cuts cannot be
+    /// made, the driver rejects the text, or the error exceeds the goal in the whole picture or in a part.
     std::optional<CutTrial> try_cuts(std::span<const glsl::Cure> cuts, Specimen& other, const Goal& goal);
 
 private:

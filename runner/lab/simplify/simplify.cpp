@@ -18,23 +18,24 @@
 namespace tidemark::lab {
 namespace {
 
-/// Of the longer side of the pictures that are searched; of those with a cut that hangs on their size.
+/// Longer side of the search pictures; for cuts that depend on the size, of finer ones.
 constexpr int k_small = 128, k_fine = 512;
-/// These are drawn where one trial takes at most this part of the seconds there are.
+/// The finer pictures are used if one trial takes at most this share of the time budget.
 constexpr double k_fine_trial = 0.1;
-/// Until when, as parts of the seconds there are, cuts are tried alone and together; the rest is the
-/// verdict's.
+/// Shares of the time budget: `k_looking`, `k_alone` and `k_together` end the search for places and the
+/// trials of cuts alone and together; `k_timing` is for the verdict.
 constexpr double k_looking = 0.15, k_alone = 0.45, k_together = 0.7, k_timing = 0.25;
-/// A cut is looked at where a frame takes at most this part of what it took.
+/// A cut is considered if a frame takes at most this share of its former time.
 constexpr double k_pays = 0.985;
-/// Times alone that are nearer to each other are not told apart.
+/// Savings of single cuts that differ by less than this count as equal.
 constexpr double k_alike = 0.05;
-/// Of what is allowed: moments that no search saw are rarely as near as those that it did.
+/// Share of the allowed error that the search may use: moments it did not see rarely have as little error as
+/// those it did.
 constexpr double k_margin = 0.8;
-/// Steps of the way that are judged at full size, each in so many rounds at least.
+/// Limit of the combinations that are judged at full size, and the least number of rounds for each.
 constexpr size_t k_most_steps = 6, k_fewest_rounds = 9;
-/// Moments that no search has seen, so far behind the last that it saw as parts of that one's time; but not
-/// of less than a second.
+/// Moments that the search does not use: seconds after its last moment, as a share of that moment's time, but
+/// at least of one second.
 constexpr double k_later[] = {0.087, 0.423, 1.53};
 
 std::vector<glsl::Cure> changes_of(const std::vector<ChosenCut>& cuts) {
@@ -74,7 +75,7 @@ private:
 
     bool keeps(double error) const { return error <= *request_.goal.most_error; }
 
-    /// Nothing where no cut needs it, and where it is too slow.
+    /// Returns a bench for the finer pictures; nullopt if no cut needs it, or if it is too slow.
     std::optional<CutBench> fine_bench(CutBench& bench, const std::vector<glsl::Cut>& cuts) const {
         const Extent fine = small_of(request_.extent, k_fine);
         const double trial = bench.seconds_of_trial() * larger(fine);
@@ -84,7 +85,7 @@ private:
         return made ? std::optional(*std::move(made)) : std::nullopt;
     }
 
-    /// How many times the pixels of the pictures that are searched.
+    /// Returns the ratio of pixels to those of the search pictures.
     double larger(Extent extent) const {
         return double(extent.pixels()) / double(small_of(request_.extent, k_small).pixels());
     }
@@ -102,8 +103,8 @@ private:
                 good_.push_back({cut.change, trial->error, trial->time, cut.hangs_on_size});
         }
         known_ = cuts.size();
-        // What shows nowhere comes first, of those that save as much the one of the most words; then what
-        // saves the most for what it shows.
+        // Cuts without any visible error come first; among those that save as much, the one with more work.
+        // Then come those that save the most for their error.
         std::ranges::stable_sort(good_, std::greater<>(), [](const ChosenCut& cut) {
             const double saved = 1 - cut.time;
             return cut.error == 0 ? std::pair(true, std::round(saved / k_alike))
@@ -111,7 +112,7 @@ private:
         });
     }
 
-    /// One after the other on top of those before, as long as the error holds.
+    /// Adds one cut after another, as long as the error stays within the goal.
     void combine(CutBench& bench) {
         watch_.begin("cuts combined", good_.size());
         std::optional<CutTrial> last;
@@ -135,13 +136,13 @@ private:
         }
     }
 
-    /// Of one round of one point at full size, guessed from a small picture.
+    /// Estimates the time of one round for one point at full size from a small picture.
     double seconds_a_round(CutBench& bench) const {
         return bench.milliseconds() * 1e-3 * larger(request_.extent) *
                double(request_.views.size() + std::size(k_later));
     }
 
-    /// The last of them, and others evenly along the way, as many as there is time for.
+    /// Returns the last step and others evenly spaced before it, as many as the time allows.
     std::vector<size_t> judged_steps(double seconds_a_round) const {
         std::vector<size_t> steps;
         const double points = k_timing * request_.seconds / (double(k_fewest_rounds) * seconds_a_round);
@@ -171,7 +172,7 @@ private:
         const double needed = double(k_fewest_rounds * (steps_.size() + 1)) * round;
         const Timing timing{2, 30, std::max(needed, k_timing * request_.seconds)};
         Watch watch = watch_;
-        if (!watch_.keep_going()) // the search ended so: what it found is judged
+        if (!watch_.keep_going()) // a cancelled search still judges its results
             watch.keep_going = [] { return true; };
         return compare_scenes(scene_, scenes, study, timing, watch, facts_);
     }
@@ -184,7 +185,7 @@ private:
         return true;
     }
 
-    /// Of every view by itself: none is paid for by another.
+    /// Returns the largest error of all views: a better view does not compensate for a worse one.
     double worst(const WorkPrecision& point) const {
         double worst = 0;
         for (const Outcome& view : point.views) {
@@ -234,7 +235,7 @@ private:
         say.push_back(work_sentence(found.chosen));
     }
 
-    /// Beside the time: what no machine changes.
+    /// Reports the operation counts, which do not depend on the machine.
     std::string work_sentence(const std::vector<ChosenCut>& chosen) const {
         const auto before = work_of(scene_);
         const auto scene = changed(scene_, changes_of(chosen));
@@ -248,7 +249,7 @@ private:
                            before->pixels, request_.views.front().name);
     }
 
-    /// Of all passes, one pixel of each; counted on as many as of the pass with the fewest.
+    /// Sums one pixel of each pass; `pixels` is that of the pass with the fewest counted.
     Result<PixelWork> work_of(const scene::Scene& scene) const {
         auto renderer = TRY(
             render::Renderer::create(scene, {.extent = request_.extent, .samples = image::SampleType::f32}));
@@ -266,12 +267,12 @@ private:
     const SimplifyRequest& request_;
     const Watch& watch_;
     const Circumstances& facts_;
-    Goal searched_; ///< what the small pictures have to keep
+    Goal searched_; ///< goal for the search pictures
     Stopwatch clock_{};
     size_t tried_ = 0, known_ = 0;
-    std::vector<ChosenCut> good_{};             ///< alone
-    std::vector<std::vector<ChosenCut>> way_{}; ///< each step keeps the error
-    std::vector<size_t> steps_{};               ///< of the way, that are judged
+    std::vector<ChosenCut> good_{}; ///< cuts that pay alone
+    std::vector<std::vector<ChosenCut>> way_{}; ///< combinations; each keeps the error
+    std::vector<size_t> steps_{}; ///< indices of the combinations to judge
 };
 
 } // namespace

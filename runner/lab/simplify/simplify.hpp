@@ -1,6 +1,6 @@
-// What can be left out of a scene within a stated error: cuts of its texts, each drawn and timed, combined as
-// long as the picture stays near to that of the scene as it is, and judged at moments that no search saw. A
-// context must be current.
+// Finds what can be left out of a scene within a stated error: cuts of its texts, each drawn and timed,
+// combined as long as the picture stays close to the unchanged scene's, and judged at moments that the search
+// did not use. Needs a current context.
 #pragma once
 
 #include "glsl/cure/cure.hpp"
@@ -12,24 +12,24 @@
 
 namespace tidemark::lab {
 
-/// The error is that against the scene as it is; 0: every byte stays.
+/// The error is measured against the unchanged scene; 0: all bytes stay the same.
 struct SimplifyRequest : SearchRequest {
-    std::function<bool(const glsl::Cure&)> can_be_written; ///< into the scene's own files
+    std::function<bool(const glsl::Cure&)> can_be_written; ///< to the scene's own files
 };
 
 /// A cut that was chosen.
 struct ChosenCut {
     glsl::Cure change;
-    double error = 0;           ///< of it alone, in the searched pictures
-    double time = 1;            ///< of a frame with it alone, as a part of that without
-    bool hangs_on_size = false; ///< as glsl::Cut has it
+    double error = 0; ///< of this cut alone, in the search pictures
+    double time = 1; ///< of a frame with this cut alone, as a share of the time without it
+    bool hangs_on_size = false; ///< see glsl::Cut
 };
 
 struct Simplified : SearchOutcome {
-    std::vector<ChosenCut> chosen{}; ///< in the order in which they were found; empty: none pays
+    std::vector<ChosenCut> chosen{}; ///< in the order of their combination; empty: no cut pays
 };
 
-/// Fails (ErrorCode::check_failed) where nothing can be said, as where its picture is NaN or infinite.
+/// Fails (ErrorCode::check_failed) if nothing can be measured, for example if the picture is NaN or infinite.
 Result<Simplified> simplify(const scene::Scene& scene, const SimplifyRequest& request, const Watch& watch,
                             const Circumstances& circumstances);
 

@@ -18,7 +18,7 @@ using scene::Json;
 constexpr double k_slower = 1.05;
 constexpr double k_more_wrong = 1.01;
 
-/// NaN where there is no number of that name.
+/// Returns NaN if the place does not hold a number.
 double number_at(const Json& json, const std::string& pointer) {
     const Json::json_pointer place(pointer);
     return json.contains(place) && json[place].is_number() ? json[place].get<double>() : std::nan("");
@@ -32,7 +32,7 @@ void compare_errors(const WorkPrecisionSet& set, const Json& before, const WorkP
     if (std::isnan(was))
         found.notes.push_back(
             fmt::format("{}: its error is not compared: the baseline has no number for it", now.point.label));
-    else if (!(is <= was * k_more_wrong) && !(is <= was + noise)) // an error that is no number is worse
+    else if (!(is <= was * k_more_wrong) && !(is <= was + noise)) // a NaN error is worse
         found.worse.push_back(fmt::format("{}: more wrong: {} {} -> {}", now.point.label, error_name(set),
                                           figure(was), figure(is)));
 }
@@ -40,7 +40,7 @@ void compare_errors(const WorkPrecisionSet& set, const Json& before, const WorkP
 void compare_times(const Json& before, const WorkPrecision& now, Comparison& found) {
     const double was = number_at(before, "/all/wall_ms/median"),
                  high = number_at(before, "/all/wall_ms/ci95_high");
-    const TimeSummary& time = now.all.wall; // whatever clock the two studies went by
+    const TimeSummary& time = now.all.wall; // wall time in both, whichever clock the studies used
     if (time.median > was * k_slower && time.confidence.low > high)
         found.worse.push_back(fmt::format("{}: slower: {} ms -> {} ms [{}, {}]", now.point.label, figure(was),
                                           figure(time.median), figure(time.confidence.low),

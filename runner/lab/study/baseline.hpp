@@ -1,4 +1,5 @@
-// A study held against an older one of the same scene: what became slower or more wrong, beyond noise.
+// Compares a study with an older one of the same scene: the settings that became slower or more wrong, beyond
+// noise.
 #pragma once
 
 #include "base/result.hpp"
@@ -11,14 +12,14 @@
 namespace tidemark::lab {
 
 struct Comparison {
-    std::vector<std::string> worse; ///< a sentence each
-    std::vector<std::string> notes; ///< what could not be compared, and why
-    size_t compared = 0;            ///< points that both have
+    std::vector<std::string> worse; ///< one sentence each
+    std::vector<std::string> notes; ///< comparisons that were not possible, and why
+    size_t compared = 0; ///< number of points in both
 };
 
-/// `old_study` is a study.json; points are known by their labels. Slower: by more than 5 %, with intervals
-/// that do not overlap. More wrong: by more than 1 % and more than the reference's own error, or no number
-/// any more. Fails (ErrorCode::load) on a text that is no study, and on one of other views or another size.
+/// `old_study` is a study.json; points are matched by label. Slower: by more than 5 %, with intervals that do
+/// not overlap. More wrong: by more than 1 % and more than the reference's own error, or now NaN. Fails
+/// (ErrorCode::load) if the text is not a study, or is one of other views or another size.
 Result<Comparison> compare_with(std::string_view old_study, const std::string& file,
                                 const WorkPrecisionSet& set);
 

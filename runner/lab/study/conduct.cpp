@@ -68,7 +68,7 @@ private:
         return !stopped_;
     }
 
-    /// Names and values that the scene does not have are mistakes of the person who asked, all known at once.
+    /// Unknown names and invalid values are usage errors, so all are checked before the first drawing.
     Result<void> check_settings() {
         std::vector<std::vector<Setting>> all{study().reference, study().model};
         for (const ErrorSource& source : study().sources)
@@ -87,7 +87,8 @@ private:
         return {};
     }
 
-    /// What a recipe shows, drawn once: taking a source away makes many points the same.
+    /// Returns the pictures and hits of a recipe, drawn once: without an error source, many points are the
+    /// same.
     Result<const Sight*> sight_of(const Recipe& recipe) {
         std::vector<Setting> key = merged(recipe.settings);
         std::ranges::sort(key, {}, &Setting::name);
@@ -109,7 +110,7 @@ private:
         return sight;
     }
 
-    /// What rays really meet, as far as the text proves it.
+    /// Finds the places of the first hits as far as the text proves them.
     Result<void> prove_hits() {
         if (!study().rays) {
             hit_source_ = HitSource::none;
@@ -133,8 +134,8 @@ private:
         return record_hits();
     }
 
-    /// Hits that no author tells are recorded, if there is something to hold them against: of the scene as it
-    /// is, which is the first point.
+    /// Records the hits of a scene without mainHit if there is a proof to compare them with. The unchanged
+    /// scene, the first point, is recorded.
     Result<void> record_hits() {
         if (glsl::hit_scene(scene_))
             return {};
@@ -142,7 +143,8 @@ private:
             Specimen::create(scene_, {{}, study().precision}, study().extent, HitSource::main_hit_or_march);
         const View& view = study().views.front();
         if (specimen)
-            specimen->picture(view); // first: what a driver puts off belongs to the first picture
+            // first, so that work deferred by the driver counts for the first picture
+            specimen->picture(view);
         const auto hits = specimen ? specimen->hits(view) : fail(specimen.error());
         set().hits_recorded = hits.has_value();
         if (hits) {
@@ -157,7 +159,7 @@ private:
         return {};
     }
 
-    /// Draws every point on every view.
+    /// Draws every point in every view.
     Result<void> look() {
         watch_.begin("points drawn", set().points.size());
         for (size_t i = 0; i < set().points.size(); ++i) {
@@ -171,7 +173,7 @@ private:
                                 : Specimen::create(scene_, {point.point.settings, study().precision},
                                                    study().extent, hit_source_);
             auto sight = specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error()));
-            if (!sight && i == 0) // the scene as it is
+            if (!sight && i == 0) // the unchanged scene
                 return fail(std::move(sight.error()));
             if (sight) {
                 point.compile_milliseconds = specimen->compile_milliseconds();
@@ -209,7 +211,7 @@ private:
         return {};
     }
 
-    /// Where no march has a proof, what the scene itself converges to.
+    /// Takes the hits to which the scene itself converges as the truth, if no march is proved.
     void take_drawn_hits(PictureTruth& drawn) {
         remark("no proof holds the hits: " + why_no_proof_ +
                (drawn.hit_standard.none.empty() ? "; they are held against the scene's own" : ""));
@@ -222,7 +224,7 @@ private:
         truth_.footprints.assign(study().views.size(), plain_footprint(study().extent));
     }
 
-    /// Distances computed in double come out of mainHit as floats: no error is known better than that.
+    /// Distances computed in double leave mainHit as floats, so no error is known more precisely than that.
     void allow_for_read_back(Standard& standard) const {
         double squares = 0;
         size_t count = 0;
@@ -238,7 +240,7 @@ private:
         standard.check += fmt::format("; distances are read back as floats, to {:.2g}", rounding);
     }
 
-    /// Where hits are proved, the rays of the pictures' reference are held against them.
+    /// If hits are proved, compares the rays of the pictures' reference with them.
     void check_pictures_by_hits(const std::vector<Hits>& hits) {
         if (hits.empty())
             return;
@@ -265,8 +267,8 @@ private:
         }
     }
 
-    /// Each source's settings are added to those before; the step from one sight to the next is its share,
-    /// and the algorithm's is what then remains.
+    /// Adds each source's settings to those before. Its share is the difference between successive pictures;
+    /// the remainder is the algorithm's share.
     void take_sources_away() {
         if ((study().sources.empty() && study().model.empty()) || truth_.pictures.empty())
             return;
@@ -300,7 +302,7 @@ private:
         }
     }
 
-    /// What the reference itself would change by without the scene's approximations: the same for every
+    /// Returns the change of the reference without the scene's approximations; it is the same for every
     /// point.
     std::optional<Share> model_share(const Sight& true_sight) {
         if (study().model.empty())
@@ -308,7 +310,7 @@ private:
         Recipe recipe = truth_recipe_;
         recipe.settings.insert(recipe.settings.end(), study().model.begin(), study().model.end());
         const auto sight = sight_of(recipe);
-        if (sight) // of the picture alone: hits are a matter of the field
+        if (sight) // for the picture only: hits depend on the field
             return Share{"model", 0, pooled_rmse((*sight)->pictures, true_sight.pictures, truth_.blind)};
         remark("the share of the model is missing: " + to_string(sight.error()));
         return std::nullopt;
@@ -318,13 +320,13 @@ private:
     const Timing& timing_;
     const Watch& watch_;
     Findings findings_;
-    std::vector<std::optional<Specimen>> specimens_; ///< by point; nothing for a point that failed
+    std::vector<std::optional<Specimen>> specimens_; ///< by point; nullopt for a point that failed
     std::vector<Sight> sights_;
     std::map<std::string, Sight> known_sights_;
     Truth truth_;
     std::string why_no_proof_;
     HitSource hit_source_ = HitSource::main_hit;
-    Recipe truth_recipe_; ///< of the pictures
+    Recipe truth_recipe_; ///< of the reference pictures
     bool stopped_ = false;
 };
 

@@ -1,5 +1,5 @@
-// A study carried out: draws every point on every view, holds it against the truths, times it. A context must
-// be current.
+// Runs a study: draws every point in every view, compares it with the truths, and times it. Needs a current
+// context.
 #pragma once
 
 #include "lab/study/timing.hpp"
@@ -13,11 +13,11 @@
 
 namespace tidemark::lab {
 
-/// The pictures behind the numbers.
+/// The pictures that the numbers come from.
 struct Evidence {
-    std::vector<image::Image> reference;             ///< by view
+    std::vector<image::Image> reference; ///< by view
     std::vector<std::vector<image::Image>> pictures; ///< by point and view
-    std::vector<std::vector<image::Image>> causes;   ///< by point and view; empty without hits
+    std::vector<std::vector<image::Image>> causes; ///< by point and view; empty without hits
 };
 
 struct Findings {
@@ -25,8 +25,9 @@ struct Findings {
     Evidence evidence;
 };
 
-/// A point that fails is a finding; the study fails (ErrorCode::usage, ErrorCode::load) when a setting does
-/// not exist or the scene as it is does not compile. What was interrupted is marked incomplete.
+/// A point that fails is part of the result. The study fails (ErrorCode::usage, ErrorCode::load) if a setting
+/// does not exist or the unchanged scene does not compile, and (ErrorCode::check_failed) if it is cancelled
+/// before there is a reference. A study cancelled later is marked incomplete.
 Result<Findings> conduct(const scene::Scene& scene, const Study& study, const Timing& timing,
                          const Watch& watch, const Circumstances& circumstances = {});
 

@@ -16,24 +16,23 @@ namespace tidemark::lab {
 namespace {
 
 constexpr int k_most_refinements = 6;
-/// From three changes on a ratio that rises is seen to rise.
+/// With three changes, a ratio that rises can be detected.
 constexpr size_t k_wanted_changes = 3;
-/// A reference is good enough when its own error is this part of what the strictest point's is.
+/// A reference is good enough if its own error is this share of the strictest point's.
 constexpr double k_settled = 0.1;
-/// How much longer than the study's longest a step may take while there are no two changes to tell anything
-/// from.
+/// How much longer than the study's limit a step may take while fewer than two changes are known.
 constexpr double k_first_steps = 3;
-/// What arithmetic in floats leaves at the end of a long sum, and what rounding a double to a float does, in
-/// halves of a unit in the last place.
+/// Noise of float arithmetic at the end of a long sum, and of rounding a double to a float, in half units in
+/// the last place.
 constexpr double k_float_noise = 64, k_double_noise = 2;
 
-/// What one setting of the scene shows in all views.
+/// The pictures and hits of one setting of the scene in all views.
 struct Shown {
     std::vector<Setting> settings;
     std::vector<image::Image> pictures;
     std::vector<Hits> hits;
     std::vector<std::string> kept_hashes;
-    double seconds = 0; ///< that it took
+    double seconds = 0; ///< time it took
 };
 
 std::vector<double> plain_footprints(size_t views, Extent extent) {
@@ -63,7 +62,7 @@ double noise_of(const std::vector<Hits>& hits) {
     return 0x1p-24 * std::sqrt(squares / double(std::max<size_t>(1, count)));
 }
 
-/// The scene at ever stricter settings, and what is known of the last of them.
+/// Draws the scene at ever stricter settings, and estimates the error of the last one.
 class Ladder {
 public:
     Ladder(const scene::Scene& scene, const Study& study, const KeepGoing& keep_going)
@@ -103,7 +102,7 @@ private:
         return std::optional<Shown>(std::move(shown));
     }
 
-    /// The first rung, in double where it can be had.
+    /// Draws the first rung, in double if possible.
     Result<void> begin() {
         const bool to_promote = precision_ == glsl::Precision::single;
         if (to_promote) {
@@ -150,7 +149,7 @@ private:
 
     Remainder remainder(What what) { return remainder_of(changes(what), rounding(what)); }
 
-    /// Nothing more to be learned by going on.
+    /// Returns whether further steps would not improve the estimate.
     bool is_settled(What what) {
         const Remainder left = remainder(what);
         if (left.still || !left.error || changes(what).size() < k_wanted_changes)
@@ -160,7 +159,7 @@ private:
         return named() || *left.error <= k_settled * apart(what, first_, last_);
     }
 
-    /// Draws the next rung; false: the last one it is.
+    /// Draws the next rung; returns false if it was the last one.
     bool step_up() {
         const double longest = changes_.size() < 2 ? longest_first_step() : study_.longest_step;
         if (step_ == k_most_refinements)
@@ -187,8 +186,8 @@ private:
         return !(is_settled(What::pictures) && (!has_hits() || is_settled(What::hits)));
     }
 
-    /// What settings off the ladder show, asked for once for the pictures and once for the hits; none where
-    /// it cannot be had.
+    /// Returns the pictures of settings off the ladder, drawn once for pictures and hits; nullptr if that
+    /// fails.
     const Shown* shown_beside(const std::vector<Setting>& settings) {
         const auto [place, is_new] = beside_.try_emplace(to_string(settings));
         if (is_new)
@@ -197,8 +196,8 @@ private:
         return place->second ? &*place->second : nullptr;
     }
 
-    /// Where nothing moves any more, settings off the ladder must not move it either, and how it came to rest
-    /// tells how much a stop in the scene itself may hide.
+    /// If nothing changes any more, settings off the ladder must not change it either; and the last changes
+    /// before show how much a limit inside the scene may hide.
     Remainder look_around(What what, Remainder still) {
         for (const bool second : {false, true}) {
             const std::vector<Setting> settings = beside(study_, step_, second);
@@ -219,7 +218,7 @@ private:
         return look_back(what, std::move(still));
     }
 
-    /// The last two changes that were more than rounding, the later first: on the ladder, and below it.
+    /// Returns the last two changes above rounding, the later first: on the ladder, then below it.
     std::vector<double> last_moves(What what) {
         std::vector<double> moves;
         for (size_t i = changes(what).size(); i-- > 0 && moves.size() < 2;)
@@ -254,7 +253,7 @@ private:
         return still;
     }
 
-    /// What is known of the truth's own error.
+    /// Returns the estimate of the truth's own error.
     Standard standard(What what) {
         Standard standard;
         const Shown& best = named() ? first_ : last_;
@@ -313,10 +312,10 @@ private:
     glsl::Precision precision_;
     TurnedSpecimen specimen_;
     std::string not_promoted_;
-    std::string stopped_; ///< why the ladder ends where it could go on
-    Shown first_;         ///< the settings that were asked for, or the study's strictest
+    std::string stopped_; ///< why the ladder ends although it could continue
+    Shown first_; ///< the requested settings, or the study's strictest
     Shown last_;
-    int step_ = 0; ///< of `last_`
+    int step_ = 0; ///< step of `last_`
     std::map<std::string, std::optional<Shown>> beside_;
     std::vector<double> changes_;
     std::vector<double> hit_changes_;

@@ -8,7 +8,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// 1 / (1 - r): the sum of all changes from this one on, over this one.
+/// Returns 1 / (1 - r): the sum of all changes from this one on, divided by this one.
 double sum_over_last(double before, double last) {
     return 1 / (1 - last / before);
 }
@@ -34,8 +34,8 @@ Remainder remainder_of(const std::vector<double>& changes, double rounding) {
             false};
     const double sum = sum_over_last(before, last);
     const double first = changes.size() > 2 ? changes[changes.size() - 3] : 0;
-    // The sums over the last grow by this from step to step: 0 for a power of the setting, 1/s for its
-    // logarithm to the power of -s.
+    // These sums grow by this amount from step to step: 0 for a power of the setting, 1/s for its logarithm
+    // to the power of -s.
     const double growth = before < first ? std::max(0.0, sum - sum_over_last(first, before)) : 0.0;
     if (!(growth < 0.9))
         return {{},

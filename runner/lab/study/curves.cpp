@@ -16,14 +16,14 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * 8) == 0);
 }
 
-/// The same pictures, and rays that end in the same places: how much work that was does not count.
+/// Compares pictures and the places where rays end; the amount of work does not count.
 bool shows_same(const Sight& a, const Sight& b) {
     return a.pictures == b.pictures && a.hits.size() == b.hits.size() &&
            std::equal(a.hits.begin(), a.hits.end(), b.hits.begin(),
                       [](const Hits& x, const Hits& y) { return same_bits(x.distance, y.distance); });
 }
 
-/// Whether two points have the same values for all knobs but these.
+/// Returns whether two points have the same values for all knobs except `but`.
 bool same_but(const WorkPrecisionSet& set, const Point& a, const Point& b,
               const std::vector<std::string>& names, const std::vector<std::string>& but) {
     return std::ranges::all_of(names, [&](const std::string& name) {
@@ -31,8 +31,8 @@ bool same_but(const WorkPrecisionSet& set, const Point& a, const Point& b,
     });
 }
 
-/// Of the points of `series` and the scene as it is: whether no two that only `knob` parts differ, and some
-/// do not.
+/// For the points of `series` and the unchanged scene: returns whether points that differ only in `knob`
+/// exist and all show the same.
 bool is_idle(const WorkPrecisionSet& set, const std::vector<Sight>& sights,
              const std::vector<std::string>& names, size_t series, const std::string& knob) {
     bool compared = false;
@@ -53,19 +53,19 @@ bool is_idle(const WorkPrecisionSet& set, const std::vector<Sight>& sights,
     return compared;
 }
 
-/// One curve's points that tell something of the order, from coarse to strict.
+/// The points of one curve that can be used for its order, from coarse to strict.
 struct Curve {
     std::vector<Setting> fixed;
     std::vector<double> knob, error; ///< logarithms
     std::vector<std::string> values;
-    size_t points = 0; ///< hollow and other ones, too
+    size_t points = 0; ///< including hollow and other unused points
 };
 
 double slope_between(const Curve& curve, size_t i) {
     return (curve.error[i + 1] - curve.error[i]) / (curve.knob[i + 1] - curve.knob[i]);
 }
 
-/// Least squares: the slope and its standard error.
+/// Least squares: returns the slope and its standard error.
 std::pair<double, double> fit(const Curve& curve) {
     const auto n = double(curve.knob.size());
     double x = 0, y = 0, xx = 0, xy = 0, rest = 0;
@@ -84,10 +84,10 @@ std::pair<double, double> fit(const Curve& curve) {
 }
 
 constexpr size_t k_fewest_points = 3;
-/// One power describes slopes that lie within this, or this part of it, whichever is more.
+/// One power describes slopes that differ from it by at most this, or this share of it, whichever is more.
 constexpr double k_spread = 0.25;
 
-/// `truth`: the truth's own error.
+/// `truth` is the truth's own error.
 ObservedOrder order_of(const Curve& curve, const std::string& knob, double truth) {
     ObservedOrder order;
     order.knob = knob;

@@ -10,14 +10,13 @@
 namespace tidemark::lab {
 namespace {
 
-/// M. Okabe and K. Ito's colours, which the colour-blind tell apart, and P. Tol's wine.
+/// M. Okabe and K. Ito's colours, distinguishable for the colour-blind, and P. Tol's wine.
 constexpr const char* k_colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                      "#e69f00", "#56b4e9", "#7f7f00", "#882255"};
 constexpr const char* k_grey = "#555555";
 
-/// A string of gnuplot's that means nothing but itself: between apostrophes it runs no command in backquotes.
-/// Apostrophes of its own become typographic ones: two for one, as the manual has it, end a string that they
-/// begin.
+/// Quotes text for gnuplot: between apostrophes, backquotes run no command. Apostrophes in the text become
+/// typographic ones, because two for one, as the manual has it, end a string that they begin.
 std::string quoted_text(std::string_view text) {
     std::string quoted = "'";
     for (const char c : one_line(text))
@@ -25,7 +24,8 @@ std::string quoted_text(std::string_view text) {
     return quoted + "'";
 }
 
-/// A word of a data block: nothing there is a command, but a line that is EOD ends it, and a quote the word.
+/// Quotes a column of a data block: nothing in it is a command, but a line EOD would end the block, and a
+/// quote the column.
 std::string data_text(std::string_view text) {
     std::string word = "\"";
     for (const char c : one_line(text))
@@ -64,7 +64,7 @@ std::string block(const std::string& name, const std::vector<Mark>& marks) {
     return text + "EOD\n";
 }
 
-/// The staircase of what can be had for a time: down at each point of the front.
+/// Returns the front as a staircase, one step down at each point.
 std::string front(std::vector<Mark> marks) {
     std::erase_if(marks, [](const Mark& mark) { return !mark.front; });
     std::ranges::sort(marks, {}, &Mark::cost);

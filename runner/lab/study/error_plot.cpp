@@ -9,7 +9,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// For wide screens and for narrow ones, where letters must not shrink.
+/// For wide screens, and for narrow ones, on which letters must not shrink.
 constexpr Extent k_wide{720, 440}, k_narrow{340, 400};
 
 std::string title_of(const WorkPrecisionSet& set, const WorkPrecision& point) {

@@ -1,4 +1,4 @@
-// The diagrams of a study's page: error against time and against work, as SVG.
+// The diagrams of a study's page as SVG: error against time and against work.
 #pragma once
 
 #include "lab/study/diagram.hpp"
@@ -8,16 +8,16 @@
 
 namespace tidemark::lab {
 
-/// Of a mark: 0 is the scene as it is, the others are those of the study, from 1.
+/// Returns the number of a mark's series: 0 is the unchanged scene, the study's are counted from 1.
 size_t plotted_series(const WorkPrecisionSet& set, const Point& point);
 
-/// Its mark, to stand before a word.
+/// Returns the series' mark as SVG, to be placed before a text.
 std::string series_key(size_t series, bool hollow = false);
 
-/// How many points have a place there: an error of 0 has none on a logarithmic axis.
+/// Returns the number of points in the diagram; an error of 0 has no place on a logarithmic axis.
 size_t plotted_points(const WorkPrecisionSet& set, Across across);
 
-/// Once for wide windows and once for narrow ones; empty: no point has a place.
+/// Returns two SVGs, for wide and narrow windows; empty if no point can be drawn.
 std::string error_plot(const WorkPrecisionSet& set, Across across);
 
 } // namespace tidemark::lab

@@ -1,4 +1,4 @@
-// Texts that a scene or a study file chose, for files that other programs read line by line.
+// Cleans texts from a scene or a study file for files that other programs read line by line.
 #pragma once
 
 #include <string>
@@ -6,7 +6,8 @@
 
 namespace tidemark::lab {
 
-/// The text without control characters: each, a line break too, as a blank. Other bytes stay.
+/// Returns the text with each control character, including line breaks, replaced by a blank. Other bytes
+/// stay.
 inline std::string one_line(std::string_view text) {
     std::string plain(text);
     for (char& c : plain)

@@ -13,7 +13,7 @@ image::PictureMetrics unknown_metrics() {
     return metrics;
 }
 
-/// Metrics of several pictures of one size as of one; views of which no pixel has a truth do not count.
+/// Combines the metrics of several pictures of one size; views without any true pixel do not count.
 image::PictureMetrics joined(const std::vector<Outcome>& views) {
     size_t pixels = 0;
     for (const Outcome& view : views)
@@ -44,7 +44,7 @@ image::PictureMetrics joined(const std::vector<Outcome>& views) {
     return all;
 }
 
-/// Black where `blind`; how many of these pixels were no numbers.
+/// Sets the `blind` pixels to black; returns how many of them were NaN or infinite.
 size_t cover(image::Image& picture, const PixelMask& blind) {
     const auto channels = size_t(picture.channels);
     size_t bad = 0;
@@ -58,7 +58,8 @@ size_t cover(image::Image& picture, const PixelMask& blind) {
     return bad;
 }
 
-/// Metrics over the pixels that have a truth. What looks at neighbourhoods has the others black in both.
+/// Measures over the pixels that have a truth. For metrics of neighbourhoods the others are black in both
+/// pictures.
 image::PictureMetrics measured(image::Image truth, image::Image found, const PixelMask& blind) {
     const auto blinded = size_t(std::ranges::count(blind, true));
     (void)cover(truth, blind);

@@ -20,7 +20,7 @@ namespace tidemark::lab {
 namespace fs = std::filesystem;
 namespace {
 
-/// Of all pictures in the page; those beyond it are links to the files beside it.
+/// Limit for all pictures embedded in the page, in bytes; the others are links to their files.
 constexpr size_t k_most_embedded = size_t{16} << 20;
 
 class Report {
@@ -28,12 +28,13 @@ public:
     Report(const OutputPath& folder, Findings& findings)
         : folder_(folder), set_(findings.set), evidence_(findings.evidence) {}
 
-    /// Makes all of it before the first file appears: a report that cannot be written replaces none.
+    /// Creates all contents before it writes the first file, so a report that fails leaves an older one
+    /// intact.
     Result<void> write() {
         make_diagrams();
         if (auto done = make_maps(); !done)
             return done;
-        // Last, for they hold the remarks of all others.
+        // last, because they contain the remarks of all other parts
         add("points.csv", to_csv(set_));
         add("report.html", to_html(set_, media_));
         add("study.json", to_json(set_));
@@ -72,7 +73,7 @@ private:
             make_diagram(Across::work, "error-vs-work");
     }
 
-    /// The script is there in any case: who has gnuplot elsewhere can run it there.
+    /// The script is always written, so it can be run elsewhere if gnuplot is missing here.
     void make_diagram(Across across, const std::string& name) {
         const std::string script = diagram_script(set_, across, name);
         if (script.empty()) {
@@ -100,7 +101,7 @@ private:
                 add(name + ending, *std::move(picture));
     }
 
-    /// The view on which the scene as it is does worst: there the differences are to be seen.
+    /// Returns the view with the largest error of the unchanged scene, in which differences are most visible.
     size_t shown_view() const {
         const auto& views = set_.points.front().views;
         const auto worst = std::ranges::max_element(
@@ -108,7 +109,7 @@ private:
         return worst == views.end() ? 0 : size_t(worst - views.begin());
     }
 
-    /// Keeps a picture as `maps/NAME.png`, and as the page has it.
+    /// Keeps a picture as `maps/NAME.png`, and embeds it in the page within the limit.
     Result<PagePicture> keep(const std::string& label, const std::string& name, const image::Image& picture) {
         const fs::path file = scratch_.path() / (name + ".png");
         TRY(image::write_picture(file, picture));
@@ -122,7 +123,7 @@ private:
         return kept;
     }
 
-    /// What a point shows, how far that is from the reference, and why.
+    /// Returns a point's picture, its difference from the reference, and the causes of wrong hits.
     Result<std::vector<PagePicture>> maps_of(size_t point, size_t view) {
         std::vector<PagePicture> maps;
         if (!set_.points[point].measured())
@@ -154,7 +155,7 @@ private:
     ScratchFolder scratch_;
     size_t embedded_ = 0; ///< bytes of pictures in the page
     using File = std::pair<fs::path, std::string>;
-    std::vector<File> files_; ///< names in the folder, and what is in them
+    std::vector<File> files_; ///< names in the folder, and contents
 };
 
 } // namespace

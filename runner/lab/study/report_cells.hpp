@@ -1,4 +1,4 @@
-// Numbers of a study as a page writes them, with units and intervals. HTML out.
+// Formats a study's numbers for the page, with units and intervals. Returns HTML.
 #pragma once
 
 #include "lab/study/work_precision.hpp"
@@ -7,13 +7,13 @@
 
 namespace tidemark::lab {
 
-/// Three digits, zeros too, so that columns align; a dash for what is not known.
+/// Three digits, including trailing zeros, so that columns align; a dash if the value is not known.
 std::string number(double value);
 
-/// `0.612 [0.408, 0.705]`, in milliseconds.
+/// For example `0.612 [0.408, 0.705]`, in milliseconds.
 std::string time_text(const TimeSummary& time);
 
-/// `0.0123 ± 0.0001`: with the truth's own error, where that is known.
+/// For example `0.0123 ± 0.0001`: includes the truth's own error if it is known.
 std::string error_text(const WorkPrecisionSet& set, const Outcome& outcome);
 
 } // namespace tidemark::lab

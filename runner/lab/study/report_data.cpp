@@ -20,8 +20,7 @@ Json json_number(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-// ---- One list of the numbers of an outcome, for JSON and CSV alike
-// ------------------------------------------
+// ---- The numbers of an outcome, for both JSON and CSV ----------------------------------------------------
 
 struct DataColumn {
     const char* group; ///< in JSON
@@ -130,7 +129,7 @@ Json outcome_json(const WorkPrecisionSet& set, const Outcome& outcome) {
 }
 
 Json standard_json(const Standard& standard) {
-    const bool known = standard.uncertainty && standard.none.empty(); // no truth has no error
+    const bool known = standard.uncertainty && standard.none.empty(); // a missing truth has no error
     Json json = {{"method", standard.method},
                  {"uncertainty", known ? json_number(*standard.uncertainty) : Json(nullptr)},
                  {"self_check", standard.check},
@@ -203,7 +202,7 @@ Json views_json(const Study& study) {
 
 // ---- CSV ------------------------------------------------------------------------------------------------
 
-/// A field that a spreadsheet takes for the text it is: quoted, on one line, no formula.
+/// Quotes a field for spreadsheets: on one line, and never taken for a formula.
 std::string csv_text(std::string_view text) {
     constexpr std::string_view k_begin_formulas = "=+-@";
     std::string quoted = "\"";
@@ -215,14 +214,14 @@ std::string csv_text(std::string_view text) {
     return quoted + '"';
 }
 
-/// A name that no other column has.
+/// Returns a name that no other column has.
 std::string free_name(std::string name, const std::vector<std::string>& taken) {
     while (std::ranges::find(taken, name) != taken.end())
         name.insert(0, "set ");
     return name;
 }
 
-/// The heads of all columns: those of a point, the knobs that points set, the numbers of an outcome.
+/// Returns all column heads: those of a point, the knobs that points set, the numbers of an outcome.
 std::vector<std::string> csv_heads(const std::vector<std::string>& knobs) {
     std::vector<std::string> first{"series", "trust",    "label",      "view",         "hollow",
                                    "idle",   "on_front", "compile_ms", "first_draw_ms"};

@@ -14,7 +14,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// The scene's file or folder without where it lies.
+/// Returns the name of the scene's file or folder, without its path and extension.
 std::string name_of(const WorkPrecisionSet& set) {
     const std::filesystem::path scene = set.circumstances.scene;
     return (scene.has_filename() ? scene : scene.parent_path()).stem().string();

@@ -1,5 +1,5 @@
-// How a study's figures came about, as HTML: truths, clock, machine, scene, observed orders, what was left
-// out.
+// Describes as HTML how a study's figures were measured: truths, clock, machine, scene, observed orders,
+// omissions.
 #pragma once
 
 #include "lab/study/work_precision.hpp"
@@ -8,12 +8,12 @@
 
 namespace tidemark::lab {
 
-/// Empty: no curve has points enough.
+/// Returns an empty text if no curve has enough points.
 std::string orders(const WorkPrecisionSet& set);
 
 std::string method(const WorkPrecisionSet& set);
 
-/// Empty: nothing was left out.
+/// Returns an empty text if nothing was left out.
 std::string left_out(const WorkPrecisionSet& set);
 
 } // namespace tidemark::lab

@@ -41,7 +41,7 @@ void add_compiling_columns(std::vector<Column>& columns) {
 
 std::vector<Column> columns_of(const WorkPrecisionSet& set) {
     std::vector<Column> columns;
-    // Where hits rank, their RMS is a column below.
+    // If hits rank the points, their RMS is a column below.
     if (!set.ranked_by_hits())
         columns.push_back({"RMSE", [&set](const WorkPrecision& p) { return number(error_of(set, p.all)); }});
     columns.push_back({"ms [95 %]", [](const WorkPrecision& p) { return time_text(p.all.time()); }});
@@ -70,7 +70,7 @@ std::vector<Column> columns_of(const WorkPrecisionSet& set) {
     return columns;
 }
 
-/// The first cell of a row: it leads to the point's card.
+/// Returns the first cell of a row, with a link to the point's card.
 std::string setting_cell(const WorkPrecisionSet& set, size_t point) {
     return fmt::format(R"(<td><a href="#point-{0}" data-point="{0}">{1}</a></td>)", point,
                        escaped(set.points[point].point.label));

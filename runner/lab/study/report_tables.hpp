@@ -7,16 +7,16 @@
 
 namespace tidemark::lab {
 
-/// A row for each point, with the numbers of all views together; it leads to the point's card.
+/// Returns a row for each point, with the numbers of all views together and a link to the point's card.
 std::string points_table(const WorkPrecisionSet& set);
 
-/// Error and time of each point on each view.
+/// Returns the error and time of each point in each view.
 std::string views_table(const WorkPrecisionSet& set);
 
-/// Why first hits are wrong, with heading; empty: they are not known.
+/// Returns the causes of wrong hits, with a heading; empty if they are not known.
 std::string causes_table(const WorkPrecisionSet& set);
 
-/// What the error is made of, with heading; empty: no source was taken away.
+/// Returns the shares of the error, with a heading; empty if no error source was removed.
 std::string shares_table(const WorkPrecisionSet& set);
 
 } // namespace tidemark::lab

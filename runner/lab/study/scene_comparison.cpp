@@ -11,7 +11,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// The points of a study of whole scenes, to be drawn, held against the first, and timed.
+/// The points of a study of whole scenes: draws them, compares them with the first, and times them.
 class SceneComparison {
 public:
     SceneComparison(const Study& study, const Circumstances& circumstances) {

@@ -1,4 +1,4 @@
-// Scenes held against one of them: what that shows is what they should show. A context must be current.
+// Compares scenes with one of them, whose pictures are the truth. Needs a current context.
 #pragma once
 
 #include "lab/study/conduct.hpp"
@@ -11,13 +11,13 @@
 
 namespace tidemark::lab {
 
-/// Pictures as a truth, but for the pixels that are NaN or infinite. Fails (ErrorCode::check_failed) where
-/// these are too many.
+/// Uses pictures as the truth, except for pixels that are NaN or infinite. Fails (ErrorCode::check_failed) if
+/// there are too many of those.
 Result<Truth> truth_of(std::vector<image::Image> pictures);
 
-/// A study whose points are scenes, and whose truth is the first of them: `scene`, as it is. What it shows is
-/// what it shows, so that the truth has no error of its own. Those that nobody waits for any more are left
-/// out.
+/// Runs a study whose points are scenes, and whose truth is the pictures of the first one: `scene`,
+/// unchanged. That truth has no error of its own by definition. Scenes that are not reached before a
+/// cancellation are left out.
 Result<Findings> compare_scenes(const scene::Scene& scene,
                                 const std::vector<std::pair<std::string, scene::Scene>>& others,
                                 const Study& study, const Timing& timing, const Watch& watch,

@@ -14,7 +14,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// Leaves the frame of the view in the renderer's target.
+/// Draws the frame of the view into the renderer's target.
 void draw(render::Renderer& renderer, const View& view) {
     const render::FrameState state = state_of(view, renderer.extent());
     render::FrameStepper(renderer, state).draw(state.frame);
@@ -38,7 +38,7 @@ Result<Specimen> Specimen::create(const scene::Scene& scene, const Recipe& recip
                          .samples = image::SampleType::f32,
                          .precision = recipe.precision,
                          .specialise = glsl::Specialise::unreachable,
-                         .extras = {.unchanged = true}}); // what drawing costs is the question
+                         .extras = {.unchanged = true}}); // so that drawing always costs its full time
     if (!renderer)
         return fail(std::move(renderer.error()));
     specimen.compile_milliseconds_ = watch.elapsed().wall;
@@ -88,7 +88,7 @@ Result<void> Specimen::record(const scene::Scene& set) {
     return {};
 }
 
-/// Against the text on the CPU, which computes in float.
+/// Compares the recording with the text on the CPU, which computes in float.
 Result<void> Specimen::check_recording(const View& view) {
     if (!recorded_ || precision_ != glsl::Precision::single)
         return {};

@@ -44,7 +44,8 @@ std::optional<std::string> scaled(const std::string& text, double factor) {
 
 namespace {
 
-/// From one value of the axis to the next; nothing for texts, a single value, a change of sign.
+/// Returns the ratio of the last two values of the axis; nullopt for texts, a single value, or a change of
+/// sign.
 std::optional<double> ratio_of(const Axis& axis) {
     if (axis.values.size() < 2)
         return std::nullopt;
@@ -89,7 +90,7 @@ std::vector<Axis> axes_of(const Study& study) {
 
 namespace {
 
-/// Of an axis that varies this knob: how its values go on; nothing where none does.
+/// Returns the ratio of an axis that varies this knob; nullopt if there is none.
 std::optional<double> ratio_of(const Study& study, std::string_view name) {
     std::vector<Axis> axes = axes_of(study);
     for (const Series& series : study.series)
@@ -115,7 +116,7 @@ std::vector<Setting> strictest(const Study& study, int steps) {
     }
     for (const Setting& named : study.reference) {
         settings.push_back(named);
-        if (const auto ratio = ratio_of(study, named.name); ratio && steps != 0) // twice or half
+        if (const auto ratio = ratio_of(study, named.name); ratio && steps != 0) // by factors of two
             settings.back().value =
                 scaled(named.value, std::pow(*ratio > 1 ? 2.0 : 0.5, steps)).value_or(named.value);
     }

@@ -5,7 +5,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// All combinations, the last axis fastest.
+/// Returns all combinations, the last axis fastest.
 std::vector<std::vector<Setting>> combinations(const std::vector<Axis>& axes) {
     std::vector<std::vector<Setting>> found{{}};
     for (const Axis& axis : axes) {

@@ -11,7 +11,7 @@ namespace {
 
 using scene::Json;
 
-/// A tree of JSON read from above; remembers the first thing that is wrong, with its place.
+/// Reads a JSON tree from the top, and keeps the first error with its place.
 class Reader {
 public:
     Reader(const std::string& file, std::string_view text) : file_(file), text_(text) {}
@@ -51,8 +51,7 @@ private:
             error_ = error_at({file_, line_of(pointer), 0}, fmt::format("{}: {}", pointer, what));
     }
 
-    /// Where the last name of the pointer stands, found as the reader of the file would: by its names in
-    /// order.
+    /// Returns the line of the pointer's last name, found by searching the text for its names in order.
     int line_of(const std::string& pointer) const {
         size_t at = 0;
         for (size_t begin = 1; begin < pointer.size();) {
@@ -65,7 +64,7 @@ private:
         return 1 + int(std::count(text_.begin(), text_.begin() + ptrdiff_t(at), '\n'));
     }
 
-    /// Names that we do not read are mistakes: a study that ignores half of its file misleads.
+    /// Unknown names are errors: a study that silently ignores part of its file is misleading.
     void known(const Json& json, const std::string& at, const std::vector<std::string>& names) {
         if (!json.is_object())
             return wrong(at, "must be an object");
@@ -110,7 +109,7 @@ private:
         return {};
     }
 
-    /// Numbers as GLSL has them, or a text as it is.
+    /// Returns a number in GLSL's notation, or a text unchanged.
     std::string value_of(const Json& json, const std::string& at) {
         if (json.is_string())
             return json.get<std::string>();
@@ -187,7 +186,7 @@ private:
         return found;
     }
 
-    /// A report knows views by their names.
+    /// View names must be unique, because a report refers to views by name.
     void add(std::vector<View>& views, View fresh, const std::string& at) {
         if (std::ranges::find(views, fresh.name, &View::name) != views.end())
             wrong(at + "/name", fmt::format("another view is named '{}' already", fresh.name));

@@ -16,13 +16,13 @@ double load_average() {
     return ::getloadavg(&load, 1) == 1 ? load : 0;
 }
 
-/// Without the rounds that it did not take part in.
+/// Removes the rounds in which the point did not take part.
 std::vector<double> present(std::vector<double> rounds) {
     std::erase_if(rounds, [](double value) { return std::isnan(value); });
     return rounds;
 }
 
-/// From the single runs to the summaries.
+/// Computes the summaries from the single runs.
 void summarise(WorkPrecision& point) {
     const auto of = [](const std::vector<double>& rounds) { return summary_of(present(rounds)); };
     for (size_t view = 0; view < point.views.size(); ++view) {
@@ -37,13 +37,13 @@ void summarise(WorkPrecision& point) {
         point.all.gpu = of(mean_of_views(point.gpu));
 }
 
-/// Runs points on views and keeps the clocks.
+/// Runs points in views and keeps their times.
 class Timer {
 public:
     Timer(const Watch& watch, const Run& run, WorkPrecisionSet& set)
         : watch_(watch), run_(run), set_(set), trial_(set.points.size() * set.study.views.size()) {}
 
-    /// One round of the points for which `takes_part` holds. False: stopped.
+    /// Runs one round of the points for which `takes_part` holds. Returns false if it was cancelled.
     template <class TakesPart>
     bool round(size_t number, bool keep, TakesPart takes_part) {
         const size_t views = set_.study.views.size();
@@ -65,7 +65,7 @@ public:
         return true;
     }
 
-    /// What one round of a point costs on all views, from round 0.
+    /// Returns the seconds that round 0 took for a point, over all views.
     double seconds(size_t point) const {
         double sum = 0;
         const size_t views = set_.study.views.size();
@@ -74,7 +74,7 @@ public:
         return sum;
     }
 
-    /// After the warm-up: by which clock the rest goes.
+    /// Chooses the clock, after the warm-up.
     void choose_clock() {
         ClockComparison comparison;
         for (const std::vector<Cost>& costs : trial_) {
@@ -99,7 +99,7 @@ private:
             point.gpu[view].back() = *cost.gpu;
     }
 
-    /// A place for one more round, not a number until it is run.
+    /// Adds an entry for one more round, NaN until it is run.
     void make_room() {
         for (WorkPrecision& point : set_.points)
             for (auto* clock : {&point.wall, &point.cpu, &point.gpu}) {

@@ -1,6 +1,6 @@
-// Times the points of a study against each other: interleaved, in an order shuffled anew for every round.
-// Each point has the same share of the budget, so that a slow one does not cost the others their rounds. What
-// is run is the caller's affair.
+// Times the points of a study against each other: interleaved, in an order shuffled again for every round.
+// Each point has the same share of the budget, so a slow one does not cost the others their rounds. The
+// caller supplies the function that draws.
 #pragma once
 
 #include "lab/stopwatch.hpp"
@@ -14,45 +14,46 @@
 
 namespace tidemark::lab {
 
-/// How often to time.
+/// Rounds and budget of the timing.
 struct Timing {
     size_t warm_up_rounds = 10;
     size_t rounds = 30;
-    double budget = 120; ///< seconds for all rounds together; fewer are made when they would take longer
-    /// Asked with all errors known; false: no time is of interest, and none is taken.
+    /// seconds for all rounds together; there are fewer rounds if they would take longer
+    double budget = 120;
+    /// Called once all errors are known; false: no times are needed, so none are taken.
     std::function<bool(const WorkPrecisionSet&)> wanted = [](const WorkPrecisionSet&) { return true; };
 };
 
-/// What one run took.
+/// The cost of one run.
 struct Cost {
     Elapsed elapsed;
-    std::optional<double> gpu; ///< milliseconds by the driver's timer, where it was asked and there is one
+    std::optional<double> gpu; ///< milliseconds by the driver's timer, if it was requested and exists
 };
 
-/// Runs a point on a view once, from idle to idle. The driver's timer is asked only with `ask_gpu`: some
-/// drivers are slower for it.
+/// Draws a point in a view once, from idle to idle. The driver's timer is used only with `ask_gpu`, because
+/// it slows some drivers down.
 using Run = std::function<Cost(size_t point, size_t view, bool ask_gpu)>;
 
-/// Whether a point takes part in that round when it can afford `affordable` of `total`: evenly spread, and
-/// the last round always, so that all points meet there.
+/// Returns whether a point takes part in a round if it can afford `affordable` of `total` rounds: evenly
+/// spread, and always in the last round, so that all points meet there.
 bool takes_part(size_t round, size_t affordable, size_t total);
 
-/// The driver's timer held against the wall clock around glFinish, which cannot lie but has its own cost.
+/// Compares the driver's timer with the wall clock around glFinish, which is reliable but has its own cost.
 struct ClockComparison {
-    double least = std::numeric_limits<double>::infinity(); ///< of the ratios of the two
+    double least = std::numeric_limits<double>::infinity(); ///< least ratio of the two
     double most = 0;
     size_t compared = 0;
 
     void add(double gpu, double wall);
-    /// Everywhere within a tenth.
+    /// Returns whether all ratios are within a tenth of 1.
     bool agree() const;
-    /// Which clock a study with this comparison goes by, and why.
+    /// Returns which clock a study with this comparison uses, and why.
     std::string clock() const;
 };
 
-/// Fills the times of every measured point of `set`; false when it was stopped before all rounds were made.
-/// Verdicts are by the driver's timer where it agrees with the wall clock on the warm-up rounds (medians of
-/// every point and view), else by the wall clock.
+/// Fills the times of every measured point of `set`; returns false if it was cancelled before all rounds were
+/// done. Verdicts use the driver's timer if it agrees with the wall clock in the warm-up rounds (medians of
+/// every point and view), else the wall clock.
 bool time_points(const Timing& timing, const Watch& watch, const Run& run, WorkPrecisionSet& set);
 
 } // namespace tidemark::lab

@@ -36,7 +36,7 @@ double pooled_rmse(const std::vector<image::Image>& left, const std::vector<imag
         for (size_t k = 0; k < a.size(); ++k) {
             if (i < blind.size() && !blind[i].empty() && blind[i][k / channels])
                 continue;
-            const double change = double(a[k]) - double(b[k]); // a NaN stays one
+            const double change = double(a[k]) - double(b[k]); // NaN stays NaN
             squares += change * change;
             ++samples;
         }

@@ -1,5 +1,5 @@
-// The truths of a study: what rays really meet, proved from the scene's text, and what pictures converge to.
-// A context must be current.
+// The truths of a study: the hits proved from the scene's text, and the pictures to which the scene
+// converges. Needs a current context.
 #pragma once
 
 #include "lab/hits.hpp"
@@ -13,55 +13,57 @@
 
 namespace tidemark::lab {
 
-/// Where more of a truth's pixels are NaN or infinite, the rest is no truth either.
+/// If a larger share of a truth's pixels is NaN or infinite, the rest is not accepted as a truth either.
 inline constexpr double k_most_blind = 0.1;
 
-/// Adds the pixels that are NaN or infinite: those that have no truth.
+/// Adds the pixels that are NaN or infinite, which have no truth, to `blind`.
 void add_blind(const image::Image& picture, PixelMask& blind);
 
-/// Why the rest of the pixels is no truth either; empty: it is.
+/// Returns why the remaining pixels are not accepted as a truth; empty if they are.
 std::string too_blind(size_t blind, size_t pixels);
 
-/// The truth about the hits of each view.
+/// The true hits of each view.
 struct HitTruth {
     Standard standard;
     std::vector<Hits> views;
-    std::vector<std::vector<double>> footprints; ///< width of a pixel at distance 1, one for each pixel
+    std::vector<std::vector<double>> footprints; ///< for each pixel its width at distance 1
 };
 
 struct ProvedHits {
     std::optional<HitTruth> truth{};
-    std::string why_not{}; ///< where there is none
-    bool marches = true;   ///< false: no loop is found that does
+    std::string why_not{}; ///< why there is no truth
+    bool marches = true; ///< false: no marching loop was found
 };
 
-/// The first zeros of the field of the scene's own march, at the study's strictest settings, proved from the
+/// Proves the first zeros of the field of the scene's own march, at the study's strictest settings, from the
 /// text (lab/march/true_hits.hpp).
 Result<ProvedHits> proved_hits(const scene::Scene& scene, const Study& study, const KeepGoing& keep_going);
 
-/// The truth about the pictures, and about the hits where there is nothing better.
+/// The true pictures, and hits for use if no hits are proved.
 struct PictureTruth {
     Standard standard;
     std::vector<image::Image> views;
-    std::vector<PixelMask> blind; ///< of each view: pixels that have no truth
-    std::vector<Hits> hits;       ///< empty without mainHit; NaN: no truth
+    std::vector<PixelMask> blind; ///< for each view: the pixels without a truth
+    std::vector<Hits> hits; ///< empty without mainHit; NaN: no truth
     Standard hit_standard;
-    std::vector<Setting> settings; ///< that it was drawn with
+    std::vector<Setting> settings; ///< settings it was drawn with
     glsl::Precision precision = glsl::Precision::single;
-    std::string not_promoted; ///< why it is in single precision, where it is
+    std::string not_promoted; ///< why it is in single precision, if it is
 };
 
-/// Draws the scene with the study's reference settings or, without any, with the strictest value of every
-/// axis, made stricter until what further steps would change is small beside the error of the strictest
-/// point; in double precision where the scene can be promoted. `keep_going` false: the best so far.
+/// Draws the scene with the study's reference settings. If there are none, draws it with the strictest value
+/// of every axis, made stricter until the remaining change is small compared with the error of the strictest
+/// point. Uses double precision if the scene can be promoted. If `keep_going` returns false, returns the best
+/// result so far.
 Result<PictureTruth> converged_pictures(const scene::Scene& scene, const Study& study,
                                         const KeepGoing& keep_going);
 
-/// Root of the mean square over the samples of all pictures, but for `blind` pixels (by view; empty: none).
+/// Returns the root mean square difference over the samples of all pictures, without `blind` pixels (by view;
+/// empty: none).
 double pooled_rmse(const std::vector<image::Image>& left, const std::vector<image::Image>& right,
                    const std::vector<PixelMask>& blind);
 
-/// One part of the height for every pixel: for scenes whose rays are not known.
+/// Returns 1 / height for every pixel, for scenes whose rays are not known.
 std::vector<double> plain_footprint(Extent extent);
 
 } // namespace tidemark::lab

@@ -12,7 +12,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// Nothing where the text is not one word of GLSL that is a number: a sign is another word.
+/// Returns nullopt unless the text is a single GLSL number token: a sign is a second token.
 std::optional<scene::Knob> knob_of(std::string name, const std::string& text) {
     const auto number = number_of(text);
     if (!number || text.starts_with('-'))
@@ -77,7 +77,7 @@ std::optional<std::vector<scene::Knob>> TurnableScene::knobs_at(const std::vecto
     return uniform->knobs;
 }
 
-/// Word for word, but for the uniforms and the `const` that they cannot have.
+/// Compares the tokens, except for the uniforms and the `const` that they cannot have.
 bool TurnableScene::is_program_of(const scene::Scene& plain,
                                   const std::map<std::string, std::string>& texts) const {
     auto wanted = compiled_words(plain), ours = words_;

@@ -1,5 +1,6 @@
-// A scene whose settings change without compiling it again: numbers of its text are uniforms, so that one
-// program shows them all. For pictures, not for times: drivers unroll and fold what they know. Pure.
+// A scene whose settings change without recompiling: numbers of its text become uniforms, so one program
+// serves all of them. Use it for pictures, not for times: drivers unroll loops and fold constants if they
+// know the numbers. Pure.
 #pragma once
 
 #include "lab/setting.hpp"
@@ -13,19 +14,19 @@ namespace tidemark::lab {
 
 class TurnableScene {
 public:
-    /// With these settings, as many of their numbers as uniforms as can be. The error is that of `with`.
+    /// Makes as many numbers of these settings uniforms as possible. The error is that of `with`.
     static Result<TurnableScene> create(scene::Scene scene, const std::vector<Setting>& settings);
 
-    /// What is to be compiled. It may be refused where the author's text is not: the size of an array must be
-    /// a constant.
+    /// Returns the scene to compile. The driver may reject it although it accepts the author's text: the size
+    /// of an array must be a constant.
     const scene::Scene& scene() const { return scene_; }
 
-    /// Its knobs at these settings; nothing where those make another program: they choose a branch of #if, or
-    /// name a solver.
+    /// Returns the values of its knobs at these settings; nullopt if the settings need another program,
+    /// because they select a branch of #if or name a solver.
     std::optional<std::vector<scene::Knob>> knobs_at(const std::vector<Setting>& settings) const;
 
 private:
-    /// What stands in the place of a setting's number.
+    /// The uniform that replaces a setting's number.
     struct Uniform {
         std::string setting;
         scene::Knob knob;
@@ -38,7 +39,7 @@ private:
     scene::Scene original_;
     scene::Scene scene_;
     std::vector<Uniform> uniforms_;
-    std::optional<std::vector<std::string>> words_; ///< of `scene_`, the declarations of `uniforms_` aside
+    std::optional<std::vector<std::string>> words_; ///< of `scene_`, without the declarations of `uniforms_`
 };
 
 } // namespace tidemark::lab

@@ -1,5 +1,5 @@
-// A scene at one setting after the other, compiled again only for what is another program. A context must be
-// current as long as it lives.
+// A scene that is drawn at one setting after the other, and recompiled only if a setting needs another
+// program. Its context must be current as long as it lives.
 #pragma once
 
 #include "lab/study/specimen.hpp"
@@ -12,11 +12,12 @@ namespace tidemark::lab {
 
 class TurnedSpecimen {
 public:
-    /// The scene stays where it is.
+    /// `scene` must outlive the object.
     TurnedSpecimen(const scene::Scene& scene, Extent extent, HitSource hits)
         : scene_(scene), extent_(extent), hits_(hits) {}
 
-    /// Until it is asked again. The error is that of the author's own text.
+    /// Returns the scene at these settings, valid until the next call. The error is that of the author's own
+    /// text.
     Result<Specimen*> at(const std::vector<Setting>& settings, glsl::Precision precision);
 
 private:
@@ -26,9 +27,9 @@ private:
     Extent extent_;
     HitSource hits_;
     glsl::Precision precision_ = glsl::Precision::single;
-    std::optional<TurnableScene> turnable_; ///< what `specimen_` is made of; none: the scene's own text
+    std::optional<TurnableScene> turnable_; ///< source of `specimen_`; nullopt: the scene's own text
     std::optional<Specimen> specimen_;
-    bool own_text_only_ = false; ///< the driver takes no other
+    bool own_text_only_ = false; ///< the driver rejects the text with uniforms
 };
 
 } // namespace tidemark::lab

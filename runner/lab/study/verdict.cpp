@@ -8,18 +8,18 @@
 namespace tidemark::lab {
 namespace {
 
-/// What a picture's PSNR is at least, whatever the truth's own error made of it; NaN: unknown.
+/// Returns a lower bound of a picture's PSNR that allows for the truth's own error; NaN: unknown.
 double least_psnr(const WorkPrecisionSet& set, const WorkPrecision& point) {
     const auto& truth = set.picture_standard.uncertainty;
     return truth ? -20 * std::log10(point.all.picture.samples.rmse + *truth) : std::nan("");
 }
 
-/// Even if the truth's own error is against it.
+/// Returns whether the point keeps the promise even if the truth's own error counts against it.
 bool keeps(const WorkPrecisionSet& set, const WorkPrecision& point) {
     const Promise& promise = set.study.promise;
     const auto& hits = point.all.hits;
-    // A wrong hit can be distinguished from a right one where the truth is good to a tenth of what parts
-    // them.
+    // A wrong hit can be distinguished from a right one if the truth's error is at most a tenth of the
+    // distance that separates them.
     const bool distinct =
         set.hit_standard.uncertainty && *set.hit_standard.uncertainty <= 0.1 * k_wrong_distance;
     if (set.ranked_by_hits() && !(distinct && hits && hits->most_wrong_tenth <= promise.most_wrong_percent))
@@ -91,7 +91,7 @@ std::string equal_error_sentence(const WorkPrecisionSet& set) {
                        set.words.defaults, best->point.label);
 }
 
-/// Nothing to choose from: the scene as it is, and what shows the same.
+/// Returns whether no point differs visibly from the unchanged scene, so there is nothing to choose from.
 bool all_idle(const WorkPrecisionSet& set) {
     return !set.idle.empty() &&
            std::all_of(set.points.begin() + 1, set.points.end(),
@@ -108,7 +108,7 @@ void add_verdicts(const WorkPrecisionSet& set, std::vector<std::string>& found) 
                         "; --reference names one");
     if (all_idle(set))
         return;
-    if (set.has_pictures() && set.picture_standard.none.empty()) // a promise is about what is to be seen
+    if (set.has_pictures() && set.picture_standard.none.empty()) // a promise is about the visible picture
         found.push_back(cheapest_sentence(set));
     if (!standard_of(set).none.empty())
         return;

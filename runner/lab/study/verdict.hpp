@@ -1,4 +1,4 @@
-// What a person wants to know of a study, in sentences. Pure; no sentence where the noise allows none.
+// The results of a study, in sentences. Pure; conclusions that the noise does not allow are left out.
 #pragma once
 
 #include "lab/study/work_precision.hpp"
@@ -9,7 +9,7 @@
 
 namespace tidemark::lab {
 
-/// The time of `slow` over that of `fast`, by rounds that were measured together; nothing without times.
+/// The time of `slow` divided by that of `fast`, from rounds that were measured together.
 struct Speedup {
     double ratio = 1;
     Interval confidence{}; ///< 95 %
@@ -18,25 +18,25 @@ struct Speedup {
 };
 std::optional<Speedup> speedup(const WorkPrecision& slow, const WorkPrecision& fast);
 
-/// The cheapest point that is sure to keep the study's promise, the truth's own error taken against it; null:
-/// none is. Idle points are in no verdict.
+/// Returns the cheapest point that certainly keeps the study's promise, even if the truth's own error counts
+/// against it; nullptr if there is none. Idle points are excluded.
 const WorkPrecision* cheapest_good(const WorkPrecisionSet& set);
 
-/// The cheapest point whose error is at most that of the scene as it is; null: nothing was timed. Hollow
-/// points cannot be told apart and are left out.
+/// Returns the cheapest point whose error is at most that of the unchanged scene; nullptr if nothing was
+/// timed. Hollow points cannot be compared and are excluded.
 const WorkPrecision* cheapest_as_exact(const WorkPrecisionSet& set);
 
-/// "cheapest setting with wrong <= 0.05 % and PSNR >= 50 dB: …", "at equal error 2.3 x [2.1, 2.5] faster than
-/// the scene's defaults: …", and what the reader must know of their worth.
+/// For example "cheapest setting with wrong <= 0.05 % and PSNR >= 50 dB: …" or "at equal error 2.3 x [2.1,
+/// 2.5] faster than the scene's defaults: …", and what limits their validity.
 std::vector<std::string> sentences(const WorkPrecisionSet& set);
 
-/// "held fixed, in the truth too: EPS = 0.001": what the figures say nothing of; empty: nothing is.
+/// Lists the numbers that are held fixed, which the figures therefore do not cover; empty if there are none.
 std::string held_sentence(const WorkPrecisionSet& set);
 
-/// `4.21 ms [4.1, 4.3]`: a frame's time, with its interval where there were rounds enough for one.
+/// For example `4.21 ms [4.1, 4.3]`: a frame's time, with its interval if there were enough rounds.
 std::string cost_of(const WorkPrecision& point);
 
-/// `0.0123`: three digits.
+/// Formats with three digits, for example `0.0123`.
 std::string figure(double value);
 
 } // namespace tidemark::lab

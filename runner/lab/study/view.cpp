@@ -11,7 +11,7 @@
 namespace tidemark::lab {
 namespace {
 
-constexpr double k_last_time = 1e9; ///< half a lifetime; floats are long done with by then
+constexpr double k_last_time = 1e9; ///< about 30 years, far beyond a float's precision
 
 bool take(std::string_view& text, double& number) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -31,7 +31,7 @@ bool take(std::string_view& text, char wanted) {
 render::FrameState state_of(const View& view, Extent extent) {
     render::FrameState state = view.state;
     state.extent = extent;
-    if (view.mouse != glm::dvec2(0)) // a click that is over
+    if (view.mouse != glm::dvec2(0)) // a click that has ended
         state.mouse = render::Mouse::clicked(view.mouse * glm::dvec2(extent.width, extent.height), false);
     return state;
 }

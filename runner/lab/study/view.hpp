@@ -1,4 +1,4 @@
-// What a study looks at: a named state, whatever the size of the picture.
+// A view of a study: a named state, independent of the picture's size.
 #pragma once
 
 #include "base/result.hpp"
@@ -14,27 +14,29 @@ namespace tidemark::lab {
 
 struct View {
     std::string name;
-    render::FrameState state = render::at_time(0); ///< but for the size, and the mouse, which goes by it
-    glm::dvec2 mouse{0};                           ///< where it was clicked, as a part of width and height
+    /// without the size, and without the mouse, which depends on it
+    render::FrameState state = render::at_time(0);
+    glm::dvec2 mouse{0}; ///< where it was clicked, as a share of width and height
 };
 
-/// The view in a picture of that size.
+/// Returns the state of the view in a picture of that size.
 render::FrameState state_of(const View& view, Extent extent);
 
-/// `0;10;10@.75,.4`: times in seconds, each with a place of the mouse as a part of the picture, if any. The
-/// error (ErrorCode::usage) says what is out of range.
+/// Parses `0;10;10@.75,.4`: times in seconds, each with an optional place of the mouse as a share of the
+/// picture. The error (ErrorCode::usage) names the value that is out of range.
 Result<std::vector<View>> parse_views(std::string_view text);
 
-/// Checks time and mouse; the error says which values are possible.
+/// Checks time and mouse; the error names the allowed values.
 Result<void> check(const View& view);
 
-/// The same view whole frames later, by a name that says so: for a verdict, a moment that no search has seen.
+/// Returns the same view whole frames later, under a name that includes the time: a moment that the search
+/// did not use.
 View unseen(const View& view, double seconds_later);
 
-/// A picture of the same shape, its longer side so long at most: for a search.
+/// Returns an extent of the same shape whose longer side is at most `longest`, for a search.
 Extent small_of(Extent extent, int longest);
 
-/// Two moments of a scene that nobody said anything about.
+/// Returns two moments, for scenes without views of their own.
 std::vector<View> default_views();
 
 } // namespace tidemark::lab

@@ -6,9 +6,9 @@
 namespace tidemark::lab {
 namespace {
 
-constexpr double k_solid = 10; ///< an error is worth showing from so many uncertainties of the reference up
+constexpr double k_solid = 10; ///< an error is reliable from this many uncertainties of the reference on
 
-/// At least as good in both, better in one.
+/// Returns whether `a` is at least as good as `b` in both error and time, and better in one.
 bool dominates(const WorkPrecisionSet& set, const WorkPrecision& a, const WorkPrecision& b) {
     const double error_a = error_of(set, a.all), error_b = error_of(set, b.all);
     const double time_a = a.all.time().median, time_b = b.all.time().median;

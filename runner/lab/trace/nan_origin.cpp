@@ -16,7 +16,7 @@ using glsl::WatchLayout;
 
 constexpr size_t k_longest_text = 80;
 
-/// The assignment, the variable's declaration or the return that the value goes into.
+/// Returns the assignment, declarator or return statement that receives the value.
 NodeId target_of(const WatchedText& watched, NodeId id) {
     const glsl::SyntaxTree& tree = watched.text.tree();
     for (NodeId around = id; around != k_no_node; around = tree[around].parent) {
@@ -38,7 +38,7 @@ std::string variable_of(const WatchedText& watched, NodeId target) {
     return watched.text.excerpt(tree.child(target, 0));
 }
 
-/// A number that stands in the text.
+/// Parses a number literal of the text.
 std::optional<ShaderValue> literal(std::string_view digits) {
     if (digits.starts_with("0x") || digits.starts_with("0X")) {
         ShaderValue value{{'u'}, {}};
@@ -55,7 +55,7 @@ std::optional<ShaderValue> literal(std::string_view digits) {
     return value;
 }
 
-/// "iChannel0 (Buffer A)".
+/// Returns, for example, "iChannel0 (Buffer A)".
 std::string channel_label(const scene::Scene& scene, const scene::Pass& pass, std::string_view sampler) {
     if (sampler.size() == 9 && sampler.starts_with("iChannel") && sampler[8] >= '0' && sampler[8] <= '3')
         if (const size_t* source = source_pass(pass.channels[size_t(sampler[8] - '0')].input))
@@ -88,7 +88,8 @@ std::string origin_of(const WatchedText& watched, NodeId operation, const Explan
     return {};
 }
 
-/// `0.5`, `vec3(0.5)`, `-1.0`: its value says no more than its text.
+/// Returns whether the expression consists of literals and types, as `0.5`, `vec3(0.5)` and `-1.0` do: its
+/// value adds nothing to its text.
 bool is_spelled_out(const WatchedText& watched, NodeId id) {
     const glsl::Node& node = watched.text.tree()[id];
     for (size_t i = node.begin; i < node.end; ++i) {
@@ -113,7 +114,7 @@ void add_way(NanOrigin& origin, const WatchedText& watched, const glsl::Watch& w
     for (size_t i = 0; i < watch.loops.size(); ++i)
         origin.loops.push_back(
             {watched.text.used(tree[watch.loops[i]].begin), words[WatchLayout::k_loops + i]});
-    // A loop that was not entered is no loop on the way.
+    // Loops that were not entered are not on the path.
     std::erase_if(origin.loops, [](const TracedLoop& loop) { return loop.iteration == 0; });
 }
 
@@ -147,7 +148,8 @@ NanOrigin describe(const WatchedText& watched, NodeId operation) {
     const glsl::SyntaxTree& tree = watched.text.tree();
     const glsl::Node& node = tree[operation];
     NanOrigin origin;
-    // The operator says better than its first operand which line is meant, where both are far apart.
+    // If only the operator stands in a macro, its place is the line that is meant, not that of the first
+    // operand.
     origin.where = watched.text.spelled(node.begin);
     const glsl::Word& first = watched.text.words()[node.begin];
     const glsl::Word& sign = watched.text.words()[node.word];

@@ -1,5 +1,5 @@
-// An operation of a syntax tree as its author knows it: text, place, what it belongs to, what it computed
-// with.
+// Describes an operation of a syntax tree as its author wrote it: text, place, context, and the values it
+// computed with.
 #pragma once
 
 #include "glsl/instrument/watch.hpp"
@@ -8,27 +8,27 @@
 
 namespace tidemark::lab {
 
-/// A text that is watched, and what it declares.
+/// An instrumented text and its facts.
 struct WatchedText {
     const glsl::ParsedText& text;
     const glsl::TreeFacts& facts;
 };
 
-/// What can be said without running it.
+/// Returns what the text alone says about the operation: place, text, statement, variable and function.
 NanOrigin describe(const WatchedText& watched, glsl::NodeId operation);
 
-/// Adds what the shader wrote down: values, loops and calls, and why it is so.
+/// Adds what the shader recorded (values, loops and calls) and the explanation.
 void add_reading(NanOrigin& origin, const WatchedText& watched, glsl::NodeId operation,
                  const glsl::Watch& watch, const WatchReading& reading, const scene::Scene& scene,
                  const scene::Pass& pass);
 
-/// So much of an excerpt as a sentence takes.
+/// Shortens an excerpt to at most 80 bytes, with an ellipsis at the end if it was cut.
 std::string shortened(std::string text);
 
-/// The name behind `a`, `a.xy`, `a[i]`, `(a)`; empty for anything else.
+/// Returns the variable's name in `a`, `a.xy`, `a[i]` and `(a)`; empty for other expressions.
 std::string_view base_name(const WatchedText& watched, glsl::NodeId expression);
 
-/// The operands of an operation, those included that have no slot.
+/// Returns the operands of an operation, including those without a slot.
 std::vector<glsl::NodeId> operands(const WatchedText& watched, glsl::NodeId operation);
 
 } // namespace tidemark::lab

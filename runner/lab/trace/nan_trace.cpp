@@ -18,10 +18,11 @@ using glsl::NodeId;
 using glsl::WatchRequest;
 using Reach = WatchRequest::Reach;
 
-/// Fixing goes on so long: of 70 shaders all were fixed in five steps.
+/// Most operations to fix in one pixel; of 70 shaders all were fixed in five steps.
 constexpr size_t k_most_repairs = 6;
 
-/// But for rounding, which the driver does in another order where it knows less.
+/// Compares two pixels except for rounding, which differs if the driver optimises the instrumented text
+/// otherwise.
 bool same(const PixelBits& a, const PixelBits& b) {
     for (size_t i = 0; i < a.size(); ++i) {
         const auto x = std::bit_cast<float>(a[i]);
@@ -39,7 +40,7 @@ std::string to_text(const PixelBits& bits) {
     return to_string(value);
 }
 
-/// One pixel of one pass at one moment.
+/// Traces one pixel of one pass at one moment.
 class PixelTracer {
 public:
     PixelTracer(const PassPreview& preview, const WatchedText& watched, NanTrace& trace,
@@ -69,7 +70,7 @@ private:
         return read_pixel(preview_, glsl::watch(watched_.text, watched_.facts, request), trace_.pixel);
     }
 
-    /// The first statement that is not finite; where none is, the first operation of all.
+    /// Finds the first statement that is not finite, or, if there is none, the first operation at all.
     Result<WatchReading> locate() {
         if (!everything_) {
             auto reading = read(watch_request(Reach::statements));
@@ -93,7 +94,7 @@ private:
                 to_text(trace_.colour), to_text(reading.colour)));
     }
 
-    /// From a statement to the operation in it.
+    /// Returns the operation in the statement that is not finite.
     Result<NodeId> narrow(NodeId statement) const {
         if (everything_)
             return statement;
@@ -120,7 +121,7 @@ private:
             request_.progress(trace_);
     }
 
-    /// The first origin, then fixes until the pixel is finite.
+    /// Records the first origin, then fixes one operation after the other until the pixel is finite.
     Result<void> follow(NodeId statement) {
         trace_.first = describe(watched_, statement);
         report();
@@ -166,7 +167,7 @@ private:
     bool everything_ = false;
 };
 
-/// A pixel that is not finite, and when.
+/// A pixel that is not finite, with its pass and frame.
 struct BadPixel {
     size_t pass = 0;
     int frame = 0;
@@ -205,14 +206,14 @@ private:
         };
     }
 
-    /// The earliest frame and pass with a bad pixel: later ones may only have inherited it.
+    /// Finds the earliest frame and pass with a bad pixel; later ones may only have inherited it.
     std::optional<BadPixel> scan() {
         for (int frame = renderer_.plan().feedback ? request_.start : request_.frame;; ++frame) {
             stepper_.draw(frame, tell_of_steps());
             for (const render::PlannedPass& planned : renderer_.plan().passes)
                 if (const auto pixel = first_bad(renderer_, planned.pass))
                     return BadPixel{planned.pass, frame, *pixel};
-            if (frame >= request_.frame) // which may be the largest there is
+            if (frame >= request_.frame) // checked last, as it may be the largest int
                 return std::nullopt;
         }
     }
@@ -238,7 +239,7 @@ private:
         return std::optional(std::move(trace));
     }
 
-    /// No pixel is bad: is there a NaN that something masked? Infinities alone are often meant.
+    /// Looks for a NaN that something masked, if no pixel is bad. Infinities alone are often intended.
     Result<std::optional<NanTrace>> hidden() {
         for (const render::PlannedPass& planned : renderer_.plan().passes) {
             if (renderer_.scene().passes[planned.pass].kind == scene::PassKind::cubemap)
@@ -250,7 +251,7 @@ private:
         return std::optional<NanTrace>();
     }
 
-    /// The first pixel of the pass in which an operation gives NaN.
+    /// Returns the first pixel of the pass in which an operation gives NaN.
     Result<std::optional<PixelPlace>> first_hidden(size_t pass) {
         const PassPreview preview = stepper_.preview(request_.frame, pass, tell_of_steps());
         auto text = TRY(read_text(renderer_, pass));

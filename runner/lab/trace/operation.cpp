@@ -18,7 +18,8 @@ bool is_finite_word(uint32_t word) {
     return (word & 0x7f800000u) != 0x7f800000u;
 }
 
-/// What an operator or a built-in function gives, where it works number by number; nullptr: not known.
+/// Returns the CPU version of an operator or of a built-in that works component by component; nullptr if
+/// there is none.
 auto value_of(std::string_view name) -> double (*)(const Arguments&) {
     if (name == "+")
         return [](const Arguments& a) { return a.x + a.y; };
@@ -61,7 +62,7 @@ private:
                                                  [](const auto& operand) { return operand.has_value(); });
     }
 
-    /// Whether component i of the result comes from component i of the operands.
+    /// Returns whether component i of the result depends only on component i of the operands.
     bool by_number() const {
         if (!known())
             return false;
@@ -104,7 +105,7 @@ private:
         return sum;
     }
 
-    /// Functions of whole vectors.
+    /// Explains functions of whole vectors.
     std::string of_vectors() const {
         if (!function_ || !function_->is(glsl::Trait::sums_squares) || !known())
             return {};
@@ -160,7 +161,7 @@ std::string to_string(const ShaderValue& value) {
         if (value.type.base == 'b')
             return bits != 0 ? "true" : "false";
         const std::string digits = fmt::format("{:.0f}", value.number(i));
-        const bool large = std::abs(value.number(i)) >= 0x10000; // of hashes and masks
+        const bool large = std::abs(value.number(i)) >= 0x10000; // likely a hash or a mask
         return large ? fmt::format("{} ({:#x})", digits, bits) : digits;
     };
     if (value.size() == 1)

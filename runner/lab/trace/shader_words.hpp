@@ -1,5 +1,5 @@
-// A buffer of words that a shader writes into (glsl/instrument/watch.hpp, glsl/instrument/domains.hpp). A
-// context must be current.
+// A buffer of 32-bit words that instrumented texts write (glsl/instrument/watch.hpp,
+// glsl/instrument/domains.hpp). A context must be current.
 #pragma once
 
 #include "gl/handle.hpp"
@@ -12,10 +12,10 @@ namespace tidemark::lab {
 
 class ShaderWords {
 public:
-    /// Zeros, bound where the watched texts look for them.
+    /// Creates `count` zeros and binds them for the instrumented texts.
     explicit ShaderWords(size_t count);
 
-    /// What the draws up to now have written.
+    /// Returns what the draws so far have written.
     std::vector<uint32_t> read() const;
 
 private:

@@ -1,4 +1,4 @@
-// A text of ours drawn in the place of a pass, into a picture of its own. A context must be current.
+// Draws one of Tidemark's texts in place of a pass, into a picture of its own. A context must be current.
 #pragma once
 
 #include "base/result.hpp"
@@ -16,18 +16,19 @@ using render::PassPreview;
 
 class StandIn {
 public:
-    /// Fails (ErrorCode::load) with the driver's words when it refuses the text, of which `what` says what it
-    /// is: "the watched text". `extent` is that of its picture; none: the pass's own.
+    /// Links the text. Fails (ErrorCode::load) with the driver's message, which names the text by `what`,
+    /// such as "the watched text". `extent` is the picture's size; none: that of the pass.
     static Result<StandIn> link(const PassPreview& preview, const std::string& text, std::string_view what,
                                 std::optional<Extent> extent = {});
 
-    /// A uniform of the text; one that the driver left out is nothing.
+    /// Sets a uniform of the text; does nothing if the driver removed it.
     void set(const std::string& uniform, double value);
 
+    /// Draws the text. It does not clear the picture first.
     void draw(const PassPreview& preview, int face = 0) const;
-    /// The same by the pass's own program.
+    /// Clears the picture and draws it with the pass's own program.
     void draw_own(const PassPreview& preview) const;
-    /// The floats that it holds.
+    /// Reads the picture back, RGBA floats.
     image::Image picture() const;
     const gl::RenderTarget& target() const { return target_; }
 

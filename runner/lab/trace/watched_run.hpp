@@ -1,5 +1,5 @@
-// A shader that watches itself, drawn for one pixel or for a whole picture in place of a pass, and what it
-// wrote down. A context must be current.
+// Draws an instrumented text in place of a pass, for one pixel or for the whole picture, and reads what it
+// recorded. A context must be current.
 #pragma once
 
 #include "base/result.hpp"
@@ -13,7 +13,7 @@
 
 namespace tidemark::lab {
 
-/// Column and row from the bottom; of a cubemap pass, on that face.
+/// A pixel: column and row from the bottom, and the face of a cubemap pass.
 struct PixelPlace {
     int x = 0;
     int y = 0;
@@ -22,7 +22,7 @@ struct PixelPlace {
     bool operator==(const PixelPlace&) const = default;
 };
 
-/// Four floats as bits.
+/// The bits of a pixel's four floats.
 using PixelBits = std::array<uint32_t, 4>;
 bool is_finite(const PixelBits& bits);
 PixelBits bits_at(const image::Image& image, PixelPlace pixel);
@@ -35,20 +35,20 @@ struct WatchReading {
     glsl::NodeId hit() const { return words[glsl::WatchLayout::k_hit]; }
 };
 
-/// The text of a pass in the plan as it was linked, read to its tree. `as_written`: without the zeros that
-/// variables begin with on ShaderToy's site, and here.
+/// Parses the text of a pass in the plan as it was linked. `as_written`: without the zeros that variables are
+/// initialised with, here and on ShaderToy's site.
 Result<std::unique_ptr<const glsl::ParsedText>> read_text(const render::Renderer& renderer, size_t pass,
                                                           bool as_written = false);
 
-/// The same of a pass that was linked in that dialect.
+/// Does the same for a pass that was linked in that dialect.
 Result<std::unique_ptr<const glsl::ParsedText>> read_text(const scene::Scene& scene, const scene::Pass& pass,
                                                           glsl::Dialect dialect, bool as_written);
 
-/// The whole triangle is drawn and all but one pixel cut off, so that derivatives and everything else are as
-/// in the picture. Fails (ErrorCode::load) with the driver's words when it refuses the text.
+/// Draws the whole triangle with all other pixels cut off, so that derivatives are as in the picture. Fails
+/// (ErrorCode::load) with the driver's message if it refuses the text.
 Result<WatchReading> read_pixel(const PassPreview& preview, const glsl::Watch& watch, PixelPlace pixel);
 
-/// The first hit of each pixel (WatchRequest::map_width is the picture's).
+/// Returns the first hit of each pixel. WatchRequest::map_width must be the picture's width.
 Result<std::vector<glsl::NodeId>> read_map(const PassPreview& preview, const glsl::Watch& watch, int face);
 
 } // namespace tidemark::lab

@@ -8,15 +8,15 @@
 namespace tidemark::lab {
 namespace {
 
-/// More combinations than that are not gone through: settings that save the least are left as they are.
+/// Limit of combinations; beyond it, the settings that save the least keep their values.
 constexpr size_t k_most_combinations = 200'000;
 
-/// A model is a model: so many of its neighbours on the front are measured, too.
+/// Neighbours of the target on the front that are measured, too, because the model is only a model.
 constexpr size_t k_bolder = 2, k_safer = 5;
 
-/// A value of a setting and what it does alone: to the time as a factor, to the error as a summand.
+/// The effect of one value of a setting by itself: a factor of the time and a summand of the error.
 struct Effect {
-    std::optional<Setting> setting{}; ///< none: the scene's own
+    std::optional<Setting> setting{}; ///< nullopt: the scene's own value
     double time = 1;
     double error = 0;
 };
@@ -27,12 +27,12 @@ struct Combination {
     double error = 0;
 };
 
-/// In which errors of different origin add.
+/// Converts an error to a quantity in which errors of different origin add.
 double summand(Measure measure, double error) {
     return measure == Measure::wrong ? error : error * error;
 }
 
-/// Of those values that could be measured, the scene's own first.
+/// Returns the effects of the values that could be measured, the scene's own first.
 std::vector<Effect> effects_of(const WorkPrecisionSet& explored, const Axis& axis, Measure measure) {
     const WorkPrecision& own = explored.points.front();
     const double base = summand(measure, error_by(measure, own.all));
@@ -66,7 +66,7 @@ std::vector<Combination> combinations(const std::vector<std::vector<Effect>>& al
     return found;
 }
 
-/// What no other combination beats in both, from the fastest on.
+/// Returns the combinations that no other beats in both time and error, the fastest first.
 std::vector<Combination> front_of(std::vector<Combination> all) {
     std::ranges::sort(all, [](const Combination& a, const Combination& b) {
         return std::pair(a.time, a.error) < std::pair(b.time, b.error);
@@ -78,20 +78,20 @@ std::vector<Combination> front_of(std::vector<Combination> all) {
     return front;
 }
 
-/// The fastest of the front that has no more than that error; else its most exact.
+/// Returns the index of the fastest combination within that error; else of the most exact one.
 size_t fastest(const std::vector<Combination>& front, double error) {
     const auto found =
         std::ranges::find_if(front, [&](const Combination& each) { return each.error <= error; });
     return size_t(found - front.begin()) - size_t(found == front.end());
 }
 
-/// The most exact of the front that takes no more than that time; else its fastest.
+/// Returns the index of the most exact combination within that time; else of the fastest one.
 size_t most_exact(const std::vector<Combination>& front, double time) {
     const auto above = std::ranges::find_if(front, [&](const Combination& each) { return each.time > time; });
     return size_t(above - front.begin()) - size_t(above != front.begin());
 }
 
-/// The settings that save the most, as many as can be combined.
+/// Returns the effects of the settings that save the most, as many as can be combined.
 std::vector<std::vector<Effect>> effects_of(const WorkPrecisionSet& explored,
                                             const std::vector<QualitySetting>& settings, Measure measure) {
     std::vector<std::vector<Effect>> all;

@@ -1,4 +1,5 @@
-// From a study of single settings to combinations that are worth measuring: a model, no measurement. Pure.
+// Predicts from a study of single settings which combinations are worth measuring: a model, not a
+// measurement. Pure.
 #pragma once
 
 #include "lab/tune/goal.hpp"
@@ -8,16 +9,17 @@
 
 namespace tidemark::lab {
 
-/// The scene with these settings, each point by itself, and as it is. What counts as strict is the settings'
-/// to say.
+/// Returns a study of the unchanged scene and of the scene with each of these lists of settings. The
+/// settings' own axes define the order from coarse to strict.
 Study study_of(const std::vector<std::vector<Setting>>& points, const std::vector<QualitySetting>& settings);
 
-/// Every value of every setting, the others as the scene has them.
+/// Returns every value of every setting, with the other settings as in the scene.
 std::vector<std::vector<Setting>> single_values(const std::vector<QualitySetting>& settings);
 
-/// Combinations that may be the best by the goal, along the front of error and time around what is wanted.
-/// `explored` is a study of single_values(), `milliseconds` what the scene as it is takes where the goal's
-/// time holds. Factors of time are taken to multiply; of errors squares to add, and shares of wrong rays.
+/// Returns combinations that may be best by the goal, along the front of error and time around the target.
+/// `explored` is a study of single_values(); `milliseconds` is the unchanged scene's time at the size that
+/// the goal's time refers to. The model multiplies time factors, and adds squared errors, or shares of wrong
+/// rays.
 std::vector<std::vector<Setting>> candidates(const WorkPrecisionSet& explored,
                                              const std::vector<QualitySetting>& settings, const Goal& goal,
                                              double milliseconds);

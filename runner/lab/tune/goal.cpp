@@ -12,7 +12,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// A truth is good enough where its own error is this part of what is asked.
+/// A truth is good enough if its own error is at most this share of the error in question.
 constexpr double k_part = 0.1;
 
 struct Unit {
@@ -28,12 +28,12 @@ Error not_a_goal(std::string_view text) {
             {}};
 }
 
-/// A point that shows what the scene shows is no better a choice, whatever its times say.
+/// A point that looks the same as the scene is not a better choice, whatever its times are.
 bool may_be_chosen(const WorkPrecision& point) {
     return point.measured() && !point.idle && point.all.time().runs > 0;
 }
 
-/// The largest error that it may have, whatever the truth's own error made of it.
+/// Returns the largest error that the point may have, including the truth's own error.
 double largest_error(const WorkPrecisionSet& set, const WorkPrecision& point, Measure measure) {
     if (measure == Measure::wrong)
         return point.all.hits ? point.all.hits->most_wrong_tenth : std::nan("");
@@ -80,7 +80,7 @@ double error_by(Measure measure, const Outcome& outcome) {
 std::optional<double> sharpness(const Goal& goal) {
     if (!goal.most_error || goal.measure == Measure::wrong)
         return std::nullopt;
-    // FLIP has no error of its own: a tenth of a step of 8 bits, or a hundredth of what is allowed.
+    // FLIP has no error of its own: use a tenth of an 8-bit step, or a hundredth of the allowed error.
     return goal.measure == Measure::flip ? std::max(k_part * k_part * *goal.most_error, k_part / 255)
                                          : k_part * *goal.most_error;
 }

@@ -21,12 +21,12 @@ using text::Token;
 
 enum class Role { bound, threshold, step };
 
-/// What a role takes: its values as factors of the scene's own from coarse to strict, and names that are
-/// certain to mean it.
+/// The properties of a role: its values as factors of the scene's own, from coarse to strict, and parts of
+/// names that indicate it.
 struct RoleTraits {
     std::string_view does;
     std::array<double, 7> factors;
-    double least, most; ///< of the scene's own value
+    double least, most; ///< limits of the scene's own value
     std::vector<std::string_view> words;
 };
 
@@ -64,7 +64,7 @@ bool is_comparison(const Token& token) {
     return token.is("<") || token.is(">");
 }
 
-/// `<`, `<=` and their kind directly beside the token.
+/// Returns whether `<`, `<=` or their opposites are next to the token.
 bool is_compared(std::span<const Token> tokens, size_t at) {
     const auto is = [&](size_t i) { return i < tokens.size() && is_comparison(tokens[i]); };
     return is(at + 1) || is(at - 1) || (at > 1 && tokens[at - 1].is("=") && is(at - 2));
@@ -74,7 +74,7 @@ bool is_factor(std::span<const Token> tokens, size_t at) {
     return (at > 0 && tokens[at - 1].is("*")) || (at + 1 < tokens.size() && tokens[at + 1].is("*"));
 }
 
-/// The token behind the bracket that closes the one at `open`.
+/// Returns the index after the bracket that closes the one at `open`.
 size_t behind(std::span<const Token> tokens, size_t open) {
     int depth = 0;
     for (size_t i = open; i < tokens.size(); ++i) {
@@ -86,19 +86,19 @@ size_t behind(std::span<const Token> tokens, size_t open) {
     return tokens.size();
 }
 
-/// A number that stands in the march itself.
+/// A number without a name in the march itself.
 struct Literal {
     Use use;
     SourceLocation where;
     std::string text;
 };
 
-/// From its keyword to what it repeats, as indices of tokens.
+/// Indices of tokens, from the keyword to the end of the body.
 struct Loop {
     size_t begin, head_end, end;
 };
 
-/// Where numbers are used in one text.
+/// Finds the uses of numbers in one text.
 class Uses {
 public:
     Uses(const text::MappedText& text, const std::optional<MarchPlaces>& march)
@@ -140,7 +140,7 @@ private:
         return loops;
     }
 
-    /// The innermost around the line of the test.
+    /// Returns the innermost loop around the line of the test.
     const Loop* find_marching(const std::vector<Loop>& loops) const {
         const Loop* found = nullptr;
         for (const Loop& loop : loops)
@@ -184,7 +184,7 @@ bool speaks_of_any(std::string_view name, const std::vector<std::string_view>& w
     return std::ranges::any_of(words, [&](std::string_view word) { return speaks_of(name, {word}); });
 }
 
-/// Values around the scene's own; nothing where there are none but that.
+/// Returns values around the scene's own; nullopt if all of them equal it.
 std::optional<QualitySetting> around(const std::string& name, const std::string& own, const Use& use) {
     QualitySetting setting;
     setting.axis.name = name;
@@ -207,7 +207,7 @@ std::optional<QualitySetting> around(const std::string& name, const std::string&
     return setting;
 }
 
-/// What a number may be turned as: as what the march has it for, or else as what it is called.
+/// Returns the setting for a number: by its role in the march, else by its name.
 std::optional<QualitySetting> setting_of(const Setting& number, std::vector<Use> uses) {
     std::stable_partition(uses.begin(), uses.end(), [](const Use& use) { return use.march; });
     const auto value = number_of(number.value);
@@ -222,8 +222,9 @@ std::optional<QualitySetting> setting_of(const Setting& number, std::vector<Use>
     return std::nullopt;
 }
 
-/// Of the one number without a name that has the role, in a file of the scene's own: of several nobody knows
-/// which belongs to the march. The one that says where rays give up is a part of the picture.
+/// Returns the setting for the only unnamed number with the role in the scene's own files; if there are
+/// several, it is unknown which belongs to the march. The ray's limit is excluded, because it belongs to the
+/// picture.
 std::optional<QualitySetting> setting_of_the_only(Role role, std::vector<Literal> literals,
                                                   const scene::Scene& scene,
                                                   const std::optional<MarchPlaces>& march) {
@@ -234,7 +235,8 @@ std::optional<QualitySetting> setting_of_the_only(Role role, std::vector<Literal
                (scene.image().bare_file && each.where.file != scene.file.string());
     });
     const auto elsewhere = [&](const Literal& each) { return !(each.where == literals.front().where); };
-    if (literals.empty() || std::ranges::any_of(literals, elsewhere)) // an include may stand in several texts
+    // an include may be part of several texts
+    if (literals.empty() || std::ranges::any_of(literals, elsewhere))
         return std::nullopt;
     const Literal& only = literals.front();
     auto setting = around(place_name(only.where), only.text, only.use);
@@ -244,8 +246,8 @@ std::optional<QualitySetting> setting_of_the_only(Role role, std::vector<Literal
     return setting;
 }
 
-/// No value of it changes what is compiled: it stands in a branch of #if that is not taken, as the threshold
-/// of a solver that is not chosen.
+/// Returns whether the number does not change the compiled text: it is in a branch of #if that is not taken,
+/// for example as the threshold of another solver.
 bool is_idle(const QualitySetting& setting, const scene::Scene& scene,
              const std::vector<std::string>& words) {
     const Axis& axis = setting.axis;

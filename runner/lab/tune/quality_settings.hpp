@@ -1,5 +1,5 @@
-// The numbers of a scene that buy exactness with time: how often loops turn, where marches stop, how long
-// their steps are. Any other number is a part of the picture, and no business of ours.
+// Finds the numbers of a scene that trade exactness for time: iteration limits, thresholds of marches, step
+// lengths. All other numbers belong to the picture and are left alone.
 #pragma once
 
 #include "base/error.hpp"
@@ -13,33 +13,33 @@
 namespace tidemark::lab {
 
 struct QualitySetting {
-    Axis axis;          ///< from the coarsest value to the strictest
-    size_t own = 0;     ///< which of the values is the scene's; their number: none
-    std::string why{};  ///< "bounds the march at a.glsl:12"
-    bool march = false; ///< it belongs to the loop that is found to march, whatever it is called
+    Axis axis; ///< from the coarsest value to the strictest
+    size_t own = 0; ///< index of the scene's own value; the number of values if it is not among them
+    std::string why{}; ///< for example "bounds the march at a.glsl:12"
+    bool march = false; ///< it belongs to the marching loop, whatever its name is
 };
 
 struct QualitySettings {
     std::vector<QualitySetting> found{};
-    std::vector<std::string> left{}; ///< numbers that stand where such a number may, but are called otherwise
+    std::vector<std::string> left{}; ///< numbers at such a place whose names do not confirm it
 };
 
-/// Of the loop of Image that is found to march.
+/// The places of Image's marching loop.
 struct MarchPlaces {
-    SourceLocation test;                 ///< of its distance
-    std::vector<SourceLocation> steps{}; ///< where the ray is carried on
-    std::optional<double> far{};         ///< where it gives up, if that is a number of the text
+    SourceLocation test; ///< comparison of the distance
+    std::vector<SourceLocation> steps{}; ///< updates of the ray's place
+    std::optional<double> far{}; ///< limit of the ray, if it is a constant of the text
 };
 
-/// By where a name stands in the text, and by what it is called where that does not tell it from a number of
-/// the picture. Numbers without a name count in the loop that is found to march alone, each by its place.
+/// Recognises numbers by the place of their names in the text, and by the names themselves if the place is
+/// ambiguous. Numbers without a name count only in the marching loop, each by its place.
 QualitySettings quality_settings(const scene::Scene& scene, const std::optional<MarchPlaces>& march);
 
-/// What is left of it where the scene as it is is the truth: what is stricter costs more, and shows something
-/// else.
+/// Removes the stricter values, for a search in which the unchanged scene is the truth: they cost more and
+/// look different.
 void leave_out_stricter(QualitySetting& setting);
 
-/// An axis that a person gives.
+/// Converts an axis from the command line.
 QualitySetting quality_setting(const scene::Scene& scene, Axis axis);
 
 } // namespace tidemark::lab

@@ -1,4 +1,4 @@
-// What a search for a better scene is asked, and what each of them ends with.
+// The common part of requests to, and results of, searches for a better scene.
 #pragma once
 
 #include "base/extent.hpp"
@@ -12,14 +12,14 @@ namespace tidemark::lab {
 
 struct SearchRequest {
     Goal goal{};
-    Extent extent{320, 180};   ///< that the verdict is about
-    std::vector<View> views{}; ///< that are searched; the verdict has more
-    double seconds = 60;       ///< for all of it
+    Extent extent{320, 180}; ///< of the verdict's pictures
+    std::vector<View> views{}; ///< used by the search; the verdict has more
+    double seconds = 60; ///< for everything
 };
 
 struct SearchOutcome {
-    Findings findings;                    ///< of the last study: the scene as it is, and what was found
-    std::vector<std::string> sentences{}; ///< what to tell, in its order
+    Findings findings; ///< of the last study: the unchanged scene, and the results of the search
+    std::vector<std::string> sentences{}; ///< for the user, in this order
 };
 
 } // namespace tidemark::lab

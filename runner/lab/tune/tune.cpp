@@ -17,18 +17,18 @@
 namespace tidemark::lab {
 namespace {
 
-/// Of the longer side of the pictures that are searched; where the scene as it is is the truth, which takes
-/// no drawing, nearer to those that count.
+/// Longer side of the search pictures. If the unchanged scene is the truth, which needs no extra drawing,
+/// they are larger and closer to the final ones.
 constexpr int k_small = 96, k_small_as_it_is = 240;
-/// Behind the last of the moments that are searched, seconds.
+/// Seconds from the last moment of the search to the verdict's extra moment.
 constexpr double k_later = 2.7;
-/// Of the seconds there are, for a proof of where rays end.
+/// Share of the time budget for proofs of the hits.
 constexpr double k_proof = 0.05;
 
 struct Stage {
-    double timing; ///< part of the seconds there are
-    double step;   ///< longest of the truth, the same
-    double end;    ///< when all is given up, the same: compiling and the truth included
+    double timing; ///< share of the time budget
+    double step; ///< longest step of the truth, as a share of the budget
+    double end; ///< end of everything, as a share of the budget; includes compilation and the truth
     size_t rounds;
 };
 constexpr Stage k_search{0.25, 0.05, 1, 9}, k_judgement{0.3, 0.15, 1.5, 30};
@@ -49,14 +49,14 @@ public:
     }
 
 private:
-    /// One study of these settings; what it found when its time was over says nothing.
+    /// Runs one study of these settings; results are discarded if the time ran out.
     Result<Findings> measure(const std::vector<std::vector<Setting>>& points, Extent extent,
                              std::vector<View> views, const Stage& stage) {
         Study study = study_of(points, request_.settings);
         study.extent = extent;
         study.views = std::move(views);
         const bool wrong = request_.goal.measure == Measure::wrong;
-        study.rays = wrong; // what tells where they end is a second program of every point
+        study.rays = wrong; // hits need a second program for every point
         study.longest_step = stage.step * request_.seconds;
         study.proof_seconds = wrong ? k_proof * request_.seconds : 0;
         study.enough = sharpness(request_.goal);
@@ -78,7 +78,7 @@ private:
         return findings;
     }
 
-    /// The scene as it is is the truth.
+    /// Uses the unchanged scene as the truth.
     Result<Findings> compare(const std::vector<std::vector<Setting>>& points, const Study& study,
                              const Timing& timing, const Watch& watch) const {
         std::vector<std::pair<std::string, scene::Scene>> scenes;
@@ -92,7 +92,8 @@ private:
         return findings;
     }
 
-    /// Where the truth does not converge in all settings at once, in those of the march alone.
+    /// Studies the single values. If the truth does not converge for all settings, uses only those of the
+    /// march.
     Result<WorkPrecisionSet> explore() {
         for (;;) {
             WorkPrecisionSet set =
@@ -112,13 +113,13 @@ private:
         }
     }
 
-    /// The error that is allowed: as much as now, if nothing was said.
+    /// Returns the allowed error: that of the unchanged scene if none was given.
     double most_error(const WorkPrecisionSet& set) const {
         const Goal& goal = request_.goal;
         return goal.most_error.value_or(error_by(goal.measure, set.points.front().all));
     }
 
-    /// Why the truth is not good enough for that; empty: it is.
+    /// Returns why the truth is not good enough for that error; empty if it is.
     std::string blur(const WorkPrecisionSet& set) const {
         return blur_of(set, request_.goal.measure, most_error(set));
     }
@@ -129,7 +130,7 @@ private:
                    : "; --as-it-is tells how much faster it can show what it shows now";
     }
 
-    /// A guess of what the scene as it is takes at full size.
+    /// Estimates the unchanged scene's time at full size.
     double milliseconds(const WorkPrecisionSet& explored) const {
         return explored.points.front().all.time().median * double(request_.extent.pixels()) /
                double(explored.study.extent.pixels());
@@ -168,7 +169,7 @@ private:
                            figure(error_by(measure, point.all)), work_of(set.study, point.point.settings));
     }
 
-    /// As far as the scene tells it.
+    /// Returns the work, if the scene provides it.
     std::string work_of(const Study& study, const std::vector<Setting>& settings) const {
         auto specimen = Specimen::create(scene_, {settings}, study.extent);
         if (!specimen || !specimen->has_hits())
@@ -181,7 +182,8 @@ private:
         return fmt::format(", {:.1f} field evaluations a pixel", sum / double(all.size()));
     }
 
-    /// Faster, where the scene as it is keeps the error, too; more exact, where it keeps the time.
+    /// Returns whether a point is faster, if the unchanged scene keeps the error, too; or more exact, if it
+    /// keeps the time.
     bool is_better(const WorkPrecision& best, const WorkPrecision& own, double most) const {
         const Measure measure = request_.goal.measure;
         if (const auto& time = request_.goal.most_milliseconds)

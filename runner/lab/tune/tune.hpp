@@ -1,6 +1,6 @@
-// The settings of a scene that keep an error in the least time, or a time with the least error: explored one
-// by one on small pictures, combined by a model, then measured against the scene as it is. A context must be
-// current.
+// Finds the settings of a scene that keep an error in the least time, or a time with the least error:
+// explored one by one on small pictures, combined by a model, then measured against the unchanged scene.
+// Needs a current context.
 #pragma once
 
 #include "lab/tune/quality_settings.hpp"
@@ -13,18 +13,18 @@ namespace tidemark::lab {
 
 struct TuneRequest : SearchRequest {
     std::vector<QualitySetting> settings{};
-    bool as_it_is = false; ///< errors are held against what the scene shows now, not against a truth
+    bool as_it_is = false; ///< errors are measured against the unchanged scene, not against a truth
 };
 
 struct Tuned : SearchOutcome {
-    std::vector<Setting> chosen{}; ///< empty: nothing that was found is better, or it cannot be said
+    std::vector<Setting> chosen{}; ///< empty: no better settings were found, or none can be established
 };
 
-/// The error (ErrorCode::check_failed) says why nothing can be said.
+/// The error (ErrorCode::check_failed) gives the reason why a result is not possible.
 Result<Tuned> tune(const scene::Scene& scene, TuneRequest request, const Watch& watch,
                    const Circumstances& circumstances);
 
-/// Nothing where no loop of Image is found to march.
+/// Returns nullopt if no marching loop is found in Image.
 std::optional<MarchPlaces> march_places(const scene::Scene& scene);
 
 } // namespace tidemark::lab

@@ -1,4 +1,4 @@
-// Which controller of a MIDI device turns which knob: learned by moving it, kept by whoever owns the map.
+// Bindings of MIDI controllers to knobs, learned by moving a controller. The owner of the map keeps them.
 #pragma once
 
 #include "live/command.hpp"
@@ -11,7 +11,7 @@
 
 namespace tidemark::live {
 
-/// One number of a knob.
+/// One component of a knob.
 struct KnobPart {
     std::string knob;
     size_t component = 0;
@@ -24,13 +24,13 @@ struct Binding {
     bool operator==(const Binding&) const = default;
 };
 
-/// `controller 7`, `controller 7 of channel 2`.
+/// Formats a controller: `controller 7`, `controller 7 of channel 2`.
 std::string to_string(const Controller& controller);
-/// `height`, `tint.g`.
+/// Formats a component: `height`, `tint.g`.
 std::string to_string(const KnobPart& part, const scene::Knob& knob);
 
-/// The value of a component where its controller stands: from one end of the knob's range to the other, in
-/// its steps. Without a range that is 0 to 1, of whole numbers 0 to 127.
+/// Returns the value of a component for a controller's position: linear over the knob's range, rounded to its
+/// steps. Without a range it is 0 to 1, or 0 to 127 for whole numbers.
 double value_at(const scene::Knob& knob, size_t component, int midi_value);
 
 class ControllerMap {
@@ -38,20 +38,22 @@ public:
     ControllerMap() = default;
     explicit ControllerMap(std::vector<Binding> bindings) : bindings_(std::move(bindings)) {}
 
-    /// The next controller that moves turns that part, and nothing else. Again: none does.
+    /// Binds the next controller that moves to that part, replacing the earlier bindings of both. A second
+    /// call for the same part cancels.
     void learn(const KnobPart& part);
     void forget(const KnobPart& part);
-    /// Of what is being learned.
+    /// Returns the part that waits for a controller.
     const std::optional<KnobPart>& learning() const { return learning_; }
-    /// Which controller turns a part.
+    /// Returns the controller that is bound to a part.
     std::optional<Controller> controller_of(const KnobPart& part) const;
     const std::vector<Binding>& bindings() const { return bindings_; }
 
-    /// Ends the learning. Nothing where the scene has no such part.
+    /// Completes `learn` if it is pending, then returns the change of the bound knob. Returns nothing where
+    /// the controller is not bound or the scene has no such part.
     std::optional<TurnKnob> turn(const ControlChange& change, std::span<const scene::Knob> knobs);
 
 private:
-    std::vector<Binding> bindings_; ///< each controller and each part once
+    std::vector<Binding> bindings_; ///< each controller and each part at most once
     std::optional<KnobPart> learning_;
 };
 

@@ -1,4 +1,4 @@
-// What arrives from outside, handed from the threads that receive it to the one that owns the window.
+// A queue of received packets, from the receiving threads to the thread that owns the window.
 #pragma once
 
 #include <deque>
@@ -13,24 +13,24 @@ namespace tidemark::live {
 
 class Inbox {
 public:
-    /// `wake` is called, on the thread of `put`, when there is something to take where nothing was.
+    /// `wake` is called on the thread of `put` when a packet arrives in the empty queue.
     explicit Inbox(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-    /// One packet, whole. Of more than nobody takes in time the oldest go.
+    /// Adds one whole packet. Drops the oldest ones beyond 4,096 packets or 1 MiB.
     void put(std::string_view packet);
 
     bool empty();
-    /// In the order of their arrival.
+    /// Removes all packets and returns them in the order of arrival.
     std::vector<std::string> take();
 
 private:
     static constexpr size_t k_most_packets = 4096;
-    static constexpr size_t k_most_bytes = 1 << 20; ///< read in some 20 ms
+    static constexpr size_t k_most_bytes = 1 << 20; ///< parsed in about 20 ms
 
     std::function<void()> wake_;
     std::mutex mutex_;
-    std::deque<std::string> packets_; ///< under the mutex
-    size_t bytes_ = 0;                ///< of them, likewise
+    std::deque<std::string> packets_; ///< guarded by mutex_
+    size_t bytes_ = 0;                ///< total size of packets_, guarded by mutex_
 };
 
 } // namespace tidemark::live

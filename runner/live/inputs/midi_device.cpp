@@ -10,7 +10,7 @@
 namespace tidemark::live {
 
 Result<int> open_midi_device(const std::filesystem::path& file) {
-    // A pipe that we could write to ourselves has no end.
+    // Open a pipe for writing too: then it has no end when its other writers close it.
     std::error_code ignored;
     const int access = std::filesystem::is_fifo(file, ignored) ? O_RDWR : O_RDONLY;
     const int descriptor = ::open(file.c_str(), access | O_NONBLOCK | O_CLOEXEC);

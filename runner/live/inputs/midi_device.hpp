@@ -1,4 +1,4 @@
-// A device's file that MIDI comes from as bytes: `/dev/snd/midiC1D0`, a pipe, a recording.
+// A source of MIDI bytes with a file name: a device such as `/dev/snd/midiC1D0`, a pipe, a recording.
 #pragma once
 
 #include "base/result.hpp"
@@ -7,8 +7,8 @@
 
 namespace tidemark::live {
 
-/// A descriptor whose taker closes it. A pipe stays open whoever else writes into it and leaves.
-/// ErrorCode::load says why there is none.
+/// Opens it for non-blocking reads. Returns a descriptor that the caller must close. A pipe stays open when
+/// its writers close it. Fails with ErrorCode::load.
 Result<int> open_midi_device(const std::filesystem::path& file);
 
 } // namespace tidemark::live

@@ -5,10 +5,10 @@
 namespace tidemark::live {
 namespace {
 
-constexpr int k_status = 0x80;          ///< a byte from here on is no data
+constexpr int k_status = 0x80;          ///< bytes from here on are status bytes, below are data
 constexpr int k_control_change = 0xB0;  ///< to 0xBF, by channel
-constexpr int k_real_time = 0xF8;       ///< a byte from here on may stand within another message
-constexpr int k_channel_messages = 120; ///< controllers from here on are none: "all notes off" and the like
+constexpr int k_real_time = 0xF8;       ///< real-time messages from here on may interrupt another message
+constexpr int k_channel_messages = 120; ///< from here on: channel modes such as "all notes off"
 
 } // namespace
 
@@ -22,7 +22,7 @@ std::vector<ControlChange> MidiParser::parse(std::string_view bytes) {
             status_ = byte;
             first_ = -1;
         } else if ((status_ & 0xF0) != k_control_change) {
-            continue; // of a message that is nothing to us
+            continue; // data of another kind of message
         } else if (first_ < 0) {
             first_ = byte;
         } else if (const int number = std::exchange(first_, -1); number < k_channel_messages) {

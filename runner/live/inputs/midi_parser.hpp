@@ -1,4 +1,4 @@
-// Bytes of MIDI 1.0, as a device sends them, as the moves of its controllers; all else is passed over.
+// Parses MIDI 1.0 bytes into control changes and ignores all other messages.
 #pragma once
 
 #include <compare>
@@ -7,10 +7,10 @@
 
 namespace tidemark::live {
 
-/// A knob or a fader of a device.
+/// A knob or fader of a MIDI device.
 struct Controller {
     int channel = 1; ///< 1 to 16
-    int number = 0;  ///< 0 to 119; above are messages to the whole channel
+    int number = 0;  ///< 0 to 119; the numbers above are channel mode messages
     auto operator<=>(const Controller&) const = default;
 };
 
@@ -24,12 +24,12 @@ struct ControlChange {
 
 class MidiParser {
 public:
-    /// A message may be cut anywhere: the rest of it comes with the next call.
+    /// Parses the next bytes. A message may be split between calls.
     std::vector<ControlChange> parse(std::string_view bytes);
 
 private:
-    int status_ = 0; ///< of the message under way; it holds for the next ones, too ("running status")
-    int first_ = -1; ///< data byte of it; none yet: -1
+    int status_ = 0; ///< of this message, and of later ones without a status ("running status")
+    int first_ = -1; ///< first data byte of the message; -1: not received yet
 };
 
 } // namespace tidemark::live

@@ -19,9 +19,9 @@ namespace tidemark::live {
 namespace {
 
 constexpr const char* k_sequencer = "/dev/snd/seq";
-constexpr unsigned k_queue = 1; ///< messages; unused, since a callback takes them
+constexpr unsigned k_queue = 1; ///< messages; not used, since a callback receives them
 
-/// The functions of librtmidi that we call.
+/// The librtmidi functions that are used.
 struct MidiLibrary {
     decltype(&rtmidi_in_create) create = nullptr;
     decltype(&rtmidi_in_free) free = nullptr;
@@ -83,7 +83,7 @@ MidiPort::MidiPort(std::unique_ptr<Device> device) : device_(std::move(device)) 
 MidiPort::~MidiPort() = default;
 
 Result<std::unique_ptr<MidiPort>> MidiPort::open(std::string_view name, Inbox& into) {
-    // The library would only say that there was an error.
+    // Check this first: librtmidi's own error gives no reason.
     if (::access(k_sequencer, R_OK | W_OK) != 0)
         return cannot_listen("ALSA's sequencer, {}: {}; give a device's file, as in --midi /dev/snd/midiC1D0",
                              k_sequencer, std::strerror(errno));

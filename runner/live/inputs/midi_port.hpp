@@ -1,4 +1,4 @@
-// A port of ALSA's sequencer that MIDI comes in at, by librtmidi, which is loaded then.
+// An input port of ALSA's sequencer, through librtmidi, which is loaded by `open`.
 #pragma once
 
 #include "base/result.hpp"
@@ -11,8 +11,8 @@ namespace tidemark::live {
 
 class MidiPort {
 public:
-    /// The first port whose name has that in it; its messages are put into the inbox by a thread of the
-    /// library. ErrorCode::load names the ports that there are, or says why there are none.
+    /// Opens the first port whose name contains `name`. A thread of librtmidi puts its messages into `into`.
+    /// ErrorCode::load names the available ports, or the reason why there are none.
     static Result<std::unique_ptr<MidiPort>> open(std::string_view name, Inbox& into);
     ~MidiPort();
     MidiPort(const MidiPort&) = delete;

@@ -19,7 +19,7 @@ tl::unexpected<Error> refuse(fmt::format_string<Words...> form, Words&&... words
     return fail(ErrorCode::usage, "OSC: " + fmt::format(form, std::forward<Words>(words)...));
 }
 
-/// The number that a message has for its only argument.
+/// Returns the number in a message with exactly one argument.
 std::optional<double> number_of(const OscMessage& message) {
     if (message.arguments.size() != 1)
         return std::nullopt;
@@ -35,7 +35,8 @@ std::optional<size_t> component_of(std::string_view name, const scene::Knob& kno
     return std::nullopt;
 }
 
-/// A fader that knows no whole numbers means the nearest one.
+/// Returns an argument as --set takes it; numbers for a whole-number knob are rounded, as faders send
+/// fractions.
 std::string word_of(const scene::Knob& knob, const OscArgument& argument) {
     if (const auto* text = std::get_if<std::string>(&argument))
         return *text;
@@ -43,7 +44,7 @@ std::string word_of(const scene::Knob& knob, const OscArgument& argument) {
     return fmt::format("{}", info(knob.type).whole ? std::round(number) : number);
 }
 
-/// `--set`'s idea of values, so that there is one.
+/// Parses the values with the same rules as `--set`.
 Result<scene::KnobValue> value_of(const scene::Knob& knob, std::span<const OscArgument> arguments) {
     std::vector<std::string> words;
     for (const OscArgument& argument : arguments)

@@ -18,9 +18,9 @@ namespace {
 
 constexpr std::string_view k_bundle("#bundle\0", 8);
 constexpr size_t k_time_tag = 8;     ///< bytes
-constexpr size_t k_element_size = 4; ///< bytes, likewise
+constexpr size_t k_element_size = 4; ///< bytes
 
-/// The functions of liblo that we call.
+/// The liblo functions that are used.
 struct OscLibrary {
     decltype(&lo_message_deserialise) deserialise = nullptr;
     decltype(&lo_message_get_types) types = nullptr;
@@ -50,7 +50,7 @@ tl::unexpected<Error> refuse() {
     return fail(ErrorCode::load, "a packet that is not OSC");
 }
 
-/// As a person would write it.
+/// Returns the shortest decimal number that rounds to that float.
 double shortest(float number) {
     const std::string text = fmt::format("{}", number);
     double exact = number;
@@ -58,7 +58,7 @@ double shortest(float number) {
     return exact;
 }
 
-/// OSC aligns to four bytes, and so does liblo: a lo_arg would have to stand at eight.
+/// Reads a number by memcpy: OSC and liblo align to four bytes, but a lo_arg needs eight.
 template <class Number>
 Number read_as(const void* argument) {
     Number number;
@@ -81,14 +81,14 @@ std::optional<OscArgument> argument_of(char type, const void* argument) {
 }
 
 Result<OscMessage> parse_message(const OscLibrary& liblo, std::string_view packet) {
-    std::string bytes(packet); // liblo asks for some that it may write to
+    std::string bytes(packet); // liblo needs a writable copy
     int error = 0;
     // lo_message is void* up to liblo 0.31 and a pointer to a struct since 0.32.
     const std::unique_ptr<std::remove_pointer_t<lo_message>, decltype(liblo.free)> message(
         liblo.deserialise(bytes.data(), bytes.size(), &error), liblo.free);
     if (!message)
         return refuse();
-    OscMessage read{bytes.substr(0, bytes.find('\0'))}; // the address stands first
+    OscMessage read{bytes.substr(0, bytes.find('\0'))}; // the packet begins with the address
     const std::string_view types = liblo.types(message.get());
     for (int i = 0; i < liblo.count(message.get()); ++i) {
         auto argument = argument_of(types[size_t(i)], liblo.arguments(message.get())[i]);
@@ -100,7 +100,7 @@ Result<OscMessage> parse_message(const OscLibrary& liblo, std::string_view packe
     return read;
 }
 
-/// Cuts an element off.
+/// Removes the first element of a bundle and returns it; nothing where its size is not valid.
 std::optional<std::string_view> take_element(std::string_view& rest) {
     if (rest.size() < k_element_size)
         return std::nullopt;

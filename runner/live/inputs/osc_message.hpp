@@ -1,5 +1,5 @@
-// OSC 1.0 packets, as they come from the network, as messages. Reading one is liblo's part: it is loaded with
-// the first packet.
+// Parses OSC 1.0 packets from the network into messages. liblo does the work; it is loaded with the first
+// packet.
 #pragma once
 
 #include "base/result.hpp"
@@ -11,7 +11,7 @@
 
 namespace tidemark::live {
 
-/// A float is the shortest decimal number that means it: 0.1, not 0.10000000149.
+/// A float becomes the shortest decimal number that rounds to it: 0.1, not 0.10000000149.
 using OscArgument = std::variant<double, std::string>;
 
 struct OscMessage {
@@ -20,8 +20,9 @@ struct OscMessage {
     bool operator==(const OscMessage&) const = default;
 };
 
-/// Those of a bundle in its order, whatever time it asks for: they are for the next frame. A packet that is
-/// not OSC, or has an argument that is no number, truth or text, is an error as a whole.
+/// Returns the messages of a packet; those of a bundle in their order, ignoring its time tag, since all apply
+/// to the next frame. Fails as a whole where the packet is not OSC, or an argument is not a number, a boolean
+/// or a string.
 Result<std::vector<OscMessage>> parse_osc(std::string_view packet);
 
 } // namespace tidemark::live

@@ -30,7 +30,8 @@ tl::unexpected<Error> refuse(const OscAddress& address, const char* why) {
                 fmt::format("cannot listen for OSC at {}:{}: {}", address.host, address.port, why));
 }
 
-/// The port that the system chose where 0 was asked for, too.
+/// Returns the numeric address and port of the socket, which the system chose if port 0 was requested; "?" on
+/// failure.
 std::string bound_address(int descriptor) {
     sockaddr_storage bound{};
     socklen_t size = sizeof bound;

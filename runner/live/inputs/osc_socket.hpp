@@ -1,4 +1,4 @@
-// The UDP port that OSC messages come in at.
+// The UDP socket that receives OSC messages.
 #pragma once
 
 #include "base/result.hpp"
@@ -8,24 +8,24 @@
 
 namespace tidemark::live {
 
-/// `9000` is a port of this machine that no other machine reaches; `0.0.0.0:9000`, `studio.local:9000` or
-/// `[::]:9000` names the address to listen at.
+/// The address to listen at. `9000` is a port that only this machine reaches; `0.0.0.0:9000`,
+/// `studio.local:9000` and `[::]:9000` name an address, too.
 struct OscAddress {
     std::string host;
     std::string port;
     bool operator==(const OscAddress&) const = default;
 };
 
-/// Port 0 is any that is free. ErrorCode::usage says how to write one.
+/// Parses an address. Port 0 requests any free port. ErrorCode::usage contains an example.
 Result<OscAddress> parse_osc_address(std::string_view text);
 
-/// A descriptor that reads do not wait for, and where it listens, as it can be sent to.
+/// A non-blocking UDP socket and the address that clients can send to.
 struct OscSocket {
-    int descriptor = -1; ///< its taker closes it
+    int descriptor = -1; ///< the caller must close it
     std::string address;
 };
 
-/// ErrorCode::load says why there is none: another program has the port, say.
+/// Opens the socket. ErrorCode::load gives the reason, for example that another program uses the port.
 Result<OscSocket> open_osc_socket(const OscAddress& address);
 
 } // namespace tidemark::live

@@ -11,10 +11,10 @@
 namespace tidemark::live {
 namespace {
 
-/// UDP has no longer packets.
+/// The largest UDP packet, in bytes.
 constexpr size_t k_longest_packet = 1 << 16;
 
-/// One of UDP may be empty, which is no end as it is of a file.
+/// Returns whether the descriptor is a socket: an empty read is then an empty packet, not the end of a file.
 bool is_socket(int descriptor) {
     struct stat status {};
     return ::fstat(descriptor, &status) == 0 && S_ISSOCK(status.st_mode);

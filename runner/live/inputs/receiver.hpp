@@ -1,5 +1,4 @@
-// A thread that waits for what arrives at a descriptor (a socket, a pipe, a device) and puts it into an
-// Inbox.
+// A thread that reads packets from a descriptor (a socket, a pipe, a device) and puts them into an Inbox.
 #pragma once
 
 #include "base/descriptor.hpp"
@@ -11,7 +10,7 @@ namespace tidemark::live {
 
 class Receiver {
 public:
-    /// Takes the descriptor over; each read of it is a packet. Ends by itself where there is no more to come.
+    /// Takes ownership of the descriptor. Each read is one packet. The thread ends at the end of the input.
     Receiver(int from, Inbox& into);
     ~Receiver();
     Receiver(const Receiver&) = delete;
@@ -21,7 +20,7 @@ private:
     void receive(Inbox& into) const;
 
     Descriptor from_;
-    Descriptor stop_; ///< an eventfd: readable once the thread is to end
+    Descriptor stop_; ///< an eventfd that becomes readable when the thread must end
     std::thread thread_;
 };
 

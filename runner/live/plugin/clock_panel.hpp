@@ -1,4 +1,5 @@
-// In the upper right corner: for how long a frame is being drawn, and how far it is. No event is its own.
+// The panel in the upper right corner: how long the current frame has taken, and its progress. Takes no
+// events.
 #pragma once
 
 #include "live/plugin/panels.hpp"

@@ -10,7 +10,7 @@
 namespace tidemark::live {
 namespace {
 
-/// Each value is compiled: so a hand's is taken when it lets go.
+/// Draws one field. A value is sent only when editing it ends, because each one is compiled.
 void draw_row(DefinitionField& field, Commands& commands) {
     constexpr double k_share = 0.005;
     constexpr float k_whole_speed = 0.1F;

@@ -13,7 +13,7 @@ namespace {
 const ImVec4 k_red{1, 0.45F, 0.4F, 1};
 const ImVec4 k_grey{0.7F, 0.7F, 0.7F, 1};
 
-/// The place as a link, the line, a mark under what is meant.
+/// Draws the place as a link, the source line, and a mark under the column.
 void draw_place(const ErrorField& error, Commands& commands) {
     const SourceLocation& where = error.diagnostic.where;
     if (where.file.empty())

@@ -1,4 +1,4 @@
-// The panel at the bottom: what is wrong with the scene.
+// The panel at the bottom, with the errors of the scene.
 #pragma once
 
 #include "live/plugin/panels.hpp"
@@ -8,8 +8,8 @@ struct ImFont;
 namespace tidemark::live {
 
 struct ErrorLayout {
-    ImFont* large;    ///< for what is wrong first
-    float bottom = 0; ///< pixels below that are something else's
+    ImFont* large;    ///< for the first error
+    float bottom = 0; ///< pixels at the bottom edge that the time bar takes
 };
 
 void draw_errors(const Model& model, const Surface& surface, const ErrorLayout& layout, Commands& commands);

@@ -9,7 +9,7 @@
 namespace tidemark::live {
 
 void draw_help(const Model& model, const Surface& surface) {
-    constexpr double k_width = 620; // the longest row is two lines
+    constexpr double k_width = 620; // the longest row takes two lines
     const ImVec2 all(float(surface.extent.width), float(surface.extent.height));
     ImGui::SetNextWindowPos({all.x / 2, all.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
     const float width = std::min(all.x, float(k_width * surface.scale));

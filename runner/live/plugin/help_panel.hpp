@@ -1,4 +1,4 @@
-// The panel in the middle: what keys and mouse do.
+// The panel in the middle, with the effects of keys and mouse.
 #pragma once
 
 #include "live/plugin/panels.hpp"

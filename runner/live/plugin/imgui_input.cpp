@@ -82,7 +82,7 @@ void set_key(ImGuiIO& io, Key key, bool down) {
         set_modifier(io, key, down);
     else if (const auto named = std::ranges::find(k_keys, key, &std::pair<KeyName, Key>::second);
              named != std::end(k_keys))
-        // Only text fields get keys: Dear ImGui has shortcuts of its own that Tidemark does not offer.
+        // Pass keys only to text fields: Dear ImGui has shortcuts of its own that Tidemark does not offer.
         set_key_state(io, named->first, key, down && io.WantTextInput);
 }
 
@@ -93,7 +93,7 @@ void set_up_input(ImGuiIO& io) {
     for (const auto& [name, key] : k_keys)
         io.KeyMap[name] = platform::js_key_code(key);
 #else
-    // All events of a frame count in that frame: a window at rest does not draw a second one for the
+    // Handle all events of a frame in that frame: an idle window does not draw a second one for the
     // remainder.
     io.ConfigInputTrickleEventQueue = false;
 #endif

@@ -10,10 +10,11 @@ namespace tidemark::live {
 /// Maps Tidemark's keys to those of Dear ImGui; called once, before the first frame.
 void set_up_input(ImGuiIO& io);
 
-/// `height` of what is drawn on: our pixels count from the bottom, its from the top.
+/// Passes one event on. `height` of the framebuffer: Tidemark counts pixels from the bottom, Dear ImGui from
+/// the top.
 void feed(ImGuiIO& io, const platform::InputEvent& event, int height);
 
-/// Nothing is held down any more, and the pointer is nowhere.
+/// Releases all keys and buttons and moves the pointer outside.
 void release_all(ImGuiIO& io);
 
 } // namespace tidemark::live

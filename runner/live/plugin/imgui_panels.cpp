@@ -19,10 +19,10 @@
 namespace tidemark::live {
 namespace {
 
-/// Of the font that Dear ImGui brings, at which its pixels are whole.
+/// The size at which Dear ImGui's own font has whole pixels.
 constexpr double k_font_pixels = 13;
 
-/// What is wrong first is written so much larger.
+/// Relative font size of the first error.
 constexpr double k_large = 1.5;
 
 ImFont* add_font(double scale) {
@@ -38,7 +38,7 @@ constexpr const char* k_glsl_version = "#version 450 core";
 ImGuiPanels::ImGuiPanels() {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr; // it writes no file
+    io.IniFilename = nullptr; // no settings file
     set_up_input(io);
     ImGui_ImplOpenGL3_Init(k_glsl_version);
 }
@@ -48,7 +48,7 @@ ImGuiPanels::~ImGuiPanels() {
     ImGui::DestroyContext();
 }
 
-/// Sizes of widgets and of the font for another density of pixels.
+/// Scales the widgets and the font to another pixel density.
 void ImGuiPanels::adopt(double scale) {
     ImGuiStyle style;
     ImGui::StyleColorsDark(&style);
@@ -60,7 +60,7 @@ void ImGuiPanels::adopt(double scale) {
     io.Fonts->Clear();
     add_font(scale);
     large_ = add_font(k_large * scale);
-    ImGui_ImplOpenGL3_DestroyDeviceObjects(); // the next frame makes others, with that font
+    ImGui_ImplOpenGL3_DestroyDeviceObjects(); // the next frame creates them again, with that font
 }
 
 void ImGuiPanels::show(Model model, const Surface& surface) {
@@ -71,20 +71,20 @@ void ImGuiPanels::show(Model model, const Surface& surface) {
     model_ = std::move(model);
 }
 
-/// Each event has runs of its own, so that a press and its release in one frame of the window are both seen,
-/// and that what lies under the pointer is what lies there now.
+/// Runs Dear ImGui after each event, so that a press and its release within one frame are both seen, and hit
+/// tests use the current layout.
 bool ImGuiPanels::take(const platform::InputEvent& event) {
     ImGuiIO& io = ImGui::GetIO();
-    const bool typing = io.WantTextInput; // the key that ends it is the field's, too
+    const bool typing = io.WantTextInput; // the key that ends typing still belongs to the field
     feed(io, event, surface_.extent.height);
     run();
-    run(); // whether somebody types still is known one run later
+    run(); // the result of the first run is needed to know whether a field has the keyboard
     return owner_.take(event, {io.WantCaptureMouse, typing});
 }
 
 void ImGuiPanels::run() {
     const auto now = std::chrono::steady_clock::now();
-    constexpr float k_shortest = 1e-5F; // it divides by that
+    constexpr float k_shortest = 1e-5F; // Dear ImGui divides by it
     ImGuiIO& io = ImGui::GetIO();
     io.DeltaTime =
         std::max(k_shortest, std::chrono::duration<float>(now - std::exchange(ran_at_, now)).count());

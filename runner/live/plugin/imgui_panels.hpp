@@ -1,4 +1,4 @@
-// The panels, drawn by Dear ImGui through its OpenGL 3 back end. One object at a time.
+// The panels, drawn by Dear ImGui through its OpenGL 3 back end. Only one object may exist at a time.
 #pragma once
 
 #include "live/event_owner.hpp"

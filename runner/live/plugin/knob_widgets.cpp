@@ -11,11 +11,11 @@
 namespace tidemark::live {
 namespace {
 
-/// Four digits: as many as a hand has, and no more in the file that the values are written into.
+/// Four digits: as precise as dragging by hand, and short in the file that values are written into.
 constexpr const char* k_number = "%.4g";
 constexpr const char* k_whole_number = "%.0f";
 
-/// What the widgets of a row take of its width: the rest is the name's.
+/// The widgets' share of a row's width; the name gets the rest.
 constexpr float k_widget_share = 0.6F;
 
 bool draw_check_box(KnobField& field) {
@@ -78,7 +78,7 @@ bool draw_widget(KnobField& field) {
     }
 }
 
-/// What a click of the right button on the name opens.
+/// Draws the menu that a right click on the name opens.
 void draw_controllers(const KnobField& field, Commands& commands) {
     if (field.controllers.empty() || !ImGui::BeginPopupContextItem("controllers"))
         return;
@@ -93,7 +93,7 @@ void draw_controllers(const KnobField& field, Commands& commands) {
     ImGui::EndPopup();
 }
 
-/// Bright while a controller is learned for it.
+/// Draws the name, highlighted while one of its components waits for a controller.
 void draw_name(const KnobField& field) {
     const ImVec4 bright{1, 0.8F, 0.2F, 1};
     if (std::ranges::any_of(field.controllers, &ControllerField::learning))

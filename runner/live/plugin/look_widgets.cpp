@@ -20,7 +20,7 @@ bool draw_channels(LookField& look) {
     return changed;
 }
 
-/// Whoever turns the exposure does not want it turned by itself.
+/// Draws the exposure slider. Moving it turns automatic exposure off.
 bool draw_exposure(LookField& look) {
     auto stops = float(look.stops);
     const bool turned = ImGui::SliderFloat("exposure", &stops, -float(k_most_stops), float(k_most_stops),

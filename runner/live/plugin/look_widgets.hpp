@@ -1,11 +1,11 @@
-// Fields below the small pictures: how the large one is looked at.
+// Fields below the thumbnails: how the large picture is viewed.
 #pragma once
 
 #include "live/plugin/panels.hpp"
 
 namespace tidemark::live {
 
-/// Nothing where no picture is large.
+/// Draws nothing if no picture is large.
 void draw_look(const Model& model, Commands& commands);
 
 } // namespace tidemark::live

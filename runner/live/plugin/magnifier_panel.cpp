@@ -24,7 +24,7 @@ void draw_cells(const MagnifierField& magnifier, float cell) {
             if (const auto& colour = magnifier.colours[size_t(row * columns + column)])
                 list.AddRectFilled(corner(column, row + 1), corner(column + 1, row),
                                    IM_COL32((*colour)[0], (*colour)[1], (*colour)[2], 255));
-    // Two frames: one of them is seen on any colour.
+    // Draw two frames, so that one is visible on any colour.
     const ImVec2 low = corner(columns / 2, rows / 2 + 1);
     const ImVec2 high = corner(columns / 2 + 1, rows / 2);
     list.AddRect({low.x - 1, low.y - 1}, {high.x + 1, high.y + 1}, IM_COL32_BLACK);
@@ -47,7 +47,7 @@ void draw_value(const PixelValue& value, float column) {
     ImGui::PopStyleColor();
 }
 
-/// Beside the pointer, on the side where there is room, and never beyond an edge of the window.
+/// Returns the panel's position: next to the pointer, on the side with room, within the window.
 ImVec2 place_of(const MagnifierField& magnifier, const Surface& surface, ImVec2 size) {
     constexpr double k_away = 20;
     const auto away = float(k_away * surface.scale);

@@ -1,4 +1,5 @@
-// The panel beside the pointer: the pixels around it, large, and what passes wrote into the one under it.
+// The panel next to the pointer: the surrounding pixels, enlarged, and the values that passes wrote into the
+// one under it.
 #pragma once
 
 #include "live/plugin/panels.hpp"

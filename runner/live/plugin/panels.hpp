@@ -1,5 +1,5 @@
-// What the program and the plug-in of Dear ImGui say to each other: models and events in, commands out, and
-// panels drawn with OpenGL. Both are built together; the version refuses a plug-in of another build.
+// The interface between the program and the Dear ImGui plug-in: models and events go in, commands and panels
+// drawn with OpenGL come out. Both are built together; a plug-in with another version is refused.
 #pragma once
 
 #include "base/extent.hpp"
@@ -11,10 +11,10 @@
 
 namespace tidemark::live {
 
-/// What panels are drawn on.
+/// The framebuffer that panels are drawn on.
 struct Surface {
-    Extent extent;    ///< of the window's framebuffer
-    double scale = 1; ///< pixels for one of an ordinary display
+    Extent extent;    ///< of the window's framebuffer, in pixels
+    double scale = 1; ///< pixels for one pixel of an ordinary display
 };
 
 class Panels {
@@ -22,11 +22,11 @@ public:
     virtual ~Panels() = default;
 
     virtual void show(Model model, const Surface& surface) = 0;
-    /// Whether the event is a panel's.
+    /// Returns whether the event belongs to a panel.
     virtual bool take(const platform::InputEvent& event) = 0;
     virtual void draw() = 0;
     virtual Commands take_commands() = 0;
-    /// Nothing is held down any more.
+    /// Releases all keys and buttons.
     virtual void release_all() = 0;
 };
 

@@ -18,7 +18,7 @@ ImTextureID texture_of(const PictureField& picture) {
     return reinterpret_cast<ImTextureID>(uintptr_t(picture.texture));
 }
 
-/// What a buffer holds as alpha is no transparency.
+/// Draws without blending, since a buffer's alpha is not transparency.
 void draw_opaque(ImDrawList& list, const PictureField& picture, ImVec2 from, ImVec2 to) {
     list.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
     list.AddImage(texture_of(picture), from, to, {0, 1}, {1, 0}); // OpenGL's rows begin at the bottom

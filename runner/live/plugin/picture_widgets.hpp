@@ -1,4 +1,4 @@
-// The pictures that passes draw and read: small ones to choose from, and one large.
+// The pictures that passes draw and read: thumbnails to choose from, and one large picture.
 #pragma once
 
 #include "live/plugin/panels.hpp"
@@ -6,7 +6,7 @@
 namespace tidemark::live {
 
 void draw_thumbnails(const Model& model, const Surface& surface, Commands& commands);
-/// Behind all panels, as large as the window allows.
+/// Draws a picture below all panels, as large as the window allows.
 void draw_large(const PictureField& picture, const Surface& surface);
 
 } // namespace tidemark::live

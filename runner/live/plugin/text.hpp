@@ -1,5 +1,5 @@
-// Text that came from people or their files, as panels show it: cut where no screen could hold it. Dear ImGui
-// takes 16,384 characters in one call and ends the program at more.
+// Draws text from users or their files, cut to a length that any screen can show. Dear ImGui aborts the
+// program at more than 16,384 characters in one call.
 #pragma once
 
 #include "base/printable.hpp"
@@ -11,7 +11,7 @@
 
 namespace tidemark::live {
 
-/// The text as a label or a line: 2,000 bytes of it at most.
+/// Returns at most 2,000 bytes of a text, for a label or a line.
 inline std::string shown(std::string_view text) {
     constexpr size_t k_most_bytes = 2000;
     return cut_text(text, k_most_bytes);
@@ -21,7 +21,7 @@ inline void draw_text(std::string_view text) {
     ImGui::TextUnformatted(shown(text).c_str());
 }
 
-/// In as many lines as the panel's width asks for.
+/// Draws a text wrapped to the panel's width.
 inline void draw_wrapped(std::string_view text) {
     ImGui::PushTextWrapPos(0);
     draw_text(text);

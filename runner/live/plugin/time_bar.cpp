@@ -47,9 +47,9 @@ void draw_speed(TimeField& time, Commands& commands) {
         commands.emplace_back(SetSpeed{time.speed});
 }
 
-/// A number that is typed is gone to when it is whole: the way to its first digit would take the bar away.
-/// Escape takes it back. The button that begins it is still down for a while, in which time goes on below the
-/// field.
+/// Draws the time slider. A typed number takes effect when the field is left, because seeking at its first
+/// digit would replace the bar; Escape discards it. Dragging seeks at once. After the Ctrl-click that opens
+/// the field the button is still down for a while and the time changes, which must not count as a drag.
 void draw_scrubber(TimeField& time, Commands& commands) {
     constexpr double k_begin = 0;
     constexpr float k_nothing = -1;

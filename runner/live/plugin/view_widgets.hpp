@@ -1,4 +1,4 @@
-// The moments that somebody kept.
+// The list of views that the user kept.
 #pragma once
 
 #include "live/command.hpp"

@@ -1,4 +1,4 @@
-// What the scripts that explore a diagram share: its points, what is shown, what is left.
+// Shared by the scripts of a diagram: its points, the limits, and which points remain.
 const {points} = JSON.parse(document.getElementById("data").textContent);
 const all = (selector, root = document) => [...root.querySelectorAll(selector)];
 const svgElement = (svg, name, attributes) => {
@@ -9,7 +9,7 @@ const svgElement = (svg, name, attributes) => {
 const limits = {error: Infinity, time: Infinity};
 const seriesOff = new Set();
 const isOff = point => seriesOff.has(point.series);
-// An error or a time that is not known keeps no limit.
+// A point without an error or a time passes only if that limit is off.
 const keeps = (value, limit) => limit === Infinity || (value !== null && value <= limit);
 const isLeft = point => !isOff(point) && keeps(point.error, limits.error) && keeps(point.time, limits.time);
 document.documentElement.classList.add("scripted");

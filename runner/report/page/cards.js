@@ -1,4 +1,4 @@
-// The card of the point under the pointer or the focus; a click or a tap keeps it there.
+// Shows the card of the point under the pointer or with the focus; a click or a tap keeps it.
 let kept = points.length > 0 ? points[0].id : null;
 const show = id => {
     for (const element of all(".card, .mark, tr[data-point]"))

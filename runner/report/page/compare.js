@@ -1,4 +1,4 @@
-// Two pictures of the page, with a divider between them.
+// Compares two pictures of the page with a divider between them.
 const compared = document.querySelector(".compare");
 if (compared) {
     const pictures = [...all(".reference img"), ...all(".card img")], slider = compared.querySelector(".slider");

@@ -1,4 +1,4 @@
-// Which points are left by the limits and the series that are on: the others fade, and a sentence tells of the rest.
+// Fades the points that the limits and the hidden series exclude, and describes the rest in a sentence.
 const best = (left, key) => left.filter(point => point[key] !== null)
     .reduce((a, b) => (a === null || b[key] < a[key] ? b : a), null);
 const told = () => {

@@ -1,4 +1,4 @@
-// Lines of allowed error and time: dragged, turned by the arrow keys, or typed.
+// Lines of allowed error and time, which are dragged, moved with the arrow keys, or typed.
 const axisOf = (svg, name) => {
     const [low, high, first, last] = svg.dataset[name].split(" ").map(Number);
     return {low, high, first, last,
@@ -12,13 +12,13 @@ const setLimit = (key, value) => {
     for (const line of lines) if (line.key === key) line.place();
     update();
 };
-// A limit beyond the axis allows everything.
+// A limit beyond the axis allows every point.
 const turn = (key, axis, value) => {
     const limit = value >= axis.high ? Infinity : Math.max(value, axis.low);
     fields[key].value = limit === Infinity ? "" : Number(limit.toPrecision(3));
     setLimit(key, fields[key].value === "" ? Infinity : Number(fields[key].value));
 };
-// The elements of one line: dashes across the diagram, and a grip at the axis.
+// Creates the elements of one line: dashes across the diagram, and a grip at the axis.
 const limitElements = (svg, key, axis) => {
     const group = svgElement(svg, "g", {class: "limit", role: "slider", tabindex: 0, "data-limit": key,
         "aria-label": key === "error" ? "most error allowed" : "most milliseconds allowed",

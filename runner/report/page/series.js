@@ -1,4 +1,4 @@
-// Series on and off, by the legend.
+// Shows and hides series by the legend.
 for (const item of all(".legend [data-series]")) {
     const button = document.createElement("button"), series = Number(item.dataset.series);
     button.append(...item.childNodes);

@@ -1,10 +1,10 @@
 
 // ---- Pictures as a film
 
-// VP8, decoded by the browser where it can (WebCodecs: pages of this machine, or by https). `tell` is called with
-// whether it can, again where it cannot any more: then pictures come whole.
+// VP8, decoded by the browser if it can (WebCodecs: on pages of this machine, or with https). Calls `tell`
+// with true if it can, and with false when it fails: then whole pictures come.
 class Film {
-    heads = new Map(); // of pictures that are being decoded, by number
+    heads = new Map(); // of pictures being decoded, by number
 
     constructor(onFrame, tell) {
         Object.assign(this, {onFrame, tell});

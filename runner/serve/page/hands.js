@@ -2,7 +2,7 @@
 
 const BUTTONS = ["left", "middle", "right"];
 
-// Moves are of interest while a button is down, as in the window.
+// Moves are sent only while a button is down, as in the window.
 function sendPointer(canvas, link, size) {
     const at = event => {
         const [x, y] = placeIn(canvas, event, size());
@@ -15,10 +15,10 @@ function sendPointer(canvas, link, size) {
         if (event.button in BUTTONS)
             link.send("press", button(event));
         if (event.button === 1)
-            event.preventDefault(); // else the page scrolls
+            event.preventDefault(); // otherwise the page scrolls
     });
     canvas.addEventListener("pointermove", event => {
-        // A second button goes down or up while the first is held: browsers call that a move.
+        // If a second button goes down or up while the first is held, browsers report a move.
         if (event.button in BUTTONS)
             link.send(event.buttons & [1, 4, 2][event.button] ? "press" : "release", button(event));
         else if (event.buttons)
@@ -33,10 +33,10 @@ function sendPointer(canvas, link, size) {
     }, {passive: false});
 }
 
-// The keys of the window that have a meaning here.
+// The window's keys that work here too.
 const WINDOW_KEYS = /^( |ArrowLeft|ArrowRight|Home|r|c|[0-9])$/;
 
-// A scene that reads the keyboard gets all keys but those that leave the picture.
+// A scene that reads the keyboard gets all keys except those that leave the picture.
 function sendKeys(canvas, link, sceneReads, toggleFullScreen) {
     canvas.addEventListener("keydown", event => {
         if (event.ctrlKey || event.altKey || event.metaKey || ["Tab", "Escape"].includes(event.key))

@@ -1,7 +1,7 @@
-// ---- The way to the program
+// ---- The connection to the program
 
-// Texts go both ways, pictures come in: four bytes of a length, a JSON head of that length, a JPEG file or a picture of a
-// film in VP8.
+// Texts go both ways. A picture comes as four bytes of length, a JSON head of that length, and a JPEG file or
+// a VP8 film picture.
 class Link {
     constructor({onText, onPicture, onEnd}) {
         const address = new URL("socket", location.href);
@@ -19,7 +19,7 @@ class Link {
         return [head, new Uint8Array(buffer, 4 + length)];
     }
 
-    // Also before the way is open.
+    // Sends a message now, or when the connection opens.
     sendFirst(wanted, values) {
         this.socket.addEventListener("open", () => this.send(wanted, values), {once: true});
         this.send(wanted, values);

@@ -1,4 +1,4 @@
-// ---- What lies around the picture
+// ---- Panels around the picture
 
 function wordButton(text, act) {
     return element("button", {type: "button", className: "tidemark-word", textContent: text, onclick: act});
@@ -9,7 +9,7 @@ function choice(name, act) {
     return {select, element: element("label", {}, name, select)};
 }
 
-// Its options are made anew only where they are others: one that is open stays so.
+// Replaces the options only if they changed, so that an open list stays open.
 function offer({select}, options, chosen) {
     const text = JSON.stringify(options);
     if (select.dataset.offered !== text)
@@ -18,14 +18,15 @@ function offer({select}, options, chosen) {
     select.value = chosen;
 }
 
-// The first error whole, with its line and the place in it.
+// Shows all errors, each with its line and a mark under the place.
 function showErrors(board, errors) {
     board.hidden = errors.length === 0;
     board.replaceChildren(...errors.flatMap(({text, line, mark}) =>
         [`${text}\n`, ...line ? [`    ${line}\n`] : [], ...mark ? [element("mark", {textContent: `    ${mark}\n`})] : []]));
 }
 
-// Sliders for the scene's knobs. What a hand is at is left alone: the program's word of it comes later than the hand.
+// Sliders for the scene's knobs. One that the user is moving is left alone, since the program's values are
+// older than the user's.
 class Knobs {
     constructor(link) {
         this.link = link;
@@ -49,7 +50,7 @@ class Knobs {
     }
 }
 
-// A field for each #define and const that is a number; it is compiled when the field is left.
+// A field for each #define and const that is a number. Leaving the field compiles it.
 class Definitions {
     constructor(link) {
         this.link = link;
@@ -73,7 +74,7 @@ class Definitions {
         return element("div", {className: "tidemark-knob"}, element("span", {textContent: name}), field, back);
     }
 
-    // With a point where the file has one: without it GLSL takes it for a whole number.
+    // Adds a decimal point if the file has one: without it GLSL reads an integer.
     #text({value}, whole) { return whole || /[.e]/.test(value) ? value : `${value}.0`; }
 }
 

@@ -1,14 +1,14 @@
-// ---- A scene that is drawn elsewhere
+// ---- A scene drawn by the program
 
 const SPEEDS = [-1, 0.1, 0.25, 0.5, 1, 2, 4];
 
 class Remote {
-    number = 0; // of the picture on show
+    number = 0; // of the picture shown
     state = {size: [16, 9], keyboard: false, pictures: [], large: null};
-    arrivals = []; // of pictures, in the last second
+    arrivals = []; // times of pictures in the last second
 
     constructor(div) {
-        this.div = Object.assign(div, {tidemark: this}); // for scripts of tests
+        this.div = Object.assign(div, {tidemark: this}); // for test scripts
         this.div.dataset.state = "connecting";
         this.link = new Link({onText: text => this.#hear(text), onPicture: (head, file) => this.#see(head, file),
                               onEnd: reason => this.#end(reason)});
@@ -18,7 +18,7 @@ class Remote {
         sendPointer(canvas, link, () => this.state.size);
         sendKeys(canvas, link, () => this.state.keyboard, () => this.toggleFullScreen());
         document.addEventListener("visibilitychange", () => this.#tellSeen());
-        setInterval(() => this.#showCosts(), 1000); // numbers to be read stand still for so long
+        setInterval(() => this.#showCosts(), 1000); // once a second, so that the numbers can be read
         canvas.focus();
     }
 
@@ -46,9 +46,9 @@ class Remote {
         this.div.append(this.picture, element("div", {className: "tidemark-bar"}, this.steer, this.status), this.notice, this.fields);
     }
 
-    // A key of the window, whether or not the scene reads the keyboard.
+    // Sends a key of the window, whether or not the scene reads the keyboard.
     #press(code) {
-        const held = this.state.keyboard ? [17, code] : [code]; // with Ctrl it is the window's
+        const held = this.state.keyboard ? [17, code] : [code]; // with Ctrl the window gets it
         held.forEach(each => this.link.send("keydown", {code: each}));
         held.reverse().forEach(each => this.link.send("keyup", {code: each}));
     }
@@ -77,7 +77,7 @@ class Remote {
         this.definitions.show(definitions);
     }
 
-    // Time goes round between A and B; a second press takes one away.
+    // Sets or clears an end of the time loop between A and B.
     #loop(end) {
         const {from, to} = this.state.time;
         this.link.send("loop", {from, to, [end]: this.state.time[end] === null ? this.head?.seconds ?? 0 : null});
@@ -91,12 +91,12 @@ class Remote {
         }
         offer(this.speed, SPEEDS.filter(speed => speed > 0 || time.turnsBack).map(speed => [speed, `${speed}×`]), time.speed);
         this.speed.element.hidden = !time.hasSpeed;
-        this.stay.hidden = !time.stepping; // on the way to a frame, through all that lead to it
+        this.stay.hidden = !time.stepping; // stepping through the frames before the target frame
         if (this.head)
             this.bar.show(this.#moment(), time.paused, false);
     }
 
-    // With what each took where the driver's timer says so.
+    // Adds each pass's time if the driver measures it.
     #offerPasses() {
         const {pictures, large} = this.state, costs = this.head?.costs ?? [];
         const label = (name, i) => costs[i] == null ? name : `${name} (${costs[i].toFixed(1)} ms)`;
@@ -116,7 +116,7 @@ class Remote {
             this.film.show(head, bytes);
     }
 
-    // A bitmap or a frame of a film.
+    // `bitmap` is an ImageBitmap or a VideoFrame.
     #present(head, bitmap) {
         if (head.number > this.number) {
             this.number = head.number;
@@ -139,7 +139,7 @@ class Remote {
         this.bar.show(this.#moment(), this.state.time?.paused, false);
     }
 
-    // Nobody draws for a page that is hidden.
+    // A hidden page acknowledges nothing, so no pictures are drawn for it.
     #tellSeen() {
         if (!document.hidden && this.number > 0)
             this.link.send("seen", {number: this.number});
@@ -158,7 +158,8 @@ class Remote {
     async #copied(text) {
         this.notice.textContent = text;
         this.notice.hidden = false;
-        await navigator.clipboard?.writeText(text).catch(() => {}); // it stands there to be copied by hand
+        // the text is shown, so it can be copied by hand
+        await navigator.clipboard?.writeText(text).catch(() => {});
     }
 
     #end(reason) {

@@ -16,21 +16,21 @@ namespace websocket = beast::websocket;
 namespace {
 
 constexpr std::chrono::seconds k_patience{10};
-/// Of whoever has not shown the token yet.
+/// Limit for clients that have not shown the token yet.
 constexpr std::chrono::seconds k_patience_with_strangers{1};
 constexpr size_t k_longest_header = 16384;
-/// So many messages nobody who reads has waiting.
+/// Number of messages; a client that reads never has so many waiting.
 constexpr size_t k_most_waiting = 256;
-/// Two pictures of 4K in the best quality have less.
+/// Two 4K pictures of the best quality take less.
 constexpr size_t k_most_bytes_waiting = 64 << 20;
-/// RFC 6455 leaves room for 123 bytes.
+/// Bytes; RFC 6455 allows 123.
 constexpr size_t k_longest_reason = 120;
 
 std::string_view view_of(beast::string_view text) {
     return {text.data(), text.size()};
 }
 
-/// Its address is its secret, and what it shows is nobody else's.
+/// Keeps the page private: its address contains the token, and other sites must not embed or read it.
 void shut_in(http::response<http::string_body>& response) {
     response.set(http::field::cache_control, "no-store");
     response.set("Content-Security-Policy",
@@ -85,7 +85,7 @@ void Connection::answer() {
 }
 
 void Connection::respond(http::status status, std::string text, const char* type) {
-    beast::get_lowest_layer(socket_).expires_after(k_patience); // to read what is answered
+    beast::get_lowest_layer(socket_).expires_after(k_patience); // time to read the response
     auto response = std::make_shared<http::response<http::string_body>>(status, request_->get().version());
     response->set(http::field::content_type, type);
     shut_in(*response);
@@ -97,7 +97,7 @@ void Connection::respond(http::status status, std::string text, const char* type
 }
 
 void Connection::accept() {
-    beast::get_lowest_layer(socket_).expires_never(); // a WebSocket has times of its own
+    beast::get_lowest_layer(socket_).expires_never(); // a WebSocket has timeouts of its own
     auto times = websocket::stream_base::timeout::suggested(beast::role_type::server);
     times.idle_timeout = 2 * k_patience;
     times.keep_alive_pings = true;
@@ -166,7 +166,7 @@ void Connection::drop(const websocket::close_reason& why) {
         socket_.async_close(why, [self = shared_from_this()](Error) { self->close(); });
 }
 
-/// The socket; what is under way ends with it.
+/// Closes the socket, which also ends pending operations.
 void Connection::close() {
     closing_ = true;
     boost::system::error_code ignored;

@@ -1,4 +1,4 @@
-// One connection: an HTTP request is answered, or becomes a WebSocket that stays. By Boost.Beast, on one
+// One connection: answers an HTTP request, or becomes a WebSocket that stays open. Uses Boost.Beast, on one
 // thread.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace tidemark::serve {
 
-/// What connections know of their server; all on its thread.
+/// The server as its connections see it; used on its thread only.
 class House {
 public:
     virtual ~House() = default;
@@ -25,11 +25,11 @@ public:
     virtual Guests& guests() = 0;
 };
 
-/// Lives as long as an operation of it is under way.
+/// Lives as long as one of its operations is pending.
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
     Connection(boost::asio::ip::tcp::socket socket, ViewerId id, House& house);
-    /// Tells the guests that a viewer has left.
+    /// Reports that the viewer has left.
     ~Connection();
     Connection(const Connection&) = delete;
     Connection& operator=(const Connection&) = delete;
@@ -37,9 +37,9 @@ public:
     void start();
     void send(SharedMessage message);
     void close();
-    /// It showed the token, and watches.
+    /// Returns whether it has shown the token and is a viewer.
     bool is_guest() const { return is_guest_; }
-    /// The server ends: nobody is told any more.
+    /// The server is stopping: leaving is not reported any more.
     void part() { is_guest_ = false; }
 
 private:
@@ -61,7 +61,7 @@ private:
     bool closing_ = false;
     boost::beast::flat_buffer buffer_;
     std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> request_;
-    std::deque<SharedMessage> waiting_; ///< the first is under way
+    std::deque<SharedMessage> waiting_; ///< the first is being written
     size_t waiting_bytes_ = 0;
 };
 

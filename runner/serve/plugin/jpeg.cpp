@@ -7,7 +7,7 @@
 namespace tidemark::serve {
 namespace {
 
-/// From here on colours have as many samples as brightness: whoever asks for it looks closely.
+/// From this quality on, colour has full resolution.
 constexpr int k_fine_quality = 90;
 
 struct Destroy {

@@ -1,4 +1,4 @@
-// JPEG files by libturbojpeg.
+// Encodes JPEG files with libturbojpeg.
 #pragma once
 
 #include "base/extent.hpp"
@@ -9,7 +9,7 @@
 
 namespace tidemark::serve {
 
-/// ServePlugIn::encode.
+/// Implements ServePlugIn::encode.
 std::string encode_jpeg(Extent extent, std::span<const std::byte> rgba, int quality);
 
 } // namespace tidemark::serve

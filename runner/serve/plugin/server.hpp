@@ -1,6 +1,6 @@
-// What the program and the plug-in of the web server say to each other: messages of viewers come in, pictures
-// and words for them go out. The plug-in knows HTTP, WebSocket (RFC 6455), JPEG and VP8, and nothing of
-// scenes. Both are built together; the version refuses a plug-in of another build.
+// The interface of the program and the web server's plug-in: viewers' messages come in, pictures and texts
+// for them go out. The plug-in handles HTTP, WebSocket (RFC 6455), JPEG and VP8, but not scenes. Both are
+// built together; a plug-in with another version is refused.
 #pragma once
 
 #include "base/extent.hpp"
@@ -17,66 +17,68 @@ namespace tidemark::serve {
 
 struct Message {
     std::string bytes;
-    bool binary = false; ///< else text, UTF-8
+    bool binary = false; ///< otherwise text, UTF-8
 };
 using SharedMessage = std::shared_ptr<const Message>;
 
-/// Of a connection; none comes twice.
+/// Number of a connection; never reused.
 using ViewerId = uint64_t;
 
-/// Who is told of viewers. Called on the server's thread.
+/// Receives the viewers' events. Called on the server's thread.
 class Guests {
 public:
     virtual ~Guests() = default;
 
-    /// Whether there is room for one more.
+    /// Returns whether there is room for one more viewer.
     virtual bool came(ViewerId viewer) = 0;
-    /// A text; where it fails the connection is closed with that message.
+    /// Handles a text message; if it fails, the connection is closed with the error's message.
     virtual Result<void> said(ViewerId viewer, std::string_view message) = 0;
     virtual void left(ViewerId viewer) = 0;
 };
 
 struct ServerSettings {
     std::string host;  ///< a name or an address of this machine
-    uint16_t port = 0; ///< 0: any that is free
+    uint16_t port = 0; ///< 0: any free port
     std::string token;
     std::string page; ///< HTML
 };
 
-/// Listens as long as it lives, or until it is told to stop.
+/// Listens while it lives, or until it is stopped.
 class Server {
 public:
     virtual ~Server() = default;
 
-    /// Lets viewers in, once; `guests` must live longer.
+    /// Starts to accept viewers; to be called once. `guests` must outlive the server.
     virtual void start(Guests& guests) = 0;
-    /// Ends all connections; nobody is told of anything from here on.
+    /// Ends all connections; no more events are reported.
     virtual void stop() = 0;
-    /// From any thread. A viewer that does not read what it is sent is dropped.
+    /// Thread-safe. A viewer that does not read its messages is disconnected.
     virtual void send(ViewerId viewer, SharedMessage message) = 0;
 
-    /// `127.0.0.1:8080`, `[::1]:8080`; where it listens at every address, the machine's name and the port.
+    /// Returns `127.0.0.1:8080` or `[::1]:8080`; if it listens on every address, the machine's name and the
+    /// port.
     virtual std::string place() const = 0;
     virtual bool is_loopback() const = 0;
 };
 
-/// Pictures one after the other, each as what changed since the one before.
+/// Encodes pictures as a film: each one as its changes since the one before.
 class Film {
 public:
     virtual ~Film() = default;
-    /// RGBA in bytes, bottom row first, without its alpha. `key`: it is to be seen without those before; so
-    /// is the first of each size. On one thread at a time. Empty where the library fails.
+    /// `rgba` has 8 bits per channel, the bottom row first; alpha is ignored. With `key`, and after a change
+    /// of size, the picture can be decoded without those before it. Not thread-safe. Returns an empty text if
+    /// the library fails.
     virtual std::string encode(Extent extent, std::span<const std::byte> rgba, bool key) = 0;
 };
 
 struct ServePlugIn {
     unsigned version;
-    /// Fails (ErrorCode::usage) where it cannot listen there.
+    /// Fails (ErrorCode::usage) if it cannot listen there.
     Result<std::unique_ptr<Server>> (*open)(const ServerSettings& settings);
-    /// A JPEG file of RGBA in bytes, bottom row first, without its alpha. `quality` from 1 to 100. On one
-    /// thread at a time. Empty where the library fails.
+    /// Returns a JPEG file of RGBA pixels, 8 bits per channel, bottom row first; alpha is ignored. `quality`
+    /// is 1 to 100. Not thread-safe. Empty if the library fails.
     std::string (*encode)(Extent extent, std::span<const std::byte> rgba, int quality);
-    /// VP8, `quality` as above.
+    /// Returns a VP8 encoder; `quality` as above.
     std::unique_ptr<Film> (*open_film)(int quality);
 };
 

@@ -10,8 +10,7 @@
 namespace tidemark::serve {
 namespace {
 
-/// Of libvpx's levels of speed for films that nobody may wait for, the fastest but some: more lose more than
-/// they save.
+/// libvpx's speed level for real-time encoding, close to the fastest: faster ones lose more than they save.
 constexpr int k_speed = -12;
 constexpr int k_coarsest = 63; ///< quantizer
 constexpr int k_thousand = 1000;
@@ -40,9 +39,9 @@ public:
         settings.g_timebase = {1, k_thousand};
         settings.g_lag_in_frames = 0;
         settings.g_threads = std::clamp(std::thread::hardware_concurrency() / 2, 1U, 4U);
-        settings.kf_mode = VPX_KF_DISABLED; // one comes where somebody needs it
-        // The quantizer is the quality: a rate would have pictures that move wait for, or lose to, those
-        // before.
+        settings.kf_mode = VPX_KF_DISABLED; // key pictures come only on request
+        // A fixed quantizer sets the quality: with a target rate, moving pictures would be late or worse
+        // because of earlier ones.
         settings.rc_end_usage = VPX_VBR;
         settings.rc_target_bitrate = 1 << 20;
         settings.rc_min_quantizer = settings.rc_max_quantizer = unsigned((100 - quality) * k_coarsest / 100);
@@ -56,8 +55,8 @@ public:
 
     std::string encode(std::span<const std::byte> rgba, bool key) {
         const auto* pixels = reinterpret_cast<const uint8_t*>(rgba.data());
-        // Its colours as BT.601 has them, which is what browsers take VP8 for; the bottom row is the first
-        // here.
+        // BT.601 colours, which browsers assume for VP8; the height is negative because the bottom row is
+        // first.
         libyuv::ABGRToI420(pixels, 4 * extent_.width, image_->planes[0], image_->stride[0], image_->planes[1],
                            image_->stride[1], image_->planes[2], image_->stride[2], extent_.width,
                            -extent_.height);

@@ -1,4 +1,4 @@
-// Films of VP8 by libvpx: one picture after the other, each as what changed since the one before.
+// Encodes VP8 films with libvpx: each picture as its changes since the one before.
 #pragma once
 
 #include "serve/plugin/server.hpp"
@@ -7,7 +7,7 @@
 
 namespace tidemark::serve {
 
-/// ServePlugIn::open_film.
+/// Implements ServePlugIn::open_film.
 std::unique_ptr<Film> open_vp8(int quality);
 
 } // namespace tidemark::serve

@@ -1,4 +1,4 @@
-// The plug-in's Server: a thread that accepts connections and carries messages.
+// Implements the plug-in's Server: a thread that accepts connections and passes messages.
 #include "serve/plugin/connection.hpp"
 #include "serve/plugin/jpeg.hpp"
 #include "serve/plugin/server.hpp"
@@ -21,7 +21,7 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using ErrorWord = boost::system::error_code;
 
-/// Viewers, and those who have only asked yet: more than there can be viewers.
+/// Viewers and clients without a token yet; more than there can be viewers.
 constexpr size_t k_most_connections = 64;
 
 tl::unexpected<Error> cannot_listen(const ServerSettings& settings, const std::string& why) {
@@ -88,7 +88,7 @@ private:
                 connection->part();
     }
 
-    /// Boost throws where memory runs out: that is the end of what was at it, not of the others.
+    /// Boost throws if memory runs out: that ends the operation, but not the others.
     void run() {
         while (!context_.stopped())
             try {
@@ -129,9 +129,9 @@ private:
         });
     }
 
-    /// Mute connections keep nobody out.
+    /// Closes the oldest connection without a token, so that silent clients cannot block others.
     void close_oldest_stranger() {
-        for (const auto& [id, known] : connections_) // in the order in which they came
+        for (const auto& [id, known] : connections_) // in the order of arrival
             if (const auto connection = known.lock(); connection && !connection->is_guest()) {
                 connection->close();
                 connections_.erase(id);
@@ -140,15 +140,15 @@ private:
     }
 
     ServerSettings settings_;
-    Guests* guests_ = nullptr; ///< since the start
+    Guests* guests_ = nullptr; ///< set by start()
     std::map<ViewerId, std::weak_ptr<Connection>> connections_;
     ViewerId last_id_ = 0;
-    asio::io_context context_{1}; ///< ends before what its handlers use
+    asio::io_context context_{1}; ///< destroyed before the members that its handlers use
     tcp::acceptor acceptor_;
     std::thread thread_;
 };
 
-/// Boost throws where memory or descriptors run out.
+/// Boost throws if memory or descriptors run out.
 Result<std::unique_ptr<Server>> open_server(const ServerSettings& settings) {
     try {
         auto server = std::make_unique<WebServer>(settings);

@@ -1,4 +1,4 @@
-// The page's own script: the files of this folder one behind the other, in a scope of their own, so that several
-// figures may stand on one page. It draws the scene of the <div> that it stands in.
+// The page's script: the files of this folder joined in one scope, so that several figures can be on one
+// page. It draws the scene of the <div> that contains it.
 (() => {
 "use strict";

@@ -1,14 +1,15 @@
 
 // ---- iCamera and iViewMatrix
 
-// Circles a target at a distance. World y is up; at azimuth and elevation 0 it stands on the positive z axis. Degrees.
+// Orbits a target at a distance. World y is up; at azimuth and elevation 0 the camera is on the positive z
+// axis. Degrees.
 class OrbitCamera {
     azimuth = 30;
     elevation = 20;
     distance = 10;
     target = [0, 0, 0];
 
-    // A drag by so many pixels of a picture that is `height` high: once across is half a circle.
+    // Rotates for a drag of (dx, dy) pixels; a drag across `height` pixels is half a turn.
     turn(dx, dy, height) {
         this.azimuth = ((this.azimuth - dx / height * 180) % 360 + 360) % 360;
         this.elevation = Math.min(89.9, Math.max(-89.9, this.elevation - dy / height * 180));
@@ -27,13 +28,13 @@ class OrbitCamera {
         return [[ca, 0, -sa], [-sa * se, ce, -ca * se], [sa * ce, se, ca * ce]];
     }
 
-    // Camera to world: columns right, up, backwards, position.
+    // Returns camera to world, by columns: right, up, backwards, position.
     get matrix() {
         const axes = this.axes, position = this.target.map((at, i) => at + this.distance * axes[2][i]);
         return [...axes, position].flatMap((column, i) => [...column, i === 3 ? 1 : 0]);
     }
 
-    // How it was moved from where it begins: iOrbit without its last number, and iOrbitPan.
+    // Returns the motion since the initial position: iOrbit without its last number, and iOrbitPan.
     get motion() {
         const first = new OrbitCamera(), turned = (this.azimuth - first.azimuth + 540) % 360 - 180;
         const heading = first.azimuth * Math.PI / 180, [s, c] = [Math.sin(heading), Math.cos(heading)];
@@ -42,7 +43,7 @@ class OrbitCamera {
                         this.distance / first.distance], pan: [c * x - s * z, y, s * x + c * z]};
     }
 
-    // The same, as seen from another camera.
+    // Returns this camera's matrix in another camera's coordinates.
     seenFrom(other) {
         const theirs = other.matrix, ours = this.matrix, seen = [];
         for (let column = 0; column < 4; ++column) {

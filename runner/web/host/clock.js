@@ -1,13 +1,13 @@
 
 // ---- iTime, iTimeDelta, iFrame, iFrameRate
 
-// By ShaderToy's rules: a pause freezes iTime, but a frame that is drawn meanwhile counts; the first frame after a
-// start, a pause or a jump has an iTimeDelta of 1/60; iFrameRate is a mean over half a second and starts at 60.
+// ShaderToy's rules: a pause freezes iTime, but frames drawn meanwhile count; the first frame after a start,
+// a pause or a jump has an iTimeDelta of 1/60; iFrameRate is a mean over half a second and starts at 60.
 class Clock {
     paused = false;
     frame = 0; // the next one
     rate = 60;
-    #time = 0; // at #since, or frozen
+    #time = 0; // at #since, or while paused
     #since = 0;
     #drawn = 0;
     #isFresh = true;
@@ -25,7 +25,7 @@ class Clock {
         [this.#time, this.frame, this.#since, this.#isFresh] = [time, frame, now, true];
     }
 
-    // No frame is drawn for a while.
+    // Marks a break in drawing, so that the next iTimeDelta is 1/60.
     rest() { this.#isFresh = true; }
 
     nextFrame(now) {
@@ -48,7 +48,7 @@ class Clock {
     }
 }
 
-// iDate at a moment of the clock on the wall.
+// Returns iDate for a Date, in local time.
 function dateOf(now) {
     const seconds = (now.getHours() * 60 + now.getMinutes()) * 60 + now.getSeconds() + now.getMilliseconds() / 1000;
     return [now.getFullYear(), now.getMonth(), now.getDate(), seconds];

@@ -1,5 +1,5 @@
 
-// ---- What a person turns
+// ---- Controls
 
 function element(name, attributes = {}, ...children) {
     const made = Object.assign(document.createElement(name), attributes);
@@ -7,7 +7,7 @@ function element(name, attributes = {}, ...children) {
     return made;
 }
 
-// Drawn, for not every machine has letters of that kind.
+// Icons are drawn, since not every machine has such characters.
 const ICONS = {
     restart: "M3 3h2v10H3zM13 3v10L6 8z", play: "M4 2l9 6-9 6z", pause: "M4 3h3v10H4zM9 3h3v10H9z",
     full: "M2 2h5v2H4v3H2zM9 2h5v5h-2V4H9zM2 9h2v3h3v2H2zM12 9h2v5H9v-2h3z",
@@ -27,7 +27,7 @@ function button(text, icon, act) {
     return made;
 }
 
-// The bar under the picture: restart, pause, time, sound, full screen.
+// The bar below the picture: restart, pause, time, sound, full screen.
 class TimeBar {
     constructor({restart, togglePause, seek, toggleSound, toggleFullScreen}, hasSound) {
         this.pause = button("Pause", "pause", togglePause);
@@ -42,7 +42,7 @@ class TimeBar {
 
     show({time, frame, rate}, paused, audible) {
         while (Number(this.time.max) < time)
-            this.time.max = 2 * this.time.max; // the bar doubles as time comes near
+            this.time.max = 2 * this.time.max; // the range doubles when time reaches its end
         this.time.value = time;
         this.clock.textContent = `${time.toFixed(2)} s \u00b7 frame ${frame} \u00b7 ${rate.toFixed(0)} fps`;
         label(this.pause, paused ? "Play" : "Pause", paused ? "play" : "pause");
@@ -55,8 +55,8 @@ const byteOf = value => Math.round(255 * Math.min(1, Math.max(0, value)));
 const hexOf = colour => `#${colour.map(value => byteOf(value).toString(HEX).padStart(2, "0")).join("")}`;
 const colourOf = hex => [1, 3, 5].map(at => parseInt(hex.slice(at, at + 2), HEX) / 255);
 
-// A colour, a check box for two values, a slider for each component of a range, else a field for a number. `changed` is
-// told which knob was.
+// Returns a knob's widgets: a colour field, a check box if there are two values, sliders if there is a range,
+// or number fields. Calls `changed` with the knob.
 function knobWidgets(knob, changed) {
     const turn = (i, value) => {
         knob.value[i] = value;
@@ -80,7 +80,7 @@ function knobWidgets(knob, changed) {
             number.textContent = Number(Number(field.value).toPrecision(6));
             turn(i, Number(field.value));
         }});
-        field.value = value; // behind its range and step
+        field.value = value; // set after its range and step, which limit it
         return element("span", {className: "tidemark-component"}, field, ...low ? [number] : []);
     });
 }

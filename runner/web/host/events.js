@@ -1,9 +1,9 @@
 
 // ---- Mouse and keyboard of the figure
 
-// What a drag does; as in the window.
+// Effects of a drag, as in the window.
 class Drag {
-    last = null; // its latest place
+    last = null; // last position
 
     constructor(figure, turnsCamera) { Object.assign(this, {figure, turnsCamera}); }
 
@@ -59,16 +59,16 @@ function listenToPointer(figure) {
             camera.zoom(-Math.sign(event.deltaY));
         }, {passive: false});
     if (turnsCamera || renderer.uses("iMouse", "iMouseButton", "mouse"))
-        canvas.style.touchAction = "none"; // a finger drags in the picture instead of the page
+        canvas.style.touchAction = "none"; // dragging with a finger moves the picture, not the page
     if (renderer.uses("iMouseButton"))
         on("contextmenu", event => event.preventDefault());
 }
 
-// As in the window.
+// The same keys as in the window.
 const KEYS = {" ": figure => figure.togglePause(), Home: figure => figure.restart(), f: figure => figure.toggleFullScreen(),
               r: figure => figure.resetCamera()};
 
-// A scene that reads the keyboard gets all keys but those that leave the figure.
+// A scene that reads the keyboard gets all keys except those that leave the figure.
 function listenToKeys(figure) {
     const {canvas, keyboard, renderer: {readsKeyboard}} = figure;
     canvas.addEventListener("keydown", event => {

@@ -1,10 +1,10 @@
 
 // ---- The figure: a scene on a page
 
-const FPS = 60; // of a moment that is asked for
-const LAST_FRAME = 2 ** 31 - 2; // iFrame is an int, and one more must follow
+const FPS = 60; // frame rate up to a requested moment
+const LAST_FRAME = 2 ** 31 - 2; // iFrame is an int, and one more frame must follow
 
-// `time=2.5&frame=3&size=640x360&paused`: where to begin, and whether to stay there.
+// Parses `time=2.5&frame=3&size=640x360&paused`: the first moment, and whether to stay there.
 function readMoment(text) {
     const words = new URLSearchParams(text);
     const number = (name, most) => {
@@ -18,7 +18,7 @@ function readMoment(text) {
             size: size && [Number(size[1]), Number(size[2])]};
 }
 
-// iDate of a moment that is asked for: noon of 2024-01-01, and the time on top of it.
+// Returns iDate for a requested moment: noon of 2024-01-01 plus the time.
 const dateAt = time => [2024, 0, 1 + Math.floor((43200 + time) / 86400), (43200 + time) % 86400];
 
 class Figure {
@@ -26,16 +26,16 @@ class Figure {
     keyboard = new Keyboard();
     camera = new OrbitCamera();
     clock = new Clock();
-    needsFrame = true; // although time stands still
+    needsFrame = true; // even if time stands still
     isVisible = true;
-    remarks = []; // for whoever looks at the page
+    remarks = []; // messages for the reader of the page
 
     constructor(div) {
-        this.div = Object.assign(div, {tidemark: this}); // for scripts of the page around
+        this.div = Object.assign(div, {tidemark: this}); // for scripts of the surrounding page
         this.scene = JSON.parse(div.querySelector("script[type='application/json']").textContent);
         this.asked = readMoment(div.dataset.moment ?? location.hash.slice(1));
         this.canvas = element("canvas", {tabIndex: 0, ariaLabel: this.scene.name});
-        if (this.scene.size) // its author's: the page decides how large, in these proportions
+        if (this.scene.size) // only the author's proportions are used; the page decides the size
             this.canvas.style.setProperty("--proportion", this.scene.size[0] / this.scene.size[1]);
         if (this.asked.size)
             Object.assign(this.canvas.style, {aspectRatio: this.asked.size.join("/"), maxHeight: "none"});
@@ -43,7 +43,7 @@ class Figure {
         div.append(this.canvas, this.message);
     }
 
-    // `data-state` of the <div> says where it stands: loading, running, failed.
+    // Sets `data-state` of the <div>: loading, running or failed.
     async start() {
         this.div.dataset.state = "loading";
         try {
@@ -62,7 +62,8 @@ class Figure {
 
     async #prepare() {
         const gl = this.canvas.getContext("webgl2", {alpha: false, antialias: false, depth: false,
-                                                     preserveDrawingBuffer: true}); // a pause keeps its picture
+                                                     // keeps the picture during a pause
+                                                     preserveDrawingBuffer: true});
         if (!gl)
             throw new SceneError("This browser has no WebGL 2: it cannot draw the scene.");
         if (!gl.getExtension("EXT_color_buffer_float"))
@@ -79,7 +80,7 @@ class Figure {
         this.videos = textures.all.filter(texture => texture.video);
     }
 
-    // What fails is said, and the picture goes on with something else.
+    // Records an error for the reader and continues with a substitute.
     #goOnWithout(promise, substitute) {
         return promise.catch(error => {
             this.remarks.push(error.message);
@@ -107,7 +108,7 @@ class Figure {
 
     now() { return performance.now() / 1000; }
 
-    // As many pixels as the screen has where the picture stands, unless a size is asked for.
+    // Uses as many pixels as the screen has there, unless a size was requested.
     #fit() {
         const {width, height} = this.canvas.getBoundingClientRect(), scale = devicePixelRatio;
         const size = this.asked.size ?? [Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale))];
@@ -127,7 +128,8 @@ class Figure {
         this.needsFrame = false;
     }
 
-    // Draws all frames on the way where the scene remembers, a few at a time: a page must answer meanwhile.
+    // If frames depend on earlier ones, draws all frames on the way, a few at a time so that the page
+    // responds.
     async #goTo({frame, time, paused}) {
         const isAsked = frame !== undefined, last = frame ?? 0, end = time ?? 0;
         this.clock.pause(paused, this.now());
@@ -157,7 +159,7 @@ class Figure {
         requestAnimationFrame(() => this.#tick());
     }
 
-    // Sound and videos as the clock says.
+    // Starts or stops sound and videos like the clock.
     #playOn() {
         const {paused} = this.clock;
         if (paused)
@@ -173,7 +175,7 @@ class Figure {
         this.seek(0, 0);
     }
 
-    // Buffers go on from where they are.
+    // Jumps to a time; buffers keep their contents.
     seek(time, frame = Math.floor(time * FPS)) {
         this.clock.seek(time, frame, this.now());
         this.needsFrame = true;

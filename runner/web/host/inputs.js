@@ -1,5 +1,5 @@
 
-// ---- What the scene's files become, before any texture is made of it
+// ---- Decoding the scene's files, before textures are made
 
 function bytesOf(text) {
     return Uint8Array.from(atob(text), letter => letter.charCodeAt(0));
@@ -9,7 +9,8 @@ function floatsOf(text) {
     return new Float32Array(bytesOf(text).buffer);
 }
 
-// Every texel with four samples: grey is red, green and blue, and alpha 1. A volume's green and blue are 0.
+// Expands texels to four samples: grey fills red, green and blue, and alpha is 1. A volume's missing green
+// and blue are 0.
 function fourSamples(samples, channels, isGrey) {
     const from = [[0, -1, -1, -2], [0, 1, -1, -2], [0, 1, 2, -2], [0, 1, 2, 3]][channels - 1];
     const order = isGrey && channels < 3 ? [0, 0, 0, channels === 2 ? 1 : -2] : from;
@@ -20,14 +21,14 @@ function fourSamples(samples, channels, isGrey) {
     return all;
 }
 
-// Samples as they are in the file: no colour space, no alpha multiplied in.
+// Decodes the samples as stored: no colour space conversion, no alpha multiplication.
 function decodePicture(input) {
     return createImageBitmap(new Blob([bytesOf(input.data)], {type: input.type}),
                              {premultiplyAlpha: "none", colorSpaceConversion: "none",
                               imageOrientation: input.flip ? "flipY" : "none"});
 }
 
-// The sound, and its spectrum. At the rate of the site, whatever the file's is.
+// Returns the sound and its spectrum, at ShaderToy's sample rate whatever the file has.
 async function decodeMusic(input) {
     const context = new OfflineAudioContext(2, 1, SAMPLE_RATE);
     const sound = await context.decodeAudioData(bytesOf(input.data).buffer)
@@ -35,7 +36,7 @@ async function decodeMusic(input) {
     return {sound, spectrum: new Spectrum(mixedDown(sound))};
 }
 
-// Ready to show its first picture.
+// Resolves when the first picture can be shown.
 function openVideo(input) {
     const video = Object.assign(document.createElement("video"), {muted: true, loop: true, playsInline: true});
     return new Promise((resolve, reject) => {
@@ -45,7 +46,7 @@ function openVideo(input) {
     });
 }
 
-// The same input, decoded.
+// Returns the input with its decoded data.
 async function decodeInput(input) {
     switch (input.kind) {
     case "picture": return {...input, bitmap: await decodePicture(input)};

@@ -1,8 +1,8 @@
 
 // ---- The keyboard's texture
 
-// Rows of 256 texels, one for each JavaScript key code: down, pressed since the last frame, toggled, released since
-// the last frame.
+// Rows of 256 texels, one per JavaScript key code: down, pressed since the last frame, toggled, released
+// since the last frame.
 class Keyboard {
     texels = new Uint8Array(4 * 256);
 

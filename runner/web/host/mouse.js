@@ -1,8 +1,9 @@
 
 // ---- iMouse
 
-// Through press, drag and release. Pixels from the bottom left; xy moves only while the button is down, zw is where it
-// was pressed: z is positive while it is down, w only in the first frame after the press.
+// iMouse during press, drag and release. Pixels from the bottom left. xy changes only while the button is
+// down; zw is the press position: z is positive while the button is down, w only in the first frame after the
+// press.
 class Mouse {
     position = [0, 0];
     pressedAt = [0, 0];

@@ -1,14 +1,15 @@
 
 // ---- Programs
 
-// What a person who looks at the page is told.
+// An error with a message for the reader of the page.
 class SceneError extends Error {}
 
-// One triangle that covers the target.
+// One triangle that covers the whole target.
 const VERTEX_SHADER = `#version 300 es
 void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }`;
 
-// A pass on its way through the driver. `link` gives its program; until then several compile at the same time.
+// A pass that the driver is compiling. `link` returns its program; several can compile at the same time until
+// then.
 class Compilation {
     constructor(gl, pass) {
         this.gl = gl;
@@ -34,7 +35,7 @@ class Compilation {
         return program;
     }
 
-    // The driver's messages, with the author's own files and lines.
+    // Returns the driver's messages with the author's file names and line numbers.
     #complaint() {
         const log = this.gl.getShaderInfoLog(this.shaders[1]) || this.gl.getProgramInfoLog(this.program) || "";
         const messages = log.replaceAll("\0", "").trim().split("\n").map(line => {
@@ -45,7 +46,7 @@ class Compilation {
     }
 }
 
-// Where a line of the text that the driver gets was written.
+// Returns the author's place for a line of the text given to the driver.
 function placeOf(pass, number) {
     const [first, file, line] = pass.lines.findLast(([start]) => start <= number) ?? [0, "", 0];
     return file ? `${file}:${line + number - first}` : pass.name;

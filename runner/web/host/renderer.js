@@ -8,11 +8,11 @@ const FACE_CORNERS = [
     [-1, 1, 1, 1, 1, 1, 1, -1, 1, -1, -1, 1], [1, 1, -1, -1, 1, -1, -1, -1, -1, 1, -1, -1],
 ];
 
-// Where the texture of `#iKeyboard` stands: behind iChannel0 to iChannel9.
+// Texture unit of `#iKeyboard`, after iChannel0 to iChannel9.
 const KEYBOARD_UNIT = 10;
 const KEYBOARD_SAMPLER = {magnify: "nearest", minify: "nearest", mipmaps: "none", wrap: "clamp"};
 
-// The textures of the inputs, each made once, with mipmaps and without.
+// The textures of the inputs, each made once with mipmaps and once without, if needed.
 class InputTextures {
     made = new Map();
 
@@ -28,7 +28,7 @@ class InputTextures {
     get all() { return [...this.made.values()]; }
 }
 
-// A pass with all that it is drawn with.
+// A pass and the objects needed to draw it.
 class DrawnPass {
     constructor(gl, pass, program, textures) {
         Object.assign(this, {gl, program, index: 0, kind: pass.kind, discards: pass.discards, isForeign: pass.foreign});
@@ -51,7 +51,7 @@ class DrawnPass {
             setUniform(this.gl, this.uniforms.get(name), numbers, width);
     }
 
-    // `textureOf`: what a channel reads in this frame.
+    // `textureOf` returns the texture that a channel reads in this frame.
     prepare(moment, size, textureOf) {
         const {gl} = this, facts = [];
         gl.useProgram(this.program);
@@ -62,7 +62,7 @@ class DrawnPass {
             this.#bind(channel, texture);
         }
         const values = {...uniformsAt(moment, size, facts), ...(this.isForeign ? uniformsOfOthersAt(moment, size) : {})};
-        for (const {name, value} of moment.knobs) // may have a name that only another host gives away
+        for (const {name, value} of moment.knobs) // a knob may have a name that only other hosts use
             values[name] = [value];
         for (const [name, [numbers, width]] of Object.entries(values))
             this.set(name, numbers, width);
@@ -80,8 +80,8 @@ class DrawnPass {
     }
 }
 
-// All passes but the sound. In ShaderToy's order: a pass reads what stands before it in this frame's state, itself and
-// what stands behind it in the last frame's.
+// All passes except Sound, in ShaderToy's order: a pass reads the passes before it in their state of this
+// frame, itself and those after it in their state of the last frame.
 class Renderer {
     static async create(gl, scene, textures) {
         const passes = scene.passes.filter(pass => pass.kind !== "sound");
@@ -142,7 +142,7 @@ class Renderer {
 
     #textureOf(channel, reader) {
         if (channel.pass === undefined) {
-            // A quirk of the site that shaders may rely on.
+            // A quirk of ShaderToy that shaders may rely on: a cubemap pass sees the keyboard with size 0.
             const hidden = reader.kind === "cubemap" && channel.texture.isKeyboard;
             return hidden ? {...channel.texture, size: [0, 0, 0]} : channel.texture;
         }

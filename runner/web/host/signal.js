@@ -3,7 +3,7 @@
 
 const SIGNAL_WIDTH = 512, SAMPLE_RATE = 44100;
 
-// The site's own signal where there is nothing to hear.
+// Returns ShaderToy's signal for a silent input.
 function silentSignal(time) {
     const turn = 6.2831, bytes = new Uint8Array(2 * SIGNAL_WIDTH);
     for (let i = 0; i < SIGNAL_WIDTH; ++i) {
@@ -15,7 +15,7 @@ function silentSignal(time) {
     return bytes;
 }
 
-// In place; as many numbers as a power of two.
+// Computes the Fourier transform in place; the length must be a power of two.
 function transform(real, imaginary) {
     const count = real.length;
     for (let i = 1, j = 0; i < count; ++i) {
@@ -38,8 +38,8 @@ function transform(real, imaginary) {
         }
 }
 
-// A sound as WebAudio's AnalyserNode shows it, but as a function of the time alone: it smooths from call to call, and
-// here a call stands for sixty a second, of which the last 128 count.
+// A sound like WebAudio's AnalyserNode shows it, but depending on the time alone. The node smooths from call
+// to call; here there are sixty calls a second, of which the last 128 count.
 class Spectrum {
     static BLOCK = 2048;
     static REMEMBERED = 128;
@@ -76,7 +76,7 @@ class Spectrum {
         return smoothed;
     }
 
-    // Under a Blackman window of alpha 0.16.
+    // Uses a Blackman window with alpha 0.16.
     #magnitudes(step) {
         const count = Spectrum.BLOCK, first = step * 735 - count;
         const real = new Float64Array(count), imaginary = new Float64Array(count);

@@ -1,10 +1,10 @@
 
 // ---- Sound
 
-const SOUND_TILE = 512;                                        // texels on a side, a sample each
-const SOUND_BLOCK = SOUND_TILE * SOUND_TILE, SOUND_ROWS = 64; // drawn at a time
+const SOUND_TILE = 512;                                        // texels per side, one sample each
+const SOUND_BLOCK = SOUND_TILE * SOUND_TILE, SOUND_ROWS = 64; // rows drawn at a time
 
-// Draws the Sound pass: samples of 16 bits, low byte and high byte, left and right.
+// Draws the Sound pass: 16-bit samples as low and high byte, left and right.
 class SoundPass {
     static async create(gl, scene, textures) {
         const pass = scene.passes.find(pass => pass.kind === "sound");
@@ -21,7 +21,8 @@ class SoundPass {
         return sound;
     }
 
-    // SOUND_ROWS rows from the sample `first` on, which begins a row; numbers from -32767 to 32767, left and right in turn.
+    // Draws SOUND_ROWS rows from the sample `first` on, which must begin a row. Returns numbers from -32767
+    // to 32767, left and right alternating.
     draw(first, moment) {
         const {gl} = this, block = first - first % SOUND_BLOCK, row = (first - block) / SOUND_TILE;
         this.pass.prepare(moment, [SOUND_TILE, SOUND_TILE], channel => channel.texture);
@@ -42,10 +43,10 @@ class SoundPass {
 
 // Plays the Sound pass and the music that the scene reads, from any time on.
 class Player {
-    #context = null; // a browser allows sound once a person has asked for it
+    #context = null; // browsers allow sound only after a user's action
     #sources = new Set();
-    #origin = 0; // of the scene's time in the context's
-    #next = 0;   // the sample of the Sound pass that is to be drawn next
+    #origin = 0; // the context's time at which the scene's time is 0
+    #next = 0;   // next sample of the Sound pass to draw
 
     constructor(pass, music) {
         this.pass = pass;
@@ -70,7 +71,7 @@ class Player {
         this.playing = false;
     }
 
-    // From that time of the scene on.
+    // Plays from that time of the scene on.
     start(time) {
         this.stop();
         if (!this.isOn)
@@ -82,7 +83,7 @@ class Player {
             this.#play(sound, this.#context.currentTime, time % sound.duration, true);
     }
 
-    // Keeps two seconds of the Sound pass ahead, a few rows a frame.
+    // Keeps two seconds of the Sound pass ready, a few rows per frame.
     pump(moment) {
         if (!this.playing || !this.pass || this.#origin + this.#next / SAMPLE_RATE > this.#context.currentTime + 2)
             return;

@@ -1,10 +1,10 @@
 
-// ---- What a pass draws into
+// ---- Render targets
 
 const CUBE_SIDE = 1024;
 
-// One texture, or two that take turns where a pass reads itself or keeps pixels of the frame before the last. Zero at
-// first.
+// One texture; or two that alternate, if the pass reads itself or keeps pixels of earlier frames. Initially
+// zero.
 class Target {
     constructor(gl, kind, {isDouble, mipmapped}) {
         this.gl = gl;
@@ -20,7 +20,7 @@ class Target {
     get latest() { return this.surfaces[this.latestIndex]; }
     get next() { return this.surfaces[this.count - 1 - this.latestIndex]; }
 
-    // What was there stays as far as it reaches.
+    // Keeps the old contents as far as they fit.
     resize(width, height) {
         const size = this.isCube ? [CUBE_SIDE, CUBE_SIDE, 1] : [width, height, 1];
         if (String(size) === String(this.size))
@@ -77,7 +77,7 @@ class Target {
     }
 }
 
-// From one frame buffer to another; null is the canvas.
+// Copies one frame buffer to another; null is the canvas.
 function copyPicture(gl, from, to, width, height) {
     gl.bindFramebuffer(gl.READ_FRAMEBUFFER, from);
     gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, to);

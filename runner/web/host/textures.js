@@ -5,13 +5,13 @@ function levelsOf(...sides) {
     return Math.floor(Math.log2(Math.max(...sides))) + 1;
 }
 
-// Some phones filter halves, but no floats.
+// Half floats on phones that cannot filter floats.
 function floatFormat(gl) {
     return gl.getExtension("OES_texture_float_linear") ? gl.RGBA32F : gl.RGBA16F;
 }
 
-// A texture with what the channel uniforms tell of it: `size`, `time` (iChannelTime) and whether it is `loaded`.
-// `update(moment)`: brings it up to that moment.
+// A texture and the values of its channel uniforms: `size`, `time` (iChannelTime) and `loaded`.
+// `update(moment)` brings it up to that moment.
 class InputTexture {
     loaded = true;
     time = 0;
@@ -71,7 +71,7 @@ class InputTexture {
         this.#store([input.side, input.side, 1], this.#formatOf(input.faces[0]));
         input.faces.forEach((face, i) => this.#put(this.gl.TEXTURE_CUBE_MAP_POSITIVE_X + i, face));
         this.#finish();
-        this.size = [0, 0, 0]; // the site knows no size of a cubemap from files
+        this.size = [0, 0, 0]; // ShaderToy reports no size for a cubemap from files
     }
 
     make_volume(input) {
@@ -128,7 +128,7 @@ class InputTexture {
         };
     }
 
-    // WebGL reads opaque black where there is no texture.
+    // Without a texture, WebGL reads opaque black.
     make_none() {
         this.gl.deleteTexture(this.name);
         this.name = null;
@@ -136,12 +136,12 @@ class InputTexture {
         this.size = [0, 0, 0];
     }
 
-    // What needs a while to show a time shows it.
+    // Shows a time in a video; other inputs need no seeking.
     async seek(time) {
         const {video} = this;
         if (!video)
             return;
-        // A picture may come later than the place is found, and does not come where it is the one that is there.
+        // The picture may come after `seeked`; it does not come if it is already shown, hence the time limit.
         const come = new Promise(resolve => {
             video.requestVideoFrameCallback?.(resolve);
             setTimeout(resolve, 1000);

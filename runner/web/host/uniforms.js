@@ -1,7 +1,7 @@
 
 // ---- Uniforms
 
-// How many numbers a uniform of that type takes, and which function of WebGL hands them over.
+// Returns how many numbers a uniform of that type takes, and the suffix of WebGL's function for it.
 function shapeOf(gl, type) {
     const shapes = {
         [gl.FLOAT]: [1, "1fv"], [gl.FLOAT_VEC2]: [2, "2fv"], [gl.FLOAT_VEC3]: [3, "3fv"], [gl.FLOAT_VEC4]: [4, "4fv"],
@@ -13,7 +13,7 @@ function shapeOf(gl, type) {
     return shapes[type];
 }
 
-// The active uniforms of a program, by name; an array by its own.
+// Returns a program's active uniforms by name, arrays without `[0]`.
 function reflect(gl, program) {
     const uniforms = new Map();
     for (let i = 0; i < gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS); ++i) {
@@ -23,7 +23,8 @@ function reflect(gl, program) {
     return uniforms;
 }
 
-// Whatever type the author gave it. `width`: of the numbers so many belong to one element of an array.
+// Sets a uniform of whatever type the author declared. `width` is how many of the numbers belong to one
+// element of an array.
 function setUniform(gl, {type, size, place}, numbers, width = numbers.length) {
     if (type === gl.FLOAT_MAT4) {
         gl.uniformMatrix4fv(place, false, numbers);
@@ -37,7 +38,8 @@ function setUniform(gl, {type, size, place}, numbers, width = numbers.length) {
     gl[`uniform${call}`](place, values);
 }
 
-// What each uniform is told: numbers, and how many make an element. `channels`: textures by number, or nothing.
+// Returns the uniforms' values: numbers, and how many make an element. `channels` has textures by number,
+// with gaps.
 function uniformsAt(moment, size, channels) {
     const [width, height] = size, mouse = moment.mouse.uniform;
     const {orbit, pan} = moment.camera.motion;
@@ -62,7 +64,8 @@ function uniformsAt(moment, size, channels) {
     return values;
 }
 
-// What the VS Code extension, glslsandbox.com and glslViewer fill. A text of ShaderToy's that declares one has a zero.
+// Returns the uniforms of the VS Code extension, glslsandbox.com and glslViewer. ShaderToy's own shaders do
+// not get them: one declared there stays zero.
 function uniformsOfOthersAt(moment, [width, height]) {
     const mouse = moment.mouse.uniform;
     return {
