@@ -1,6 +1,7 @@
 #include "base/error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numeric>
@@ -94,6 +95,14 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
         }
     }
     return best;
+}
+
+std::string hint_for(std::string_view name, const std::vector<std::string>& names, std::string_view none) {
+    if (names.empty())
+        return std::string(none);
+    const std::string nearest = nearest_name(name, names);
+    return nearest.empty() ? fmt::format("it has {}", fmt::join(names, ", "))
+                           : fmt::format("did you mean '{}'?", nearest);
 }
 
 } // namespace tidemark

@@ -1,8 +1,12 @@
 // Errors as values: what is wrong, in which file and line, and what to do. Nothing here prints.
 #pragma once
 
+#include <tl/expected.hpp>
+
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace tidemark {
@@ -66,5 +70,46 @@ std::string to_string(const Error& error);
 
 /// Returns the candidate closest to `word`, for "did you mean …?"; empty if none is close.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates);
+
+// Result<T>: a value or the Error that explains why there is none.
+
+template <class T>
+using Result = tl::expected<T, Error>;
+
+inline tl::unexpected<Error> fail(Error error) {
+    return tl::unexpected<Error>(std::move(error));
+}
+
+inline tl::unexpected<Error> fail(ErrorCode code, std::string message) {
+    return fail(Error{code, std::move(message), {}});
+}
+
+// Returns an error to the caller in one macro: `const auto scene = TRY(load_scene(path));`.
+
+template <class T>
+T value_of(Result<T>&& result) {
+    if constexpr (!std::is_void_v<T>)
+        return *std::move(result);
+}
+
+} // namespace tidemark
+
+/// The value of a Result; an error is returned from the enclosing function. It is a statement expression,
+/// which GCC and clang have. On the error path, clang 14 does not destroy what the same expression has made
+/// before it: put it first in its statement, `T{TRY(a), b}`, and not after anything that owns memory.
+#define TRY(...)                                                                                             \
+    __extension__({                                                                                          \
+        auto tidemark_result = (__VA_ARGS__);                                                                \
+        if (!tidemark_result)                                                                                \
+            return ::tidemark::fail(std::move(tidemark_result).error());                                     \
+        ::tidemark::value_of(std::move(tidemark_result));                                                    \
+    })
+
+// Suggests names after an unknown one.
+
+namespace tidemark {
+
+/// Returns "did you mean 'x'?" if one of `names` is close, else "it has x, y"; `none` if `names` is empty.
+std::string hint_for(std::string_view name, const std::vector<std::string>& names, std::string_view none);
 
 } // namespace tidemark

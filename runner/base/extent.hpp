@@ -1,6 +1,7 @@
 // The size of a picture, target or window in pixels.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -17,5 +18,27 @@ struct Extent {
 
 /// Parses `640x360`; nullopt for any other text or a side below 1.
 std::optional<Extent> parse_extent(std::string_view text);
+
+// A part of a picture, target or window in whole pixels; x and y are its bottom left pixel.
+
+struct Rectangle {
+    int x = 0;
+    int y = 0;
+    Extent extent;
+
+    bool operator==(const Rectangle&) const = default;
+
+    bool contains(int column, int row) const {
+        return column >= x && row >= y && column - x < extent.width && row - y < extent.height;
+    }
+    /// Returns the common pixels; an empty extent if there are none.
+    Rectangle within(const Rectangle& other) const {
+        const int left = std::max(x, other.x);
+        const int bottom = std::max(y, other.y);
+        const int right = std::min(x + extent.width, other.x + other.extent.width);
+        const int top = std::min(y + extent.height, other.y + other.extent.height);
+        return {left, bottom, {std::max(0, right - left), std::max(0, top - bottom)}};
+    }
+};
 
 } // namespace tidemark

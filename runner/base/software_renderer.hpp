@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <string_view>
 
 namespace tidemark {
@@ -13,5 +14,10 @@ inline bool is_software_renderer(std::string_view renderer) {
     return std::ranges::any_of(
         k_software, [&](std::string_view name) { return renderer.find(name) != std::string_view::npos; });
 }
+
+// Names the processor's maker: software drivers round as its instructions do (rcpps).
+
+/// Returns `GenuineIntel` or `AuthenticAMD`, for example; empty if the processor has no such instruction.
+std::string processor_maker();
 
 } // namespace tidemark

@@ -1,7 +1,6 @@
-#include "base/descriptor.hpp"
+#include "base/encoding.hpp"
+#include "base/error.hpp"
 #include "base/file.hpp"
-#include "base/hash.hpp"
-#include "base/try.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,13 +1,12 @@
-#include "base/leftovers.hpp"
+#include "base/supervision.hpp"
 #include "cli/commands.hpp"
-#include "cli/console.hpp"
-#include "cli/diagnostics.hpp"
-#include "cli/help_formatter.hpp"
-#include "cli/last_resort.hpp"
-#include "cli/limits.hpp"
-#include "cli/supervisor.hpp"
-#include "cli/version.hpp"
-#include "platform/driver_cache.hpp"
+#include "host/console.hpp"
+#include "host/devices.hpp"
+#include "host/diagnostics.hpp"
+#include "host/help_formatter.hpp"
+#include "host/requests.hpp"
+#include "host/supervision.hpp"
+#include "host/version.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fcntl.h>

@@ -1,14 +1,14 @@
 #include "cli/changed_files.hpp"
 
+#include "base/error.hpp"
 #include "base/file.hpp"
-#include "base/try.hpp"
-#include "cli/project_source.hpp"
-#include "glsl/overrides.hpp"
-#include "lab/placed_number.hpp"
-#include "scene/knob_defaults.hpp"
-#include "scene/overrides.hpp"
-#include "text/lines.hpp"
-#include "text/mapped_text.hpp"
+#include "base/mapped_text.hpp"
+#include "base/tokens.hpp"
+#include "cli/import.hpp"
+#include "lab/scene_numbers.hpp"
+#include "scene/knob.hpp"
+#include "scene/scene.hpp"
+#include "shader/definitions.hpp"
 
 #include <fmt/format.h>
 

@@ -2,11 +2,11 @@
 // a difference, and writes the files.
 #pragma once
 
-#include "base/result.hpp"
-#include "cli/requests.hpp"
-#include "glsl/cure/cure.hpp"
+#include "base/error.hpp"
+#include "host/requests.hpp"
+#include "scene/knob.hpp"
 #include "scene/scene.hpp"
-#include "scene/setting.hpp"
+#include "shader/source_edits.hpp"
 
 #include <map>
 #include <span>

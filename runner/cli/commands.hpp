@@ -1,8 +1,8 @@
 // The sub-commands. Each registers itself on the application; the one that is called sets the exit code.
 #pragma once
 
-#include "base/result.hpp"
-#include "cli/command_line.hpp"
+#include "base/error.hpp"
+#include "host/command_line.hpp"
 
 #include <functional>
 #include <string>

@@ -1,18 +1,17 @@
-#include "lab/tune/tune.hpp"
+#include "lab/tune.hpp"
 
+#include "base/error.hpp"
 #include "base/file.hpp"
-#include "base/try.hpp"
 #include "cli/changed_files.hpp"
 #include "cli/commands.hpp"
-#include "cli/console.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/json_dump.hpp"
-#include "cli/options.hpp"
-#include "cli/output_name.hpp"
-#include "cli/search_options.hpp"
-#include "cli/study_support.hpp"
-#include "lab/study/report_data.hpp"
-#include "platform/headless_context.hpp"
+#include "host/console.hpp"
+#include "host/frame_files.hpp"
+#include "host/gl_context.hpp"
+#include "host/json.hpp"
+#include "host/requests.hpp"
+#include "host/study_support.hpp"
+#include "host/supervision.hpp"
+#include "lab/study_data.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 #include "lab/hits.hpp"
 
-#include "glsl/hit.hpp"
-#include "lab/statistics.hpp"
+#include "base/measurement.hpp"
+#include "shader/survey.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/extent.hpp"
-#include "image/image.hpp"
+#include "media/image.hpp"
 
 #include <array>
 #include <cstdint>
@@ -48,11 +48,11 @@ struct HitErrors {
     // Percent of `pixels`:
     double false_miss = 0;
     double false_hit = 0;
-    double wrong_hundredth = 0;  ///< missed hit, false hit, invalid, or an error above 0.01
-    double wrong_tenth = 0;      ///< the same with an error above 0.1
+    double wrong_hundredth = 0; ///< missed hit, false hit, invalid, or an error above 0.01
+    double wrong_tenth = 0;     ///< the same with an error above 0.1
     /// Upper 95 % bound of `wrong_tenth` if `no_truth` is not 0, else equal to it.
     double most_wrong_tenth = 0;
-    double wrong_footprint = 0;  ///< the same with an error above the width of a pixel at that distance
+    double wrong_footprint = 0; ///< the same with an error above the width of a pixel at that distance
     double no_answer = 0;
     // Percent of all pixels:
     double exhausted = 0;

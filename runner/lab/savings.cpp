@@ -1,8 +1,8 @@
 #include "lab/savings.hpp"
 
-#include "base/try.hpp"
-#include "image/files/png_codec.hpp"
-#include "lab/stopwatch.hpp"
+#include "base/error.hpp"
+#include "base/measurement.hpp"
+#include "media/picture_codecs.hpp"
 
 #include <GL/glcorearb.h>
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 // interleaved in one run, and whether the pixels are byte-identical. A context must be current.
 #pragma once
 
-#include "base/result.hpp"
-#include "lab/statistics.hpp"
+#include "base/error.hpp"
+#include "base/measurement.hpp"
 #include "render/renderer.hpp"
 
 #include <memory>

@@ -1,16 +1,13 @@
 #include "render/channel_textures.hpp"
 
-#include "base/try.hpp"
-#include "gl/capabilities.hpp"
-#include "image/files/cubemap_file.hpp"
-#include "image/files/picture_file.hpp"
-#include "image/files/video_frames.hpp"
-#include "image/made/noise.hpp"
-#include "image/made/stand_in.hpp"
-#include "image/volume.hpp"
-#include "render/live_media.hpp"
-#include "sound/sound_file.hpp"
-#include "sound/spectrum.hpp"
+#include "base/error.hpp"
+#include "media/generated_textures.hpp"
+#include "media/picture_file.hpp"
+#include "media/sound_file.hpp"
+#include "media/spectrum.hpp"
+#include "media/texture_files.hpp"
+#include "media/video_input.hpp"
+#include "render/gl_context.hpp"
 
 #include <fmt/format.h>
 
@@ -21,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace tidemark::render {
@@ -365,6 +363,42 @@ gl::SamplerHandle make_sampler(const scene::Sampling& sampling) {
     return gl::make_sampler(k_minify[size_t(sampling.minify)][size_t(sampling.mipmaps)],
                             sampling.magnify == Filter::linear ? GL_LINEAR : GL_NEAREST,
                             k_wrap[size_t(sampling.wrap)]);
+}
+
+namespace {
+
+std::vector<std::string> sampler_names(int unit) {
+    if (unit == k_keyboard_unit)
+        return {"iKeyboard"};
+    return {fmt::format("iChannel{}", unit), fmt::format("iCh{}.sampler", unit)};
+}
+
+} // namespace
+
+Result<BoundChannel> make_channel(const gl::Program& program, int unit, const scene::Channel& channel,
+                                  ChannelTextures& textures) {
+    BoundChannel bound{unit, make_sampler(channel.sampling), {}};
+    if (const size_t* pass = source_pass(channel.input)) {
+        bound.source = scene::PassOutput{*pass};
+    } else {
+        bound.source = TRY(textures.require(channel));
+    }
+    point_samplers(program, unit);
+    return bound;
+}
+
+void point_samplers(const gl::Program& program, int unit) {
+    const double number[] = {double(unit)};
+    for (const std::string& name : sampler_names(unit))
+        if (const gl::Uniform* sampler = program.reflection().find(name))
+            gl::set_uniform(program, *sampler, number);
+}
+
+void bind(const BoundChannel& channel, const gl::Texture& texture) {
+    if (texture.target == GL_TEXTURE_CUBE_MAP)
+        glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS); // as WebGL 2 always does
+    glBindTextureUnit(GLuint(channel.unit), texture.id());
+    glBindSampler(GLuint(channel.unit), channel.sampler.id());
 }
 
 } // namespace tidemark::render

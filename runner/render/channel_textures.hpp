@@ -1,19 +1,31 @@
-// Textures of a scene's channels, except the outputs of passes. Each distinct input is loaded once, when a
-// linked program first reads it. Some inputs change from frame to frame.
+// The current sound and picture of a window, for the inputs of a scene that have no file.
 #pragma once
 
-#include "base/result.hpp"
-#include "gl/texture.hpp"
-#include "render/frame_inputs.hpp"
-#include "render/last_drawing.hpp"
+#include "base/error.hpp"
+#include "media/image.hpp"
+#include "media/spectrum.hpp"
+#include "render/frame_state.hpp"
+#include "render/gl_program.hpp"
+#include "render/gl_textures.hpp"
+#include "render/pass_state.hpp"
 #include "scene/channel.hpp"
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <variant>
 #include <vector>
 
 namespace tidemark::render {
+
+struct LiveMedia {
+    std::optional<sound::SignalBytes> microphone{};
+    std::shared_ptr<const image::Image> webcam{}; ///< image::k_camera_extent, the bottom row first
+};
+
+// Textures of a scene's channels, except the outputs of passes. Each distinct input is loaded once, when a
+// linked program first reads it. Some inputs change from frame to frame.
 
 /// Values of the channel uniforms for one channel.
 struct ChannelFact {
@@ -68,5 +80,27 @@ private:
 
 /// Returns the GL sampler of a channel.
 gl::SamplerHandle make_sampler(const scene::Sampling& sampling);
+
+// Connects a channel of a linked program to a texture unit and a sampler.
+
+/// The texture unit of `#iKeyboard`: the first one after those of the channels.
+inline constexpr int k_keyboard_unit = scene::k_channel_count;
+
+struct BoundChannel {
+    int unit = 0;
+    gl::SamplerHandle sampler;
+    std::variant<ChannelTextures::Index, scene::PassOutput> source;
+};
+
+/// Loads the input of `channel` into `textures`, unless a pass draws it, and sets the program's samplers
+/// (`iChannelN`, `iChN.sampler`, `iKeyboard`) to that unit. Fails like ChannelTextures::require.
+Result<BoundChannel> make_channel(const gl::Program& program, int unit, const scene::Channel& channel,
+                                  ChannelTextures& textures);
+
+/// Sets only the samplers, in a program.
+void point_samplers(const gl::Program& program, int unit);
+
+/// Binds texture and sampler for the next draws.
+void bind(const BoundChannel& channel, const gl::Texture& texture);
 
 } // namespace tidemark::render

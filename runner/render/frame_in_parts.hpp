@@ -2,14 +2,13 @@
 // the previous pictures until the whole frame is drawn; dropping the object leaves it unchanged.
 #pragma once
 
-#include "base/result.hpp"
-#include "gl/fence.hpp"
-#include "gl/render_target.hpp"
-#include "render/frame_inputs.hpp"
-#include "render/last_drawing.hpp"
-#include "render/part_cursor.hpp"
-#include "render/part_size.hpp"
-#include "render/pass_target.hpp"
+#include "base/error.hpp"
+#include "render/frame_plan.hpp"
+#include "render/frame_state.hpp"
+#include "render/gl_sync.hpp"
+#include "render/gl_textures.hpp"
+#include "render/pass_state.hpp"
+#include "render/picture_parts.hpp"
 
 #include <functional>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "render/renderer.hpp"
 
-#include "base/doing.hpp"
-#include "base/try.hpp"
+#include "base/error.hpp"
+#include "base/supervision.hpp"
 
 #include <fmt/format.h>
 

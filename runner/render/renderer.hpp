@@ -2,19 +2,16 @@
 // scenes. A context must be current as long as the Renderer lives.
 #pragma once
 
-#include "base/result.hpp"
-#include "gl/elapsed_time.hpp"
-#include "gl/pixel_ring.hpp"
-#include "gl/program.hpp"
-#include "image/image.hpp"
-#include "render/bound_channel.hpp"
-#include "render/buffer_state.hpp"
+#include "base/error.hpp"
+#include "media/image.hpp"
 #include "render/channel_textures.hpp"
 #include "render/compiled_scene.hpp"
-#include "render/frame_inputs.hpp"
-#include "render/last_drawing.hpp"
-#include "render/pass_target.hpp"
-#include "render/tile_grid.hpp"
+#include "render/frame_plan.hpp"
+#include "render/frame_state.hpp"
+#include "render/gl_program.hpp"
+#include "render/gl_sync.hpp"
+#include "render/pass_state.hpp"
+#include "render/picture_parts.hpp"
 #include "render/uniform_table.hpp"
 #include "scene/scene.hpp"
 

@@ -1,11 +1,11 @@
 #include "render/sound_renderer.hpp"
 
-#include "base/doing.hpp"
-#include "base/try.hpp"
-#include "glsl/assemble.hpp"
+#include "base/error.hpp"
+#include "base/supervision.hpp"
+#include "media/sound_file.hpp"
+#include "render/compiled_scene.hpp"
 #include "render/frame_plan.hpp"
-#include "render/link_pass.hpp"
-#include "sound/sound_texels.hpp"
+#include "shader/shader_source.hpp"
 
 #include <fmt/format.h>
 

@@ -1,15 +1,14 @@
 // Draws a scene's Sound pass as 16-bit stereo samples. A context must be current.
 #pragma once
 
-#include "base/result.hpp"
-#include "gl/program.hpp"
-#include "gl/render_target.hpp"
-#include "glsl/dialect.hpp"
-#include "render/bound_channel.hpp"
+#include "base/error.hpp"
 #include "render/channel_textures.hpp"
-#include "render/frame_inputs.hpp"
+#include "render/frame_state.hpp"
+#include "render/gl_program.hpp"
+#include "render/gl_textures.hpp"
 #include "render/uniform_table.hpp"
 #include "scene/scene.hpp"
+#include "shader/shader_source.hpp"
 
 #include <cstdint>
 #include <vector>

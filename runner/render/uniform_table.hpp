@@ -3,10 +3,10 @@
 #pragma once
 
 #include "base/extent.hpp"
-#include "gl/program.hpp"
 #include "render/channel_textures.hpp"
-#include "render/frame_inputs.hpp"
-#include "render/uniform_numbers.hpp"
+#include "render/frame_state.hpp"
+#include "render/gl_program.hpp"
+#include "render/pass_state.hpp"
 #include "scene/scene.hpp"
 
 #include <functional>

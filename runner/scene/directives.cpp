@@ -1,9 +1,9 @@
 #include "scene/directives.hpp"
 
-#include "base/try.hpp"
+#include "base/error.hpp"
+#include "base/tokens.hpp"
 #include "scene/host_uniforms.hpp"
-#include "scene/sources.hpp"
-#include "text/tokens.hpp"
+#include "scene/names.hpp"
 
 #include <fmt/format.h>
 

@@ -2,11 +2,11 @@
 // on, and Tidemark's own `#iSize`.
 #pragma once
 
-#include "base/result.hpp"
+#include "base/error.hpp"
+#include "base/mapped_text.hpp"
 #include "scene/channel.hpp"
 #include "scene/knob.hpp"
-#include "scene/stated_size.hpp"
-#include "text/mapped_text.hpp"
+#include "scene/scene.hpp"
 
 #include <array>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "scene/json_text.hpp"
 
-#include "base/try.hpp"
+#include "base/error.hpp"
 
 #include <fmt/format.h>
 

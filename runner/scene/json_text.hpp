@@ -2,7 +2,7 @@
 // headers only forward-declare it.
 #pragma once
 
-#include "base/result.hpp"
+#include "base/error.hpp"
 
 #include <nlohmann/json.hpp>
 

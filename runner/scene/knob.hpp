@@ -1,8 +1,7 @@
-// A knob: a uniform that the scene declares with `#iUniform` for the user to change.
+// A knob or a definition and its value, as the user wrote them.
 #pragma once
 
-#include "base/result.hpp"
-#include "scene/setting.hpp"
+#include "base/error.hpp"
 
 #include <array>
 #include <optional>
@@ -12,6 +11,18 @@
 #include <vector>
 
 namespace tidemark::scene {
+
+struct Setting {
+    std::string name;
+    std::string value;
+
+    bool operator==(const Setting&) const = default;
+};
+
+/// Adds a setting, replacing an earlier one of the same name.
+void set(std::vector<Setting>& settings, const Setting& setting);
+
+// A knob: a uniform that the scene declares with `#iUniform` for the user to change.
 
 enum class KnobType { float1, vec2, vec3, vec4, color3, int1, ivec2, ivec3, ivec4 };
 
@@ -70,5 +81,12 @@ inline std::string to_string(const Knob& knob) {
 
 /// Formats the knob's value as in a directive, which has its own name for colours: `color3(1, 0.5, 0)`.
 std::string to_literal(const Knob& knob);
+
+// Writes values of knobs into the `#iUniform` lines that declare them. Text in, text out: reads and writes no
+// files.
+
+/// Returns the text of a file with the value of each of these knobs as its default; nothing else changes.
+/// Fails (ErrorCode::write) if it does not declare one of them.
+Result<std::string> with_defaults(std::string_view text, const std::vector<Knob>& knobs);
 
 } // namespace tidemark::scene

@@ -1,13 +1,18 @@
 // A ShaderToy project as its JSON has it, in any of the JSON's dialects: passes with code and inputs, still
-// under ShaderToy's names. project_inputs.hpp resolves the names.
+// under ShaderToy's names. project.hpp resolves the names.
 #pragma once
 
-#include "base/result.hpp"
-#include "scene/pass_names.hpp"
+#include "base/error.hpp"
+#include "scene/channel.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/names.hpp"
+#include "scene/pass_loader.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,5 +66,70 @@ std::vector<std::string> pass_names(const Project& project);
 std::optional<int> buffer_number(std::string_view id);
 /// Returns whether it is the id of Cube A.
 bool is_cube_id(std::string_view id);
+
+// Resolves an input of ShaderToy's JSON to a Channel: its kind, its file or substitute, its sampler.
+
+/// Reads the inputs of one project. Checks which media files exist; opens none.
+class InputReader {
+public:
+    /// The names that an input can refer to.
+    struct Context {
+        const Project& project;
+        const std::vector<std::string>& names; ///< names of its passes (pass_names)
+        std::filesystem::path folder;          ///< the project's own files are relative to it
+        const MediaFolder& media;
+        const Bounds& bounds;
+        std::string file; ///< the JSON, for messages
+    };
+    explicit InputReader(Context context) : context_(std::move(context)) {}
+
+    /// PassOutput::pass is an index into the project's passes. Fails only on a file out of bounds.
+    Result<Channel> read(const ProjectInput& input);
+
+    /// Returns one warning for each missing file or live input.
+    std::vector<Diagnostic> take_warnings() { return std::move(warnings_); }
+
+private:
+    enum class Kind { none, picture, buffer, cubemap, volume, keyboard, music, microphone, video, webcam };
+
+    static Kind kind_of(const ProjectInput& input);
+    static const Media* media_of(const ProjectInput& input);
+    static Sampling sampling_of(const ProjectInput& input, Kind kind);
+    Result<ChannelInput> input_of(const ProjectInput& input, Kind kind);
+    ChannelInput output_of(const ProjectInput& input) const;
+    ChannelInput cube_output() const;
+    Result<ChannelInput> media_input(const ProjectInput& input, MediaKind kind);
+    Result<std::vector<std::filesystem::path>> files_of(const ProjectInput& input, MediaKind kind) const;
+    ChannelInput live_input(const std::string& name, Substitute instead);
+    ChannelInput instead_of(const ProjectInput& input, const Media* media, Substitute instead);
+
+    Context context_;
+    std::vector<Diagnostic> warnings_;
+    std::set<std::string> warned_; ///< sources and ids already warned of
+};
+
+// Turns the passes of a project into drafts: kind, name and channels, with texts still empty.
+
+/// Returns the pass kind of a tab; Common, which is not a pass, counts as Image.
+PassKind kind_of(PassName::Kind kind);
+
+struct ProjectDrafts {
+    std::vector<Draft> drafts;
+    std::vector<size_t> order; ///< drawing order
+    std::vector<std::optional<size_t>>
+        of_pass; ///< index of the draft of each of the project's passes; none for Common
+
+    /// Returns the text to which a pass's code is appended: its draft's, or the scene's Common.
+    text::MappedText& text_of(size_t pass, Scene& scene) {
+        return of_pass[pass] ? drafts[*of_pass[pass]].pass.text : scene.common;
+    }
+};
+
+/// Makes the drafts. Fails without an Image pass; of several passes of a kind that ShaderToy has once, the
+/// last one counts, with a warning. Adds the warnings of the project and its inputs to the scene's.
+Result<ProjectDrafts> draft_project(Scene& scene, InputReader::Context context);
+
+/// Normalises a text: plain line ends, and a blank for each NUL.
+std::string plain_text(std::string text);
 
 } // namespace tidemark::scene

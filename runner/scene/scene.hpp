@@ -1,24 +1,42 @@
-// A scene as values: its passes, the inputs of their channels, and its knobs.
+// The size that a scene states for its picture: `#iSize 800x450`.
 #pragma once
 
+#include "base/error.hpp"
 #include "base/extent.hpp"
+#include "base/mapped_text.hpp"
 #include "scene/channel.hpp"
 #include "scene/knob.hpp"
-#include "text/mapped_text.hpp"
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace tidemark::scene {
+
+/// The size in an `#iSize` directive.
+struct StatedSize {
+    Extent extent;
+    SourceLocation where{};
+};
+
+/// X11's limit for windows: it stores sizes in 16 bits with a sign.
+inline constexpr int k_largest_stated_side = 32767;
+
+/// Parses `800x450`; nullopt if it is something else or too large.
+std::optional<Extent> size_of_text(std::string_view text);
+std::string to_string(const Extent& size);
+
+// A scene as values: its passes, the inputs of their channels, and its knobs.
 
 enum class PassKind {
     buffer,
     cubemap,
     image,
     sound,
-    hit, ///< Image, instrumented to output hits instead of colours: glsl/hit.hpp
+    hit, ///< Image, instrumented to output hits instead of colours: shader/survey.hpp
 };
 
 /// One unit of drawing (ShaderToy's render pass).
@@ -49,5 +67,18 @@ struct Scene {
 };
 
 TextureKind texture_kind(const Scene& scene, const ChannelInput& input);
+
+// Changes a loaded scene as the options `--channel` and `--set` say.
+
+/// Applies `--channel [PASS:]N=WHAT`, where WHAT is a picture file, `noise`, `none` or another input; sampled
+/// like ShaderToy's textures.
+Result<void> override_channel(Scene& scene, std::string_view setting);
+
+/// Applies `--set NAME=VALUE`. Accepts a value outside the knob's range, with a warning.
+Result<void> override_knob(Scene& scene, std::string_view setting);
+
+/// Splits `NAME=VALUE`; the error names the option that needs this form.
+Result<std::pair<std::string_view, std::string_view>> split_setting(std::string_view setting,
+                                                                    std::string_view option);
 
 } // namespace tidemark::scene

@@ -1,13 +1,24 @@
-// Exports a scene as a page that draws it in any browser: texts, textures and sounds are in the page, and it
-// makes no network requests. Returns text; writes no file and uses no driver.
+// JSON for a page's scripts, with members in the order in which they were written.
 #pragma once
 
-#include "base/result.hpp"
+#include "base/error.hpp"
+#include "scene/knob.hpp"
 #include "scene/scene.hpp"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 
 namespace tidemark::web {
+
+using Json = nlohmann::ordered_json;
+
+// A knob as JSON, from which host/controls.js makes its widgets.
+
+Json knob_data(const scene::Knob& knob);
+
+// Exports a scene as a page that draws it in any browser: texts, textures and sounds are in the page, and it
+// makes no network requests. Returns text; writes no file and uses no driver.
 
 enum class PageForm {
     whole,    ///< `<!doctype html>`: a file to open

@@ -1,6 +1,6 @@
 // What a scene's text costs before the driver sees it: reading the file, directives, rewriting. By its size,
 // so that a cost that grows faster than the text shows.
-#include "glsl/pass_reading.hpp"
+#include "shader/pass_reading.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/scene.hpp"
 

@@ -4,7 +4,7 @@
 //     tidemark_specialised [--size WxH] [--frame N] [--rounds N] [--bytes-kept] SCENE...
 //
 // --bytes-kept: without the level that makes knobs constants.
-#include "platform/headless_context.hpp"
+#include "host/gl_context.hpp"
 #include "render/renderer.hpp"
 #include "scene/load_scene.hpp"
 

@@ -8,7 +8,7 @@ import unittest
 
 from support.program import ROOT, ProgramTest, environment, main
 
-PAGE = ROOT / "runner" / "lsp" / "README.md"
+PAGE = ROOT / "runner" / "cli" / "manual" / "editors.md"
 
 BROKEN = """\
 #define STEPS 2

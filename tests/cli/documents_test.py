@@ -10,17 +10,18 @@ import unittest
 from support import option_table, png
 from support.program import PROGRAM, ROOT, TIME_LIMIT, ProgramTest, environment, has_context, main
 
-PAGES = sorted(path for path in ROOT.rglob("README.md") if "build" not in path.relative_to(ROOT).parts)
+MANUAL = ROOT / "runner" / "cli" / "manual"
+PAGES = sorted([path for path in ROOT.rglob("README.md") if "build" not in path.relative_to(ROOT).parts] +
+               list(MANUAL.glob("*.md")))
 LONGEST, LONGEST_FIRST = 250, 150  # lines of a page; of README.md itself
 
 # The page that explains each kind of thing.
-COMMANDS = ROOT / "runner" / "cli" / "README.md"
-PROBES = ROOT / "runner" / "lab" / "check" / "README.md"
-DIRECTIVES = ROOT / "runner" / "scene" / "README.md"
+COMMANDS = MANUAL / "commands.md"
+OPTIONS = MANUAL / "options.md"
+PROBES = MANUAL / "probes.md"
+DIRECTIVES = MANUAL / "scenes.md"
 ROOMS = ROOT / "runner" / "README.md"
-HELP_PAGES = [ROOT / name / "README.md" for name in (
-    "runner/cli", "runner/cli/help", "runner/cli/capture", "runner/cli/view", "runner/scene", "runner/lab", "runner/lab/check",
-    "runner/lab/study", "runner/lab/tune", "runner/lab/pixel", "runner/lsp", "shaders")]
+HELP_PAGES = [*sorted(MANUAL.glob("*.md")), ROOT / "shaders" / "README.md"]
 
 # Commands of the pages that are not run: they open a window, or take what no test machine can give.
 NOT_RUN = (
@@ -229,7 +230,7 @@ class Explained(unittest.TestCase):
         self.assertEqual(re.findall(r"^\| (\d+) \|", table, re.MULTILINE), codes)
 
     def test_every_key_has_its_row(self) -> None:
-        source = (ROOT / "runner" / "cli" / "view" / "window_keys.cpp").read_text()
+        source = (ROOT / "runner" / "window" / "window_keys.cpp").read_text()
         rows = re.findall(r'^    \{"(.*)",\s+"(.*)"\},$', source.partition("k_rows[]")[2], re.MULTILINE)
         table = COMMANDS.read_text().partition("\n## Keys\n")[2].partition("\n## ")[0].replace("`", "")
         self.assertGreater(len(rows), 5)
@@ -252,7 +253,6 @@ class Explained(unittest.TestCase):
 
     def test_every_room_stands_in_the_table(self) -> None:
         rooms = {path.name for path in (ROOT / "runner").glob("*/") if path.is_dir()}
-        rooms |= {path.name for path in (ROOT / "runner").glob("*/*") if path.is_dir() and path.parts[-2] != "cli"}
         table = ROOMS.read_text().partition("\n## Rooms\n")[2].partition("\n## ")[0]
         cells = re.findall(r"^\| (?:&nbsp;)*(`[^|]*`) \|", table, re.MULTILINE)
         self.assertEqual({name for cell in cells for name in re.findall(r"\w+", cell)}, rooms)

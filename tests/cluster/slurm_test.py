@@ -15,7 +15,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 from cluster.slurm import CannotStart, Slurm, why_not
 from support.program import PROGRAM, ROOT, SKIPPED, ProgramTest, has_context
 
-PAGE = ROOT / "runner/cli/capture/README.md"
+PAGE = ROOT / "runner/cli/manual/capture.md"
 RUNS = int(os.environ.get("TIDEMARK_CLUSTER_RUNS", "3"))
 SCENE = """void mainImage(out vec4 c, in vec2 p) {
     float x = 0.0;

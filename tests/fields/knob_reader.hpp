@@ -1,7 +1,7 @@
 // A scene's knobs as the shader sees them: numbers rounded to binary32, by name.
 #pragma once
 
-#include "base/result.hpp"
+#include "base/error.hpp"
 #include "scene/knob.hpp"
 
 #include <glm/vec2.hpp>

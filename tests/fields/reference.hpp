@@ -3,7 +3,7 @@
 // against it.
 #pragma once
 
-#include "base/result.hpp"
+#include "base/error.hpp"
 #include "fields/field.hpp"
 #include "fields/lattice.hpp"
 #include "scene/knob.hpp"

@@ -1,17 +1,9 @@
 // Cures and cuts that are proposed for any text: each is put into it, or says that it cannot be, and what
 // comes of it is a text that is read again.
 #include "fuzz.hpp"
-#include "glsl/analysis/domain_sites.hpp"
-#include "glsl/analysis/unassigned.hpp"
-#include "glsl/cure/chosen_level.hpp"
-#include "glsl/cure/domain_guards.hpp"
-#include "glsl/cure/hoisted_derivative.hpp"
-#include "glsl/cure/initial_values.hpp"
-#include "glsl/cure/reduced_time.hpp"
-#include "glsl/cure/rewrites.hpp"
-#include "glsl/cure/whole_counter.hpp"
-#include "glsl/cure/whole_hashes.hpp"
-#include "glsl/cut/once_a_pixel.hpp"
+#include "shader/undefined_behaviour.hpp"
+#include "shader/fixes.hpp"
+#include "shader/pass_cuts.hpp"
 
 #include <iterator>
 #include <string>

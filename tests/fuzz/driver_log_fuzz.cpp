@@ -1,8 +1,7 @@
 // Driver logs: any log about any text gives messages, and places only where that text has lines. Any line is
 // a count of instructions or none.
 #include "fuzz.hpp"
-#include "glsl/driver_log.hpp"
-#include "glsl/instruction_count.hpp"
+#include "shader/driver_log.hpp"
 
 using namespace tidemark;
 

@@ -1,6 +1,6 @@
 // Recorded mouse and keyboard events (--input).
-#include "cli/input_script.hpp"
-#include "cli/requests.hpp"
+#include "host/input_script.hpp"
+#include "host/requests.hpp"
 #include "fuzz.hpp"
 
 using namespace tidemark;

@@ -1,10 +1,9 @@
 // Any text as a function in SSA form: compiled, evaluated in float, in intervals and with slopes. It ends,
 // and what intervals say of a ray holds for the floats on it.
 #include "fuzz.hpp"
-#include "ir/first_hit.hpp"
-#include "ir/spirv.hpp"
-#include "ir/step_scale.hpp"
-#include "ir/value_ranges.hpp"
+#include "proof/ray_proofs.hpp"
+#include "proof/spirv.hpp"
+#include "proof/value_ranges.hpp"
 
 #include <cmath>
 #include <string>

@@ -1,6 +1,6 @@
 // OSC packets: from anybody, where --osc names an address that others reach.
 #include "fuzz.hpp"
-#include "live/inputs/osc_command.hpp"
+#include "window/osc.hpp"
 
 using namespace tidemark;
 

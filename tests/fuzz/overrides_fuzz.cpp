@@ -1,8 +1,8 @@
 // `--define` and assembly in every dialect: the first line is the setting, the rest the scene. No line moves,
 // and every line of the author's is found again.
 #include "fuzz.hpp"
-#include "glsl/overrides.hpp"
-#include "glsl/pass_reading.hpp"
+#include "shader/definitions.hpp"
+#include "shader/pass_reading.hpp"
 
 #include <string>
 

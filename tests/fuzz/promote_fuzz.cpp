@@ -1,7 +1,7 @@
 // Promotion of any text: no line moves, every place that is reported exists, and what promotes gives the same
 // text when it is promoted again from the same input. The first line says whether hashes are promoted too.
 #include "fuzz.hpp"
-#include "glsl/double/promote.hpp"
+#include "shader/promote.hpp"
 
 #include <algorithm>
 #include <string>

@@ -1,7 +1,7 @@
 // What is typed for frames, date, mouse, camera, size and output: the first byte chooses, the rest is the
 // text.
-#include "cli/output_name.hpp"
-#include "cli/requests.hpp"
+#include "host/frame_files.hpp"
+#include "host/requests.hpp"
 #include "fuzz.hpp"
 
 #include <algorithm>

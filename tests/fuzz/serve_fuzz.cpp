@@ -1,7 +1,7 @@
 // What a browser, or somebody who says to be one, sends to `tidemark serve`: its address, and its messages.
 #include "fuzz.hpp"
-#include "serve/access.hpp"
-#include "serve/audience.hpp"
+#include "web/request.hpp"
+#include "web/audience.hpp"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // Specialising: no line moves, and what could be followed still can be.
 #include "fuzz.hpp"
-#include "glsl/specialise/specialise.hpp"
-#include "glsl/syntax/parsed_text.hpp"
+#include "shader/specialise.hpp"
+#include "shader/parsed_text.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // What ffprobe and ffmpeg print about a video.
 #include "fuzz.hpp"
-#include "image/files/video_times.hpp"
+#include "media/video_input.hpp"
 
 #include <algorithm>
 

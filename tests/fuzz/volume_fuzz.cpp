@@ -1,6 +1,6 @@
 // ShaderToy's `.bin` volume.
 #include "fuzz.hpp"
-#include "image/volume.hpp"
+#include "media/texture_files.hpp"
 
 using namespace tidemark;
 

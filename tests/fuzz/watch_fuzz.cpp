@@ -1,8 +1,8 @@
 // Any text read to its tree and watched: an error that says something, or a text that is watched again
 // without one, as often as one likes.
 #include "fuzz.hpp"
-#include "glsl/analysis/float_operation.hpp"
-#include "glsl/instrument/watch.hpp"
+#include "shader/undefined_behaviour.hpp"
+#include "shader/watch.hpp"
 
 #include <string>
 

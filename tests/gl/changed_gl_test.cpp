@@ -1,7 +1,7 @@
 // A pass is drawn again only where something that it reads has changed, and nobody can tell: two renderers
 // of one scene see the same frames, one draws what changed, the other everything.
 #include "gl_test.hpp"
-#include "render/pass_preview.hpp"
+#include "render/frame_stepper.hpp"
 #include "scene/load_scene.hpp"
 
 #include <cmath>

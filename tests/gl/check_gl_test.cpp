@@ -1,6 +1,6 @@
 // Probes that ask for something from outside of them.
 #include "gl_test.hpp"
-#include "lab/check/probes.hpp"
+#include "lab/probes.hpp"
 
 namespace tidemark::lab::check_gl_test {
 

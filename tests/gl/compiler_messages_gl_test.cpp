@@ -1,6 +1,5 @@
-#include "gl/capabilities.hpp"
-#include "gl/compiler_messages.hpp"
-#include "gl/program.hpp"
+#include "render/gl_context.hpp"
+#include "render/gl_program.hpp"
 #include "gl_test.hpp"
 
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 // Every folder of tests/cases/conformance is a test: a scene, and the pixels that ShaderToy's rules make of
 // it, worked out without a GPU. Its README says how to add one.
 #include "gl_test.hpp"
-#include "lab/device/conformance.hpp"
+#include "lab/device_check.hpp"
 
 #include <gmock/gmock.h>
 

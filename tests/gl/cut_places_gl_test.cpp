@@ -1,7 +1,6 @@
 // The cuts of a scene's texts, drawn: what a texture's level changes.
 #include "gl_test.hpp"
-#include "lab/simplify/cut_places.hpp"
-#include "lab/simplify/cut_trial.hpp"
+#include "lab/simplify.hpp"
 #include "support/scene_of.hpp"
 
 #include <algorithm>

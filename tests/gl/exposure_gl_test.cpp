@@ -1,7 +1,7 @@
 // Frames that are the mean of several samples.
 #include "gl_test.hpp"
-#include "image/transfer.hpp"
-#include "render/bands.hpp"
+#include "media/image.hpp"
+#include "render/exposure.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // Makes its own contexts, so nothing here may share a process with a test that holds one.
-#include "platform/headless_context.hpp"
+#include "host/gl_context.hpp"
 
 #include <GL/gl.h>
 #include <GL/glext.h>

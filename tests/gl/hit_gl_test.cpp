@@ -1,5 +1,5 @@
 #include "gl_test.hpp"
-#include "glsl/hit.hpp"
+#include "shader/survey.hpp"
 
 namespace tidemark::render::hit_gl_test {
 

@@ -1,7 +1,7 @@
 // Faults that were planted, each named with its line; sound shaders, of which nothing is said. The first in
 // tests/cases/trace/faults, where `// born VALUE: reason; …` marks the line, the others in …/sound.
 #include "gl_test.hpp"
-#include "lab/trace/nan_trace.hpp"
+#include "lab/nan_trace.hpp"
 #include "scene/load_scene.hpp"
 
 #include <gmock/gmock.h>

@@ -1,8 +1,7 @@
 // A buffer's numbers as colours, cubes and volumes as flat pictures: known numbers in, bytes by hand out.
 #include "gl_test.hpp"
-#include "image/cube_directions.hpp"
-#include "render/flat_view.hpp"
-#include "render/picture_look.hpp"
+#include "media/texture_files.hpp"
+#include "render/buffer_views.hpp"
 
 #include <cmath>
 #include <limits>

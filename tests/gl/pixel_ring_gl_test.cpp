@@ -1,5 +1,5 @@
 // Pixels that come back behind the drawing.
-#include "gl/pixel_ring.hpp"
+#include "render/gl_sync.hpp"
 #include "gl_test.hpp"
 
 namespace tidemark::gl::pixel_ring_gl_test {

@@ -1,7 +1,7 @@
 // Scenes in double precision: the picture is that of floats where floats suffice, and better where they do
 // not.
 #include "gl_test.hpp"
-#include "glsl/hit.hpp"
+#include "shader/survey.hpp"
 #include "render/sound_renderer.hpp"
 #include "scene/load_scene.hpp"
 #include "support/largest_difference.hpp"

@@ -1,6 +1,6 @@
 // Programs from an earlier run: used where they are whole and the driver's own, made anew where not.
-#include "base/file_cache.hpp"
-#include "gl/program_cache.hpp"
+#include "base/folders.hpp"
+#include "render/gl_program.hpp"
 #include "gl_test.hpp"
 
 #include <cstdlib>

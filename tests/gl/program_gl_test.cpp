@@ -1,6 +1,5 @@
-#include "gl/program.hpp"
-#include "gl/render_target.hpp"
-#include "gl/texture.hpp"
+#include "render/gl_program.hpp"
+#include "render/gl_textures.hpp"
 #include "gl_test.hpp"
 
 #include <gmock/gmock.h>

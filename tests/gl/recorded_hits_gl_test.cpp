@@ -1,9 +1,9 @@
 // What the first march of a pixel does, recorded on the device: as evaluated from the text, with the picture
 // of the plain text to the bit.
 #include "gl_test.hpp"
-#include "glsl/hit.hpp"
+#include "shader/survey.hpp"
 #include "lab/hits.hpp"
-#include "lab/march/recorded_hits.hpp"
+#include "lab/march_hits.hpp"
 #include "support/scene_of.hpp"
 
 #include <fmt/format.h>

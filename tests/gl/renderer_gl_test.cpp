@@ -1,7 +1,7 @@
-#include "gl/capabilities.hpp"
+#include "render/gl_context.hpp"
 #include "gl_test.hpp"
-#include "glsl/assemble.hpp"
-#include "image/census.hpp"
+#include "shader/shader_source.hpp"
+#include "media/image.hpp"
 
 #include <gmock/gmock.h>
 

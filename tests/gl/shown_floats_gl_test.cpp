@@ -1,6 +1,6 @@
 // What Image wrote, in floats, of a renderer that keeps it in bytes.
 #include "gl_test.hpp"
-#include "render/shown_floats.hpp"
+#include "render/buffer_views.hpp"
 
 #include <cstring>
 

@@ -1,9 +1,9 @@
 // Specialised programs draw the bytes of the plain ones, in our scenes with their features on and off, and in
 // each kind of pass.
-#include "cli/trial.hpp"
+#include "host/program_trial.hpp"
 #include "gl_test.hpp"
-#include "glsl/hit.hpp"
-#include "glsl/overrides.hpp"
+#include "shader/survey.hpp"
+#include "shader/definitions.hpp"
 #include "scene/load_scene.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // What a specimen shows of several views is what it shows of each.
 #include "gl_test.hpp"
-#include "lab/study/specimen.hpp"
+#include "lab/specimen.hpp"
 
 namespace tidemark::lab::specimen_gl_test {
 

@@ -1,8 +1,8 @@
 #include "gl_test.hpp"
-#include "glsl/overrides.hpp"
-#include "image/census.hpp"
+#include "shader/definitions.hpp"
+#include "media/image.hpp"
 #include "scene/load_scene.hpp"
-#include "scene/overrides.hpp"
+#include "scene/scene.hpp"
 
 #include <gmock/gmock.h>
 

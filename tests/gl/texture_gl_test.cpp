@@ -1,7 +1,7 @@
 #include "gl_test.hpp"
-#include "image/files/picture_file.hpp"
-#include "image/made/noise.hpp"
-#include "scene/overrides.hpp"
+#include "media/picture_file.hpp"
+#include "media/generated_textures.hpp"
+#include "scene/scene.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // A picture drawn in tiles is the picture drawn whole, byte for byte.
 #include "gl_test.hpp"
-#include "glsl/assemble.hpp"
-#include "render/bands.hpp"
+#include "shader/shader_source.hpp"
+#include "render/exposure.hpp"
 #include "scene/load_scene.hpp"
 
 #include <gmock/gmock.h>

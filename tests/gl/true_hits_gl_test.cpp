@@ -1,7 +1,7 @@
 // What is proved of rays from a scene's own text, held against the references that were written for the
 // waters: two truths that share nothing but the scene.
 #include "fields/certified_march.hpp"
-#include "lab/march/true_hits.hpp"
+#include "lab/march_hits.hpp"
 #include "waters.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // One program turned from setting to setting shows what each of them shows when it is compiled by itself.
-#include "lab/study/turned_specimen.hpp"
+#include "lab/specimen.hpp"
 #include "support/largest_difference.hpp"
 #include "waters.hpp"
 

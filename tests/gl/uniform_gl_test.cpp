@@ -1,7 +1,6 @@
 #include "gl_test.hpp"
-#include "render/mouse.hpp"
-#include "render/orbit_camera.hpp"
-#include "scene/overrides.hpp"
+#include "render/frame_state.hpp"
+#include "scene/scene.hpp"
 
 #include <gmock/gmock.h>
 

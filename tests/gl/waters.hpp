@@ -7,7 +7,7 @@
 #include "fields/procedural_ocean_field.hpp"
 #include "fields/water_surface_field.hpp"
 #include "gl_test.hpp"
-#include "glsl/overrides.hpp"
+#include "shader/definitions.hpp"
 #include "scene/load_scene.hpp"
 
 #include <algorithm>

@@ -2,10 +2,10 @@
 #include "fields/certified_march.hpp"
 #include "fields/knob_reader.hpp"
 #include "fields/value_noise.hpp"
-#include "image/files/picture_file.hpp"
-#include "lab/statistics.hpp"
+#include "media/picture_file.hpp"
+#include "base/measurement.hpp"
 #include "scene/load_scene.hpp"
-#include "scene/overrides.hpp"
+#include "scene/scene.hpp"
 #include "waters.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // A real window on the display of the environment (Xvfb will do), driven from outside with xdotool.
 #ifdef TIDEMARK_WINDOW
-#include "platform/window.hpp"
+#include "window/window.hpp"
 
 #include <GL/gl.h>
 #include <GL/glext.h>

@@ -1,7 +1,7 @@
 // How far two pictures of a test are apart, in one number.
 #pragma once
 
-#include "image/compare/metrics.hpp"
+#include "media/comparison.hpp"
 
 #include <limits>
 

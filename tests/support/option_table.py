@@ -8,9 +8,9 @@ import subprocess
 
 from support.program import PROGRAM, ROOT, environment
 
-PAGES = [ROOT / "runner" / "cli" / "help" / "README.md", ROOT / "runner" / "lab" / "README.md",
-         ROOT / "runner" / "lab" / "tune" / "README.md",
-         ROOT / "runner" / "lab" / "simplify" / "README.md", ROOT / "shaders" / "README.md"]
+MANUAL = ROOT / "runner" / "cli" / "manual"
+PAGES = [*(MANUAL / f"{page}.md" for page in ("options", "check_and_study", "tune", "simplify")),
+         ROOT / "shaders" / "README.md"]
 # `<!-- options: check study -->`: those of these commands, less the rows that an earlier page has.
 BLOCK = re.compile(r"(<!-- options: ([a-z ,]+) -->\n)(.*?)(<!-- end of options -->\n)", re.DOTALL)
 WIDTH = 30  # of the column of names in CLI11's help, in bytes

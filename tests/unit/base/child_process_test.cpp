@@ -1,5 +1,5 @@
-#include "base/child_process.hpp"
-#include "base/descriptor.hpp"
+#include "base/process.hpp"
+#include "base/file.hpp"
 
 #include <gmock/gmock.h>
 #include <poll.h>

@@ -1,4 +1,4 @@
-#include "base/doing.hpp"
+#include "base/supervision.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

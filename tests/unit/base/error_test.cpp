@@ -1,5 +1,4 @@
 #include "base/error.hpp"
-#include "base/result.hpp"
 
 #include <gtest/gtest.h>
 

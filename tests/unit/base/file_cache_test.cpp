@@ -1,5 +1,5 @@
-#include "base/file_cache.hpp"
-#include "base/hash.hpp"
+#include "base/folders.hpp"
+#include "base/encoding.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "base/plug_in.hpp"
+#include "base/dynamic_library.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // What a terminal would obey is shown; what people read stays.
-#include "base/printable.hpp"
+#include "base/encoding.hpp"
 
 #include <gtest/gtest.h>
 

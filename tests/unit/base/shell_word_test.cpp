@@ -1,5 +1,5 @@
 // Held against a real shell: it must hand the word on as it was.
-#include "base/shell_word.hpp"
+#include "base/encoding.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "base/uri.hpp"
+#include "base/encoding.hpp"
 
 #include <gtest/gtest.h>
 

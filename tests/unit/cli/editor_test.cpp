@@ -1,5 +1,5 @@
 // How editors are told a place.
-#include "cli/view/editor.hpp"
+#include "window/source_errors.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // A fingerprint says in what two frames differ.
-#include "cli/capture/run_fingerprint.hpp"
+#include "cli/capture_resume.hpp"
 
 #include <gtest/gtest.h>
 

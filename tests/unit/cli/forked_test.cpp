@@ -1,5 +1,5 @@
-#include "base/doing.hpp"
-#include "cli/forked.hpp"
+#include "base/supervision.hpp"
+#include "host/forked.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

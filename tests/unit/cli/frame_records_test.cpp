@@ -1,4 +1,4 @@
-#include "cli/capture/frame_records.hpp"
+#include "cli/capture_output.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "cli/frame_writer.hpp"
+#include "host/frame_files.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "cli/help/topics.hpp"
+#include "cli/help_topics.hpp"
 
 #include <gmock/gmock.h>
 

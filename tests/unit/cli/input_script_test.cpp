@@ -1,4 +1,4 @@
-#include "cli/input_script.hpp"
+#include "host/input_script.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "cli/interrupt.hpp"
+#include "host/supervision.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

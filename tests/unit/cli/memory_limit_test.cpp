@@ -1,4 +1,4 @@
-#include "cli/memory_limit.hpp"
+#include "host/forked.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,5 +1,5 @@
 // A moment comes back from its JSON; a stranger's JSON is refused.
-#include "cli/moment.hpp"
+#include "host/moment.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // resolve: the frame options as they were typed, checked.
-#include "cli/options.hpp"
+#include "host/requests.hpp"
 
 #include <gmock/gmock.h>
 
@@ -18,7 +18,7 @@ std::string refusal(const FrameOptions& options) {
 }
 
 TEST(Resolve, defaults) {
-    const auto request = resolve({});
+    const auto request = resolve(FrameOptions());
     ASSERT_TRUE(request);
     EXPECT_EQ(request->state.extent, (Extent{640, 360}));
     EXPECT_EQ(request->state.fps, 60);

@@ -1,5 +1,5 @@
 // What the window says of a trace that another process made.
-#include "cli/view/origin_search.hpp"
+#include "window/inspection.hpp"
 
 #include <gtest/gtest.h>
 

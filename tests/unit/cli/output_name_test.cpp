@@ -1,4 +1,4 @@
-#include "cli/output_name.hpp"
+#include "host/frame_files.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>

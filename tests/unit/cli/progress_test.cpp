@@ -1,5 +1,5 @@
 // The progress of a long command where standard error is no terminal.
-#include "cli/progress.hpp"
+#include "host/console.hpp"
 
 #include <gmock/gmock.h>
 

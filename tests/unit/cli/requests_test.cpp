@@ -1,5 +1,5 @@
 // What is typed for sizes, frames and the mouse, and what a frame of a request sees.
-#include "cli/requests.hpp"
+#include "host/requests.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // Shards share the frames: each is made once.
-#include "cli/capture/shard.hpp"
+#include "cli/capture_frames.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // A FrameState's way into JSON and onto a command line: no field is lost.
-#include "cli/requests.hpp"
-#include "cli/state_json.hpp"
+#include "host/requests.hpp"
+#include "host/json.hpp"
 #include "render/frame_fields.hpp"
 
 #include <gmock/gmock.h>

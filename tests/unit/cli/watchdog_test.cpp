@@ -1,5 +1,5 @@
 #include "base/error.hpp"
-#include "cli/capture/watchdog.hpp"
+#include "host/supervision.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

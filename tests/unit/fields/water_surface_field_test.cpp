@@ -1,7 +1,6 @@
 #include "dense_march.hpp"
 #include "fields/water_surface_field.hpp"
 #include "scene/load_scene.hpp"
-#include "scene/overrides.hpp"
 #include "scene/scene.hpp"
 
 #include <glm/geometric.hpp>

@@ -2,9 +2,8 @@
 #include "dense_march.hpp"
 #include "fields/gerstner_waves_field.hpp"
 #include "fields/procedural_ocean_field.hpp"
-#include "glsl/overrides.hpp"
+#include "shader/definitions.hpp"
 #include "scene/load_scene.hpp"
-#include "scene/overrides.hpp"
 #include "scene/scene.hpp"
 
 #include <glm/geometric.hpp>

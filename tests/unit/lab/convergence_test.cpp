@@ -1,5 +1,5 @@
 // What is left of a ladder, held against sums whose limit is known.
-#include "lab/study/convergence.hpp"
+#include "lab/truth.hpp"
 
 #include <gtest/gtest.h>
 

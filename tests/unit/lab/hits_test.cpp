@@ -1,4 +1,4 @@
-#include "glsl/hit.hpp"
+#include "shader/survey.hpp"
 #include "lab/hits.hpp"
 
 #include <gmock/gmock.h>

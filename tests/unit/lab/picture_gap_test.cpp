@@ -1,5 +1,5 @@
 // How far apart two pictures are, and how alike they are called, also where they hold what is no number.
-#include "lab/check/picture_gap.hpp"
+#include "lab/probed_pictures.hpp"
 
 #include <gtest/gtest.h>
 

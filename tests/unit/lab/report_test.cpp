@@ -1,11 +1,8 @@
 // What is said of a study, made by hand so that the right answers are known.
-#include "lab/study/baseline.hpp"
-#include "lab/study/diagram.hpp"
-#include "lab/study/report_cells.hpp"
-#include "lab/study/report_data.hpp"
-#include "lab/study/report_html.hpp"
-#include "lab/study/timing.hpp"
-#include "lab/study/verdict.hpp"
+#include "lab/study_data.hpp"
+#include "lab/study_report.hpp"
+#include "lab/study_page.hpp"
+#include "lab/work_precision.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // Where a search looks: that any beginning of its list is spread over all that the scene reads.
-#include "lab/check/search_space.hpp"
+#include "lab/probe_inputs.hpp"
 #include "support/scene_of.hpp"
 
 #include <gtest/gtest.h>

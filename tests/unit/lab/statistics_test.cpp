@@ -1,4 +1,4 @@
-#include "lab/statistics.hpp"
+#include "base/measurement.hpp"
 
 #include <gmock/gmock.h>
 

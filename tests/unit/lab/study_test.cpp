@@ -1,8 +1,7 @@
 // What a study is to do: settings, axes, views, files, and what comes after the strictest value.
 #include "base/file.hpp"
-#include "lab/setting.hpp"
-#include "lab/study/stricter.hpp"
-#include "lab/study/study.hpp"
+#include "lab/scene_numbers.hpp"
+#include "lab/study.hpp"
 #include "scene/load_scene.hpp"
 #include "support/scene_of.hpp"
 

@@ -1,7 +1,5 @@
 // What `tune` turns, what it measures next, and what it chooses.
-#include "lab/tune/candidates.hpp"
-#include "lab/tune/goal.hpp"
-#include "lab/tune/quality_settings.hpp"
+#include "lab/tune.hpp"
 #include "support/scene_of.hpp"
 
 #include <gmock/gmock.h>

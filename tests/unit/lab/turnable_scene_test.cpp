@@ -1,5 +1,5 @@
 // Numbers of a text as uniforms: which settings one program shows.
-#include "lab/study/turnable_scene.hpp"
+#include "lab/specimen.hpp"
 #include "support/scene_of.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "render/frame_inputs.hpp"
+#include "render/frame_state.hpp"
 
 #include <gtest/gtest.h>
 

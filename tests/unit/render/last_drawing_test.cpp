@@ -1,4 +1,4 @@
-#include "render/last_drawing.hpp"
+#include "render/pass_state.hpp"
 
 #include <gtest/gtest.h>
 

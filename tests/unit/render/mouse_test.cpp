@@ -1,6 +1,6 @@
 // iMouse by ShaderToy's rules: whole pixels, z > 0 while the button is down, w > 0 in the first frame after
 // the press only.
-#include "render/mouse.hpp"
+#include "render/frame_state.hpp"
 
 #include <gtest/gtest.h>
 

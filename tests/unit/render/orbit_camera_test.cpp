@@ -1,4 +1,4 @@
-#include "render/orbit_camera.hpp"
+#include "render/frame_state.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

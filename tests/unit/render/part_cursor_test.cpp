@@ -1,4 +1,4 @@
-#include "render/part_cursor.hpp"
+#include "render/picture_parts.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "render/tile_grid.hpp"
+#include "render/picture_parts.hpp"
 
 #include <gmock/gmock.h>
 

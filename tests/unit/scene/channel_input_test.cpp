@@ -1,4 +1,4 @@
-#include "scene/channel_input.hpp"
+#include "scene/channel.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

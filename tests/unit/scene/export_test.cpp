@@ -1,6 +1,6 @@
 // Projects taken apart into files and put together again; scenes that never were projects made into one.
 #include "base/file.hpp"
-#include "scene/project_files.hpp"
+#include "scene/project_exchange.hpp"
 #include "scene_support.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,4 @@
 // Scene folders by the names of their files, and the bounds of what a scene may read.
-#include "scene/folder_scene.hpp"
 #include "scene/load_scene.hpp"
 #include "scene_support.hpp"
 

@@ -1,5 +1,5 @@
 // Values of knobs written into the lines that declare them.
-#include "scene/knob_defaults.hpp"
+#include "scene/knob.hpp"
 
 #include <gtest/gtest.h>
 

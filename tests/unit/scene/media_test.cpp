@@ -1,6 +1,6 @@
 // ShaderToy's media: by every name they have had, in a folder, or replaced.
 #include "scene/load_scene.hpp"
-#include "scene/media.hpp"
+#include "scene/names.hpp"
 #include "scene_support.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,5 @@
 #include "scene/json_text.hpp"
-#include "scene/page_json.hpp"
-#include "scene/saved_project.hpp"
+#include "scene/project_exchange.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,5 @@
 // Scenes from files, and what the command line changes in them.
 #include "scene/load_scene.hpp"
-#include "scene/overrides.hpp"
 #include "scene/scene.hpp"
 #include "support/temporary_folder.hpp"
 

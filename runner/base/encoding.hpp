@@ -1,0 +1,93 @@
+// Removes the blanks around a text.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tidemark {
+
+inline std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r\n") {
+    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+    return text.substr(0, text.find_last_not_of(blanks) + 1); // npos + 1 is 0
+}
+
+// Makes texts of scenes, files and drivers safe to show in a terminal, a title or a shell: characters that
+// would control it become visible escapes.
+
+/// Escapes control characters except tab and line feed, bytes that are not UTF-8, and invisible characters
+/// that change the layout or the writing direction: `\x1b`, `\u202e`.
+std::string printable(std::string_view text);
+
+/// Like printable, but for one line: escapes tab and line feed too.
+std::string printable_line(std::string_view text);
+
+/// Returns whether `printable_line` would change nothing.
+bool is_printable_line(std::string_view text);
+
+/// Replaces every byte that is not UTF-8 with U+FFFD.
+std::string valid_utf8(std::string_view text);
+
+/// Returns the text; if it is longer than `most` bytes, its first whole characters and `...`.
+std::string cut_text(std::string_view text, size_t most);
+
+/// The first character of `text`, which must not be empty: its length in bytes and its code point, or 1 and
+/// -1 if it is not valid UTF-8.
+struct Character {
+    size_t length = 1;
+    int code = -1;
+};
+Character first_character(std::string_view text);
+
+// Quotes and splits the arguments of a command line.
+
+/// Quotes an argument for a POSIX shell: unchanged if that is safe, else between apostrophes, with escapes
+/// for characters that control a terminal.
+std::string shell_word(std::string_view word);
+
+/// Quotes several arguments, with blanks between them.
+std::string shell_words(std::span<const std::string> words);
+
+/// Splits at blanks, as in `EDITOR="code --wait"`; quotes have no meaning, and no shell is used.
+std::vector<std::string> split_words(std::string_view words);
+
+// Converts file paths to URIs and back (RFC 3986, RFC 8089).
+
+/// Returns `file:///a/b%20c.glsl` for an absolute path, `b%20c.glsl` for a relative one.
+std::string uri_reference(const std::filesystem::path& path);
+
+/// Returns the path that a `file:` URI names on this machine; nullopt for another scheme, another machine, a
+/// damaged escape or a NUL.
+std::optional<std::filesystem::path> path_of_uri(std::string_view uri);
+
+// Encodes bytes as base64 text (RFC 4648).
+
+std::string base64(std::string_view bytes);
+
+// Computes SHA-256 fingerprints.
+
+/// SHA-256 of data that comes piece by piece.
+class Sha256 {
+public:
+    Sha256();
+    ~Sha256();
+
+    void add(std::span<const std::byte> bytes);
+    /// Returns 64 lower-case hexadecimal digits. To be called once, after the last piece.
+    std::string digits();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// Returns the SHA-256 as 64 lower-case hexadecimal digits.
+std::string sha256(std::span<const std::byte> bytes);
+
+} // namespace tidemark

@@ -1,0 +1,472 @@
+// `--like PICTURE`: takes the moment from a picture's metadata for everything that the command line leaves
+// open.
+
+#include "base/error.hpp"
+#include "cli/capture_output.hpp"
+#include "cli/capture_plan.hpp"
+#include "cli/capture_resume.hpp"
+#include "cli/capture_run.hpp"
+#include "cli/commands.hpp"
+#include "host/command_line.hpp"
+#include "host/console.hpp"
+#include "host/fingerprint.hpp"
+#include "host/gl_context.hpp"
+#include "host/json.hpp"
+#include "host/moment.hpp"
+#include "host/program_trial.hpp"
+#include "host/scene_report.hpp"
+#include "host/supervision.hpp"
+#include "media/picture_check.hpp"
+#include "media/sound_file.hpp"
+#include "render/gl_context.hpp"
+#include "render/renderer.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/names.hpp"
+#include "scene/scene.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <memory>
+#include <thread>
+
+namespace tidemark::cli {
+
+/// Completes the options from the picture's metadata; without --like they are unchanged. Paths outside the
+/// scene's folder are left out with a message, since a file must not cause others to be read. Fails if the
+/// picture holds no moment, or if its scene does not exist.
+Result<CaptureOptions> with_likeness(CaptureOptions options);
+
+/// Prints a line if the picture was drawn from another text, with other inputs, or by another driver.
+void say_what_is_unlike(const CapturePlan& plan, const Fingerprint& fingerprint);
+
+namespace {
+
+namespace fs = std::filesystem;
+
+tl::unexpected<Error> refuse(const std::string& picture, std::string_view why) {
+    return fail(ErrorCode::usage, fmt::format("--like {}: {}", picture, why));
+}
+
+Result<Moment> read_moment(const std::string& picture, const image::Metadata& metadata) {
+    const std::string* text = image::find(metadata, k_moment);
+    if (!text)
+        return refuse(picture,
+                      "it does not hold how it was drawn: give one that `tidemark capture` or the window's "
+                      "S saved, other than .hdr, and that no other program has saved since");
+    if (auto moment = moment_of(parse_or_discard(*text)))
+        return *std::move(moment);
+    return refuse(picture, "what it says of how it was drawn is damaged");
+}
+
+/// Removes paths that lead out of the scene's folder, which the scene's own text could not use either.
+void keep_inside(const std::string& picture, const SceneRequest& typed, Moment& moment) {
+    std::error_code ignored;
+    const fs::path scene = typed.path;
+    const scene::Bounds bounds(fs::is_directory(scene, ignored) ? scene : scene.parent_path(),
+                               typed.files.allow_outside);
+    const auto leads_out = [&](const std::string& option, const fs::path& file) {
+        if (file.empty() || bounds.check(file))
+            return false;
+        say(fmt::format(
+            "--like {}: left out, for it leads out of the scene's folder: {} (--allow-outside takes it)",
+            picture, option));
+        return true;
+    };
+    std::erase_if(moment.scene.channels, [&](const std::string& channel) {
+        const scene::ChannelInput input = scene::input_of_name(channel.substr(channel.find('=') + 1), {});
+        for (const fs::path& file : input_files(input))
+            if (leads_out("--channel " + channel, file))
+                return true;
+        return false;
+    });
+    if (leads_out("--media " + moment.scene.files.media.string(), moment.scene.files.media))
+        moment.scene.files.media.clear();
+    if (leads_out("--input " + moment.sequence.input_file, moment.sequence.input_file))
+        moment.sequence.input_file.clear();
+}
+
+/// Returns the metadata value of that name, if it is a number within the limits of its option.
+template <class T>
+std::optional<T> number_in(const image::Metadata& metadata, std::string_view name, T low, T high) {
+    const std::string* const text = image::find(metadata, name);
+    T number{};
+    if (!text || std::from_chars(text->data(), text->data() + text->size(), number).ec != std::errc() ||
+        !(number >= low && number <= high))
+        return std::nullopt;
+    return number;
+}
+
+/// Takes --samples and --shutter from the metadata if they are not given.
+void take_exposure(const image::Metadata& metadata, CaptureOptions& options) {
+    if (!options.samples)
+        options.samples = number_in(metadata, "Samples", 1, render::k_most_samples);
+    if (!options.shutter)
+        options.shutter = number_in(metadata, "Shutter", 0.0, 1.0);
+}
+
+/// Fills everything not given on the command line from the moment.
+SceneRequest completed(SceneRequest typed, Moment& moment) {
+    SceneRequest& scene = moment.scene;
+    typed.sets = merged(std::move(scene.sets), typed.sets);
+    typed.defines = merged(std::move(scene.defines), typed.defines);
+    typed.channels = merged(std::move(scene.channels), typed.channels);
+    if (typed.files.media.empty())
+        typed.files.media = scene.files.media;
+    if (!typed.doubles)
+        typed.doubles = scene.doubles;
+    typed.double_hashes |= scene.double_hashes;
+    typed.knobs_may_go = true; // another text may have other knobs
+    return typed;
+}
+
+} // namespace
+
+Result<CaptureOptions> with_likeness(CaptureOptions options) {
+    SceneRequest& scene = options.scene;
+    if (options.like.empty())
+        return scene.path.empty()
+                   ? Result<CaptureOptions>(fail(ErrorCode::usage, "capture: SCENE is required"))
+                   : std::move(options);
+    const auto metadata = image::read_metadata(options.like);
+    if (!metadata)
+        return refuse(options.like, metadata.error());
+    Moment moment = TRY(read_moment(options.like, *metadata));
+    const Extent size = moment.sequence.state.extent;
+    if (!options.frames.size && std::max(size.width, size.height) > scene::k_largest_stated_side)
+        return refuse(
+            options.like,
+            fmt::format("it says that it has {}x{} pixels; a file may ask for {} on a side: give --size",
+                        size.width, size.height, scene::k_largest_stated_side));
+    std::error_code ignored;
+    if (scene.path.empty() && !fs::exists(moment.scene.path, ignored))
+        return refuse(options.like,
+                      fmt::format("its scene '{}' is not here: give one, as in `tidemark capture SCENE "
+                                  "--like {}`",
+                                  moment.scene.path.string(), options.like));
+    if (scene.path.empty())
+        scene.path = moment.scene.path;
+    keep_inside(options.like, scene, moment);
+    erase_named(scene.sets, moment.sequence.state.knobs);
+    if (!moment.sequence.input_file.empty() && !options.frames.input) {
+        options.frames.input = moment.sequence.input_file;
+        moment.sequence.state = without_recorded(std::move(moment.sequence.state));
+    }
+    scene = completed(std::move(scene), moment);
+    take_exposure(*metadata, options);
+    const std::string* fingerprint = image::find(*metadata, k_fingerprint);
+    options.likeness = Likeness{std::move(moment.sequence), fingerprint ? *fingerprint : ""};
+    return options;
+}
+
+void say_what_is_unlike(const CapturePlan& plan, const Fingerprint& fingerprint) {
+    if (plan.like.empty() || !plan.likeness)
+        return;
+    const Fingerprint there = Fingerprint::parse(plan.likeness->fingerprint).of_scene();
+    if (const std::string other = fingerprint.of_scene().differences(there); !other.empty())
+        say(fmt::format("not quite like {}: {}", plan.like, other));
+}
+
+namespace {
+
+/// Returns an upper bound of the state's size in bytes: two textures per buffer with four floats a pixel,
+/// each at most as large as the frame or a cubemap.
+uint64_t largest_state(const CapturePlan& plan) {
+    constexpr uint64_t k_cubemap = 6 * 1024 * 1024, k_header = 1 << 20;
+    const auto pixels = std::max<uint64_t>(plan.drawing.extent.pixels(), k_cubemap);
+    return k_header + plan.scene.passes.size() * 2 * pixels * 4 * sizeof(float);
+}
+
+/// Returns the newest state from which the rest of the capture can start. If there is none, a newer one
+/// supplies only the program that was chosen.
+std::optional<SavedState> find_state(const CapturePlan& plan, const Fingerprint& fingerprint) {
+    const render::FrameStates states = states_of(plan.frames);
+    std::optional<SavedState> too_new;
+    for (const std::filesystem::path& file : find_states(plan.output)) {
+        auto state = read_state(
+            file, [&](int frame) { return fingerprint.of_frame(states(frame)); }, largest_state(plan));
+        if (state && state->frame <= plan.frames.frames.front())
+            return state;
+        if (state && !too_new)
+            too_new = SavedState{state->frame, state->program};
+    }
+    return too_new;
+}
+
+void say_what_was_written(const FrameRecords& records, const CapturePlan& plan) {
+    if (plan.output.video() && plan.shard)
+        say(fmt::format("wrote {} frames of {}, in segments that `tidemark gather` joins", records.count(),
+                        plan.output.pattern().string()));
+    else if (plan.output.video())
+        say(fmt::format(
+            "wrote {}: {} frames{}", plan.output.pattern().string(), plan.kept.size() + records.count(),
+            plan.pace.fps == plan.frames.state.fps ? "" : fmt::format(", {:.4g} a second", plan.pace.fps)));
+    else if (plan.sheet)
+        say(fmt::format("wrote {}: {} moments, frames {} to {}", records.first().file, records.count(),
+                        records.first().frame, records.last().frame));
+    else if (records.count() == 1)
+        say(fmt::format("wrote {}", records.first().file));
+    else if (records.count() > 0)
+        say(fmt::format("wrote {} frames, {} to {}", records.count(), records.first().file,
+                        records.last().file));
+}
+
+/// Prints one line for all frames, naming the first with such pixels; nothing if there is none. The file does
+/// not show such pixels.
+void warn_of(const FrameRecords::Found& found,
+             const std::function<std::string(const FrameRecord&, const std::string& others)>& words) {
+    if (!found.first)
+        return;
+    const size_t others = found.count - 1;
+    say("warning: " +
+        words(*found.first,
+              others == 0 ? "" : fmt::format(" (and of {} other frame{})", others, others > 1 ? "s" : "")));
+}
+
+void say_what_pixels_hold(const FrameRecords& records, const CapturePlan& plan) {
+    warn_of(records.not_finite(), [&](const FrameRecord& first, const std::string& others) {
+        return fmt::format("{} not finite{}; where from: {}",
+                           pixels_are(first.not_finite, fmt::format("of frame {}", first.frame)), others,
+                           plan.trace_command(states_of(plan.frames)(first.frame)));
+    });
+    const bool clamped = !plan.to_picture_files() || plan.depth == image::SampleDepth::u8 ||
+                         plan.depth == image::SampleDepth::u16;
+    warn_of(records.no_coverage(), [&](const FrameRecord& first, const std::string& others) {
+        return fmt::format("alpha is below 0 or above 1 in {} pixel{} of frame {}{}; {}", first.no_coverage,
+                           first.no_coverage > 1 ? "s" : "", first.frame, others,
+                           clamped ? "the file has 0 or 1" : "the file has it as it is");
+    });
+}
+
+/// Removes frames that already exist from the plan, and prints how many there are.
+void keep_what_is_there(CapturePlan& plan, const Fingerprint& fingerprint) {
+    const size_t all = plan.frames.frames.size();
+    const KeptFrames kept = leave_out_kept(plan, fingerprint);
+    for (const std::string& line : kept.said)
+        say(line);
+    say(fmt::format("kept {} of {} frames", kept.frames.size(), all));
+    plan.kept = kept.frames;
+}
+
+/// Removes files of an earlier run, which may have overlapped with this one, and saved states that have
+/// become unnecessary.
+void tidy_up(const CapturePlan& plan) {
+    if (plan.resume)
+        for (const OutputPath& file : {plan.output.of_frame(0), state_file(plan.output, 0)})
+            StagedFile::remove_abandoned(file);
+    if (!plan.shard && !plan.output.standard_output())
+        remove_states(plan.output);
+}
+
+std::string interruption(const CapturePlan& plan, Capture& run) {
+    const std::string words = words_on_resuming(plan, run.whole_frames());
+    return fmt::format("interrupted after {} of {} frames{}{}", plan.kept.size() + run.records().count(),
+                       plan.kept.size() + plan.frames.frames.size(),
+                       plan.output.video() ? ": no video was written"
+                       : plan.sheet        ? ": no sheet was written"
+                                           : "",
+                       words.empty() ? "" : "; " + words);
+}
+
+/// Removes existing frames from the plan, and returns the state from which the rest starts.
+std::optional<SavedState> take_up(CapturePlan& plan, const Fingerprint& fingerprint) {
+    if (plan.resume)
+        keep_what_is_there(plan, fingerprint);
+    else if (plan.frames.frames.empty())
+        say(plan.output.video()
+                ? "this shard has no frame: there are more shards than segments of the video, "
+                  "which --state-every makes shorter"
+                : "this shard has no frame: there are more shards than frames");
+    if (plan.frames.frames.empty() || !(plan.resume || plan.shard))
+        return std::nullopt;
+    auto state = find_state(plan, fingerprint);
+    if (state && !plan.shard) { // all shards must draw the same program, whatever another capture chose
+        plan.drawing.specialise = state->program;
+        plan.trial.reset();
+    }
+    return state;
+}
+
+Result<bool> draw(Capture& run, const CapturePlan& plan, Interrupt& interrupt) {
+    return run.run(interrupt).map_error([&](Error error) {
+        if (const std::string words = words_on_resuming(plan, run.whole_frames()); !words.empty())
+            error.message += "; " + words;
+        return error;
+    });
+}
+
+Result<void> report(Capture& run, const CapturePlan& plan, bool complete) {
+    if (plan.json)
+        TRY(put(dump(run.report(), 2) + "\n"));
+    say_what_pixels_hold(run.records(), plan);
+    const bool written = complete || !(plan.output.video() || plan.sheet);
+    if (written && !plan.json && !plan.output.standard_output())
+        say_what_was_written(run.records(), plan);
+    if (complete && plan.loop)
+        say(run.loop().words());
+    if (!complete)
+        say(interruption(plan, run));
+    return {};
+}
+
+Result<int> capture_frames(CapturePlan plan) {
+    Interrupt interrupt;
+    std::jthread codec; // loads in parallel with the driver, which takes as long
+    if (plan.to_picture_files())
+        codec = image::preload_picture_codec(plan.output.pattern());
+    const auto context = TRY(platform::HeadlessContext::create(plan.device));
+    const auto fingerprint = fingerprint_of_run(plan, gl::query_capabilities());
+    say_what_is_unlike(plan, fingerprint);
+    const std::optional<StagedFile> sound = draw_sound_of_video(plan, interrupt);
+    const std::optional<SavedState> state = take_up(plan, fingerprint);
+    if (plan.frames.frames.empty() && (plan.to_picture_files() || plan.shard) && !plan.json) {
+        tidy_up(plan);
+        return 0;
+    }
+    auto compiled = TRY(compile(plan, interrupt));
+    Capture run(plan, fingerprint, compiled, sound ? sound->path() : std::filesystem::path());
+    if (state)
+        run.start_from(*state);
+    const bool complete = TRY(draw(run, plan, interrupt));
+    if (complete)
+        tidy_up(plan);
+    TRY(report(run, plan, complete));
+    return complete ? 0 : Interrupt::k_exit_code;
+}
+
+Result<int> capture(const CaptureOptions& typed) {
+    const CaptureOptions options = TRY(with_likeness(typed));
+    return wants_sound(options) ? plan_sound(options).and_then(capture_sound)
+                                : plan_capture(options).and_then(capture_frames);
+}
+
+} // namespace
+
+void add_codec_option(Command command, std::string& codec) {
+    command
+        .add_option(
+            "--codec", codec,
+            "Of a video: of .mp4 and .mkv h264 in 8 bits, hevc or av1 in 10; of .webm vp9 in 8, av1 in "
+            "10 [the first]")
+        .type_name("h264|hevc|av1|vp9");
+}
+
+void add_capture_options(Command command, CaptureOptions& options) {
+    add_scene_options(command, options.scene);
+    add_precision_options(command, options.scene);
+    add_picture_options(command, options.frames);
+    add_time_options(command, options.frames);
+    command.option("SCENE").required(false); // --like may name it
+    command
+        .add_option(
+            "--like", options.like,
+            "Draws the moment that a picture shows, from its metadata: what is left open here, SCENE too")
+        .type_name("PICTURE");
+    command
+        .add_option("-o,--output", options.output,
+                    "File: .png .jpg .tif .exr .hdr, a sequence with %04d or ####; {} for the six faces of "
+                    "a cube; a video: .mp4 .mkv .webm .mov .gif .webp; - for "
+                    "raw RGB frames on standard output [SCENE.png]")
+        .type_name("OUT");
+    command
+        .add_option(
+            "--depth", options.depth,
+            "Bits of a sample in the file [what the format stores by nature; a --pass in .exr: float]")
+        .type_name("8|16|half|float");
+    command
+        .add_option("--transfer", options.transfer,
+                    "What the samples of a picture stand for: sRGB, as Image writes them, or linear light, "
+                    "which takes 16 bits or floats [srgb; of another --pass: numbers]")
+        .type_name("srgb|linear");
+    add_codec_option(command, options.codec);
+    command
+        .add_option(
+            "--alpha", options.alpha,
+            "Of Image: 1, as ShaderToy shows it; or what its text gives, straight or with the colours "
+            "multiplied by it [opaque]")
+        .type_name("opaque|keep|premultiplied");
+    command.add_flag("--layers", options.layers,
+                     "All passes into one .exr, each as a part of its name; a cube as six");
+    add_device_options(command, options.device);
+    command
+        .add_option("--timeout", options.timeout,
+                    "Give up where compiling takes longer, or getting ready to draw, or a frame")
+        .type_name("SECONDS")
+        .check(number<double>("a number of seconds"));
+    command.add_option("--duration", options.duration, "Length of a .wav [60], or of what --sheet shows [10]")
+        .type_name("SECONDS")
+        .check(number<double>("a number of seconds"));
+    const Option plain =
+        command.add_flag("--plain", options.plain, "Compiles the scene's text whole, as it is");
+    command
+        .add_option("--allow-difference", options.allowed_difference,
+                    "Makes knobs constants where that is faster and moves no sample by more")
+        .type_name("MAX")
+        .check(number<double>("a number"))
+        .excludes(plain)
+        .excludes("--timeout"); // frames of a trial have no time limit
+    command
+        .add_option("--tile", options.tile,
+                    "Draw in tiles of N pixels a side, an even number [1024x256 above 4096x2160 pixels]")
+        .type_name("N")
+        .check(number<int>("a whole number"));
+    command
+        .add_option("--samples", options.samples,
+                    "Makes each frame the mean, in linear light, of N that are shifted within their pixels")
+        .type_name("N")
+        .check(number<int>("a whole number from 1 to 65536", 1, render::k_most_samples))
+        .excludes("--allow-difference");
+    command
+        .add_option(
+            "--shutter", options.shutter,
+            "Motion blur: those samples see as much of the time to the next frame, 0 to 1 [16 samples]")
+        .type_name("PART")
+        .check(number<double>("a number from 0 to 1", 0, 1))
+        .excludes("--allow-difference");
+    const Option resume =
+        command.add_flag("--resume", options.resume,
+                         "Goes on where a capture was cut short: frames that are there already are kept");
+    command
+        .add_option("--state-every", options.state_every,
+                    "Saves the buffers of a scene that reads its own last frame, for --resume")
+        .type_name("FRAMES")
+        .check(positive_number());
+    command
+        .add_option(
+            "--shard", options.shard,
+            "Makes every N-th frame, from the K-th on, for one of N processes; slurm: as a task of an array")
+        .type_name("K/N|slurm");
+    command
+        .add_flag("--loop", options.loop,
+                  "Says whether the sequence goes round: how like its first the frame behind its last is")
+        .excludes(resume)
+        .excludes("--shard");
+    command
+        .add_option("--sheet", options.sheet,
+                    "One picture of so many moments, each of --size, evenly from --frames or --duration")
+        .type_name("COLUMNSxROWS")
+        .excludes("--layers")
+        .excludes("--tile")
+        .excludes(resume)
+        .excludes("--state-every")
+        .excludes("--shard")
+        .excludes("--loop");
+    command.add_flag("--json", options.json, "One JSON object about the frames on standard output");
+}
+
+void add_capture(Command app, Action& chosen) {
+    auto options = std::make_shared<CaptureOptions>();
+    Command command =
+        app.add_subcommand("capture", "Makes pictures, raw frames or a video of a scene, with no display");
+    add_capture_options(command, *options);
+    command.on_call([options, command, &chosen] {
+        options->words =
+            command.typed_words(std::array<std::string_view, 3>{"--shard", "--resume", "--json"});
+        chosen = [options] { return capture(*options); };
+    });
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,211 @@
+#include "cli/capture_frames.hpp"
+
+#include "base/error.hpp"
+#include "base/extent.hpp"
+#include "base/file.hpp"
+#include "host/json.hpp"
+#include "host/scene_report.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+namespace tidemark::cli {
+
+std::vector<int> evenly(const std::vector<int>& frames, size_t count) {
+    count = std::min(count, frames.size());
+    std::vector<int> chosen;
+    for (size_t i = 0; i < count; ++i)
+        chosen.push_back(frames[count == 1 ? 0 : i * (frames.size() - 1) / (count - 1)]);
+    return chosen;
+}
+
+std::vector<int> beginnings(double seconds, double fps, size_t count) {
+    std::vector<int> frames;
+    for (size_t i = 0; i < count; ++i)
+        frames.push_back(int(std::floor(seconds * fps * double(i) / double(count))));
+    return frames;
+}
+
+namespace {
+
+/// Returns the differences of successive frames.
+std::vector<int> strides_of(const std::vector<int>& frames) {
+    std::vector<int> strides;
+    for (size_t i = 1; i < frames.size(); ++i)
+        strides.push_back(frames[i] - frames[i - 1]);
+    return strides;
+}
+
+} // namespace
+
+VideoPace pace_of(const std::vector<int>& frames, double fps) {
+    const std::vector<int> strides = strides_of(frames);
+    if (strides.empty())
+        return {fps};
+    const auto [least, most] = std::ranges::minmax(strides);
+    if (least > 0) {
+        const int tick = std::reduce(strides.begin(), strides.end(), 0, std::gcd<int, int>);
+        return {fps / tick, tick, most > tick};
+    }
+    if (least == most && least < 0)
+        return {fps / -least, 0, false, "its frames go backwards"};
+    return {fps, 0, false,
+            "some of its frames are not later than the one before, and they come one after another"};
+}
+
+std::vector<int> ticks_of(const std::vector<int>& frames, const VideoPace& pace) {
+    std::vector<int> ticks(frames.size(), 1);
+    const std::vector<int> strides = strides_of(frames);
+    for (size_t i = 0; pace.holds && i < strides.size(); ++i)
+        ticks[i] = strides[i] / pace.tick;
+    return ticks;
+}
+
+namespace {
+
+constexpr int k_gap = 8; ///< pixels
+/// Grey of the gaps: neither black nor white, which are common at the edges of scenes.
+constexpr uint8_t k_grey = 0x20;
+constexpr size_t k_most_cells = 1000;
+
+/// Returns an opaque grey picture.
+image::Image blank(Extent extent, image::SampleType type) {
+    image::Image picture(extent, 4, type);
+    for (size_t i = 0; i < picture.samples(); ++i) {
+        const uint8_t sample = i % 4 == 3 ? 0xff : k_grey;
+        if (type == image::SampleType::u8)
+            picture.u8()[i] = sample;
+        else
+            picture.f32()[i] = float(sample) / 255;
+    }
+    return picture;
+}
+
+} // namespace
+
+Extent SheetGrid::extent(Extent cell) const {
+    return {columns * cell.width + (columns - 1) * k_gap, rows * cell.height + (rows - 1) * k_gap};
+}
+
+Result<SheetGrid> parse_sheet(std::string_view text) {
+    const auto cells = parse_extent(text);
+    if (!cells || cells->pixels() > k_most_cells)
+        return fail(ErrorCode::usage,
+                    fmt::format("--sheet {}: give columns and rows, as in 5x4, {} cells at most", text,
+                                k_most_cells));
+    return SheetGrid{cells->width, cells->height};
+}
+
+void Sheet::add(const image::Image& cell) {
+    if (added_ == 0)
+        picture_ = blank(grid_.extent(cell.extent), cell.type);
+    assert(cell.channels == 4 && cell.type == picture_.type && grid_.extent(cell.extent) == picture_.extent);
+    const int column = added_ % grid_.columns, row = added_ / grid_.columns;
+    const size_t pixel = 4 * image::size_of(cell.type);
+    const int left = column * (cell.extent.width + k_gap);
+    const int bottom = (grid_.rows - 1 - row) * (cell.extent.height + k_gap);
+    for (int y = 0; y < cell.extent.height; ++y)
+        std::copy_n(cell.bytes.begin() + std::ptrdiff_t(size_t(y) * cell.row_bytes()), cell.row_bytes(),
+                    picture_.bytes.begin() +
+                        std::ptrdiff_t(size_t(bottom + y) * picture_.row_bytes() + size_t(left) * pixel));
+    ++added_;
+}
+
+namespace {
+
+/// Parses the whole text as an integer.
+std::optional<int> number_in(std::string_view text) {
+    int number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc{} && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+Result<int> slurm_number(const char* name, std::optional<int> otherwise = {}) {
+    const char* const text = std::getenv(name);
+    const std::optional<int> number = text ? number_in(text) : otherwise;
+    if (!number)
+        return fail(ErrorCode::usage,
+                    fmt::format("--shard slurm: {} is {}; start it as a task of `sbatch --array`", name,
+                                text ? fmt::format("'{}'", text) : "not set"));
+    return *number;
+}
+
+Result<Shard> shard_of_slurm() {
+    const int id = TRY(slurm_number("SLURM_ARRAY_TASK_ID"));
+    const int count = TRY(slurm_number("SLURM_ARRAY_TASK_COUNT"));
+    const int first = TRY(slurm_number("SLURM_ARRAY_TASK_MIN", 0));
+    const int step = TRY(slurm_number("SLURM_ARRAY_TASK_STEP", 1));
+    if (step < 1 || id < first || (id - first) % step != 0 || (id - first) / step >= count)
+        return fail(ErrorCode::usage,
+                    fmt::format("--shard slurm: task {} of {} from {} on: give --array as 0-7, without gaps",
+                                id, count, first));
+    return Shard{(id - first) / step, count};
+}
+
+} // namespace
+
+Result<Shard> parse_shard(std::string_view text) {
+    if (text == "slurm")
+        return shard_of_slurm();
+    const size_t slash = std::min(text.find('/'), text.size());
+    const auto number = number_in(text.substr(0, slash));
+    const auto count = number_in(text.substr(std::min(slash + 1, text.size())));
+    if (!number || !count || *number < 1 || *number > *count || *count > k_most_shards)
+        return fail(ErrorCode::usage,
+                    fmt::format("--shard {}: give K/N, K from 1 to N, as in 2/8, or slurm", text));
+    return Shard{*number - 1, *count};
+}
+
+std::vector<int> frames_of(const Shard& shard, const std::vector<int>& frames, const scene::Scene& scene) {
+    const auto index = size_t(shard.index);
+    const auto count = size_t(shard.count);
+    if (may_feed_back(scene)) {
+        const auto place = [&](size_t k) {
+            return frames.begin() + std::ptrdiff_t(frames.size() * k / count);
+        };
+        return {place(index), place(index + 1)};
+    }
+    std::vector<int> own;
+    for (size_t i = index; i < frames.size(); i += count)
+        own.push_back(frames[i]);
+    return own;
+}
+
+std::vector<int> segments_of_shard(const Shard& shard, size_t segments, const scene::Scene& scene) {
+    std::vector<int> all(segments);
+    std::iota(all.begin(), all.end(), 0);
+    return frames_of(shard, all, scene);
+}
+
+Result<ShardNote> read_note(const std::filesystem::path& file) {
+    const std::string text = TRY(read_file(file));
+    try {
+        const Json json = parse_json(text);
+        ShardNote note{json.at("capture").get<std::vector<std::string>>(), json.at("shards").get<int>()};
+        if (note.count >= 1 && note.count <= k_most_shards)
+            return note;
+    } catch (const Json::exception&) { // reported below
+    }
+    return fail(ErrorCode::load, fmt::format("'{}' is not of `capture --shard`", file.string()));
+}
+
+Result<void> leave_note(const OutputPath& file, const ShardNote& note) {
+    std::error_code ignored;
+    if (std::filesystem::exists(file.path(), ignored)) {
+        if (TRY(read_note(file.path())) == note)
+            return {};
+        return fail(ErrorCode::usage,
+                    fmt::format("--shard: '{}' is of another capture: give a folder of its own, or remove it",
+                                file.string()));
+    }
+    return write_file(file, dump(Json{{"capture", note.words}, {"shards", note.count}}, 2) + "\n");
+}
+
+} // namespace tidemark::cli

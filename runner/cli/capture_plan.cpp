@@ -1,0 +1,541 @@
+#include "cli/capture_plan.hpp"
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/supervision.hpp"
+#include "cli/capture_frames.hpp"
+#include "cli/capture_resume.hpp"
+#include "host/console.hpp"
+#include "host/frame_files.hpp"
+#include "host/scene_report.hpp"
+#include "host/supervision.hpp"
+#include "media/picture_file.hpp"
+#include "media/video_output.hpp"
+#include "render/gl_context.hpp"
+#include "render/picture_parts.hpp"
+#include "render/renderer.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace tidemark::cli {
+namespace {
+
+using image::Alpha;
+using image::SampleDepth;
+using image::SampleType;
+using image::Transfer;
+
+/// Keeps floats for passes other than Image: a buffer is state, and a half float would turn 1e6 into
+/// infinity.
+SampleDepth default_depth(const OutputName& output, const std::string& pass) {
+    const SampleDepth natural = image::natural_depth(output.pattern());
+    const bool state = drawn_transfer(pass) == Transfer::data;
+    return natural == SampleDepth::half && state ? SampleDepth::f32 : natural;
+}
+
+/// Returns 16 bits for a video of ten bits; frames are drawn in that depth.
+Result<SampleDepth> parse_depth(const std::string& text, const OutputName& output, const std::string& codec,
+                                const std::string& pass) {
+    constexpr std::pair<std::string_view, SampleDepth> k_depths[] = {{"8", SampleDepth::u8},
+                                                                     {"16", SampleDepth::u16},
+                                                                     {"half", SampleDepth::half},
+                                                                     {"float", SampleDepth::f32}};
+    const bool raw = output.standard_output() || output.video();
+    if (raw && !text.empty())
+        return fail(
+            ErrorCode::usage,
+            "--depth: raw frames on standard output have 8 bits, videos what their codec has (--codec)");
+    if (text.empty() && raw)
+        return output.video() && image::has_ten_bits(output.pattern(), codec) ? SampleDepth::u16
+                                                                              : SampleDepth::u8;
+    if (text.empty())
+        return default_depth(output, pass);
+    for (const auto& [name, depth] : k_depths)
+        if (name == text)
+            return depth;
+    return fail(ErrorCode::usage, fmt::format("--depth {}: give 8, 16, half or float", text));
+}
+
+Result<Transfer> parse_transfer(const std::string& text, const CapturePlan& plan) {
+    const auto refuse = [](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("--transfer {}", why));
+    };
+    if (text.empty())
+        return drawn_transfer(plan.frames.state.pass);
+    if (text == "srgb")
+        return Transfer::srgb;
+    if (text != "linear")
+        return refuse(fmt::format("{}: give srgb or linear", text));
+    if (!plan.to_picture_files())
+        return refuse("linear: videos and raw frames on standard output are always sRGB");
+    if (plan.depth == SampleDepth::u8)
+        return refuse("linear: 8 bits of light show steps where it is dark: give --depth 16, or an .exr");
+    return Transfer::linear;
+}
+
+/// Returns how Image's alpha is drawn and stored in the file.
+Result<Alpha> parse_alpha(const std::string& text, const CapturePlan& plan) {
+    const auto refuse = [&](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("--alpha {}: {}", text, why));
+    };
+    if (text.empty() || text == "opaque")
+        return Alpha::where_needed;
+    if (text != "keep" && text != "premultiplied")
+        return refuse("give opaque, keep or premultiplied");
+    const Alpha alpha = text == "keep" ? Alpha::straight : Alpha::premultiplied;
+    const auto holds = [&](Alpha kind) {
+        const std::filesystem::path& name = plan.output.pattern();
+        return plan.output.video() ? image::video_holds_alpha(name, plan.codec, kind)
+                                   : image::holds_alpha(name, kind);
+    };
+    if (drawn_transfer(plan.frames.state.pass) == Transfer::data)
+        return refuse("what another pass holds is numbers: all four are in the file");
+    if (plan.output.standard_output() || !holds(Alpha::straight))
+        return refuse("that has no alpha: give a .png, .tif, .exr, .mov, .webm or .webp");
+    if (!holds(alpha))
+        return refuse(fmt::format("readers of a {} multiply themselves: give keep, or a .tif, .exr or .mov",
+                                  plan.output.pattern().extension().string()));
+    return alpha;
+}
+
+/// Returns the sample depth of the passes written in addition to Image. Buffers are state, so they keep
+/// floats by default.
+Result<std::optional<SampleDepth>> parse_layers(const CaptureOptions& options, const CapturePlan& plan) {
+    const auto refuse = [](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("--layers: {}", why));
+    };
+    if (!options.layers)
+        return std::nullopt;
+    if (!plan.to_picture_files() || !image::holds_layers(plan.output.pattern()))
+        return refuse("only an .exr holds several pictures");
+    if (plan.output.six_faces())
+        return refuse("the faces of a cube are layers: leave {} out of the name");
+    if (!plan.frames.state.pass.empty())
+        return refuse("all passes are in the file: leave --pass out");
+    if (options.tile)
+        return refuse("passes are drawn whole: leave --tile out");
+    if (plan.exposure.shutter > 0)
+        return refuse("with --shutter a frame has several moments, and a buffer has no mean");
+    const Extent extent = plan.frames.state.extent;
+    if (std::max(extent.width, extent.height) > image::k_largest_side)
+        return refuse(fmt::format("a side has at most {} pixels", image::k_largest_side));
+    return options.depth.empty() ? SampleDepth::f32 : plan.depth;
+}
+
+/// The default length of a sheet in seconds.
+constexpr double k_seconds_of_sheet = 10;
+
+/// Returns the frames of the sheet's cells.
+Result<std::vector<int>> frames_of_sheet(const CaptureOptions& options, const FrameSequence& asked,
+                                         const SheetGrid& grid) {
+    const auto refuse = [](std::string why) {
+        return fail(ErrorCode::usage, fmt::format("--sheet: {}", why));
+    };
+    if (options.frames.frame || options.frames.time)
+        return refuse("one moment is a picture: give --frames or --duration");
+    if (options.frames.frames && options.duration)
+        return refuse("--frames and --duration both say which moments: give one of them");
+    if (options.frames.frames)
+        return asked.frames.size() >= grid.cells()
+                   ? Result<std::vector<int>>(evenly(asked.frames, grid.cells()))
+                   : refuse(fmt::format("{}x{} cells want {} frames, --frames names {}", grid.columns,
+                                        grid.rows, grid.cells(), asked.frames.size()));
+    const double seconds = options.duration.value_or(k_seconds_of_sheet);
+    const double frames = seconds * asked.state.fps;
+    if (!(frames >= double(grid.cells())) || frames > render::k_last_frame)
+        return refuse(fmt::format("{} s at {} frames a second are not {} moments", seconds, asked.state.fps,
+                                  grid.cells()));
+    return beginnings(seconds, asked.state.fps, grid.cells());
+}
+
+/// Rejects outputs that do not fit a sheet.
+Result<void> check_sheet(const CapturePlan& plan) {
+    if (!plan.sheet)
+        return {};
+    const auto refuse = [](std::string why) {
+        return fail(ErrorCode::usage, fmt::format("--sheet: {}", why));
+    };
+    if (!plan.to_picture_files() || plan.output.six_faces())
+        return refuse("it is one picture: give a .png, .jpg, .tif, .exr or .hdr");
+    const Extent extent = plan.sheet->extent(plan.frames.state.extent);
+    const size_t bytes = extent.pixels() * 4 * image::size_of(plan.drawing.samples);
+    if (std::max(extent.width, extent.height) > image::k_largest_side || bytes > image::k_largest_picture)
+        return refuse(fmt::format("it would be {}x{} pixels: give a smaller --size, or fewer cells",
+                                  extent.width, extent.height));
+    return {};
+}
+
+/// Removes repeated frames (`0-9,5-14`): each frame is one file.
+void drop_repeats(std::vector<int>& frames) {
+    std::unordered_set<int> seen;
+    std::erase_if(frames, [&](int frame) { return !seen.insert(frame).second; });
+}
+
+/// In seconds. A WAV file of 16-bit stereo counts its bytes in 32 bits, which allows some six hours; this
+/// limit is lower.
+constexpr double k_longest_sound = 3600;
+constexpr double k_seconds_of_sound = 60;
+
+/// Fails if existing frames could not be told from missing ones.
+Result<void> check_resume(const OutputName& output) {
+    const auto refuse = [](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("--resume: {}", why));
+    };
+    if (output.standard_output())
+        return refuse("frames on standard output are not kept");
+    if (!output.video() && !image::holds_metadata(output.pattern()))
+        return refuse(fmt::format("a {} does not hold how it was drawn; .exr and .tif do",
+                                  output.pattern().extension().string()));
+    return {};
+}
+
+/// Fails if several processes could not write to one folder, or `gather` could not check the result.
+Result<void> check_shard(const CaptureOptions& options, const OutputName& output) {
+    const auto refuse = [](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("--shard: {}", why));
+    };
+    if (output.standard_output())
+        return refuse("give a sequence of pictures, or a video: `tidemark gather` reads them");
+    if (!output.video() && !image::holds_metadata(output.pattern()))
+        return check_resume(output);
+    if (options.allowed_difference)
+        return refuse("--allow-difference may choose another program on each machine");
+    return {};
+}
+
+/// Checks the options that keep data for a later run.
+Result<void> check_keeping(const CaptureOptions& options, const OutputName& output, Extent extent) {
+    if (options.resume)
+        TRY(check_resume(output));
+    if (options.state_every > 0 && output.standard_output())
+        return fail(ErrorCode::usage, "--state-every: frames on standard output are not kept");
+    if (options.state_every > 0 && extent.pixels() * 4 * sizeof(float) > k_largest_saved_buffer)
+        return fail(ErrorCode::usage, fmt::format("--state-every: buffers of {}x{} are too large to be saved",
+                                                  extent.width, extent.height));
+    if (!options.shard.empty())
+        TRY(check_shard(options, output));
+    return {};
+}
+
+/// Motion blur and smooth edges are seldom wanted one without the other, so --shutter alone implies several
+/// samples.
+constexpr int k_samples_of_shutter = 16;
+
+/// Clamps each sample for integer formats, as a display does.
+render::Exposure exposure_of(const CaptureOptions& options, SampleDepth depth) {
+    const double shutter = options.shutter.value_or(0);
+    return {.samples = options.samples.value_or(shutter > 0 ? k_samples_of_shutter : 1),
+            .shutter = shutter,
+            .clamped = depth == SampleDepth::u8 || depth == SampleDepth::u16};
+}
+
+/// Checks that the output format can hold the frames.
+Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options) {
+    const OutputName& output = plan.output;
+    const Extent extent = plan.frames.state.extent;
+    if (output.video() && output.pattern().extension() == ".gif" && plan.pace.fps > image::k_fastest_gif)
+        return fail(ErrorCode::usage, fmt::format("--fps {}: a GIF shows {} frames a second at most",
+                                                  plan.frames.state.fps, image::k_fastest_gif));
+    if (plan.to_picture_files()) {
+        if (auto known = image::check_picture_format(output.pattern(), plan.depth); !known)
+            return known;
+        if (auto fits = image::PictureStream::check_extent(output.pattern(), extent); !fits)
+            return fits;
+    }
+    TRY(check_sheet(plan));
+    TRY(check_keeping(options, output, extent));
+    if (options.loop && plan.frames.frames.size() < 2)
+        return fail(ErrorCode::usage, "--loop: give --frames, two at least");
+    if (options.tile && output.video())
+        return fail(ErrorCode::usage, "--tile: the frames of a video are drawn whole");
+    if (options.timeout && !(*options.timeout > 0))
+        return fail(ErrorCode::usage, "--timeout: give a number of seconds above 0");
+    if (options.json && output.standard_output())
+        return fail(ErrorCode::usage, "--json and -o - both want standard output: give one of them");
+    if (std::max(extent.width, extent.height) > render::k_largest_tiled_side)
+        return fail(ErrorCode::usage, fmt::format("--size {}x{}: a side has at most {} pixels", extent.width,
+                                                  extent.height, render::k_largest_tiled_side));
+    return {};
+}
+
+/// Converts the options that do not depend on the scene.
+Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
+    CapturePlan plan;
+    plan.frames =
+        TRY(resolve(options.frames, options.likeness ? options.likeness->sequence : FrameSequence()));
+    std::vector<int>& numbers = plan.frames.frames;
+    if (!options.sheet.empty()) {
+        plan.sheet = TRY(parse_sheet(options.sheet));
+        numbers = TRY(frames_of_sheet(options, plan.frames, *plan.sheet));
+    }
+    const size_t count = plan.sheet ? 1 : std::unordered_set(numbers.begin(), numbers.end()).size();
+    auto output = TRY(options.output ? OutputName::parse(*options.output, count)
+                                     : OutputName::of_scene(options.scene.path, count));
+    plan.output = std::move(output);
+    if (plan.to_picture_files() && !plan.sheet)
+        drop_repeats(numbers);
+    plan.codec = TRY(parse_codec(options.codec, plan.output));
+    const auto depth = TRY(parse_depth(options.depth, plan.output, plan.codec, plan.frames.state.pass));
+    plan.depth = depth;
+    plan.transfer = TRY(parse_transfer(options.transfer, plan));
+    plan.pace = pace_of(numbers, plan.frames.state.fps);
+    plan.exposure = exposure_of(options, plan.depth);
+    plan.alpha = TRY(parse_alpha(options.alpha, plan));
+    plan.layers = TRY(parse_layers(options, plan));
+    const bool keeps_alpha = plan.alpha != Alpha::where_needed;
+    const bool bytes = plan.depth == SampleDepth::u8 && !plan.exposure.several() && !keeps_alpha;
+    plan.drawing = {
+        .extent = plan.frames.state.extent,
+        .samples = bytes ? SampleType::u8 : SampleType::f32,
+        .pass = plan.frames.state.pass,
+        .precision = precision_of(options.scene),
+        .specialise = options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable,
+        .extras = {.passes = options.layers},
+        .marks_non_finite = true,
+        .keeps_alpha = keeps_alpha,
+    };
+    if (plan.output.video())
+        plan.segments = segments_of(numbers, plan.pace, options.state_every);
+    plan.tile_side = options.tile;
+    plan.device = options.device;
+    plan.timeout = options.timeout;
+    plan.request = options.scene;
+    plan.like = options.like;
+    plan.likeness = options.likeness;
+    plan.json = options.json;
+    plan.resume = options.resume;
+    plan.loop = options.loop;
+    plan.state_every = options.state_every;
+    plan.trace_command = [scene = options.scene, frames = plan.frames](const render::FrameState& state) {
+        return trace_command(scene, frames, state);
+    };
+    return check_output(plan, options).map([&] { return std::move(plan); });
+}
+
+/// Refuses to overwrite a file that is read, also for a late frame of a sequence, before the first frame is
+/// drawn.
+Result<void> spare_what_is_read(const CaptureOptions& options, CapturePlan& plan) {
+    std::vector<std::filesystem::path> read = files_read(plan.scene, options.frames);
+    if (!options.like.empty())
+        read.emplace_back(options.like);
+    if (plan.output.standard_output())
+        return {};
+    plan.output.spare(read);
+    if (auto writable = check_writable(plan.output.of_frame(plan.frames.frames.front())); !writable)
+        return writable;
+    for (const std::filesystem::path& file : read)
+        if (const auto frame = frame_of(file, plan.output);
+            frame && std::ranges::find(plan.frames.frames, *frame) != plan.frames.frames.end())
+            TRY(plan.output.of_frame(*frame).place());
+    return {};
+}
+
+Result<void> check_cube(const CapturePlan& plan) {
+    const std::string& name = plan.drawing.pass;
+    const auto shown = std::ranges::find(plan.scene.passes, name.empty() ? plan.scene.image().name : name,
+                                         &scene::Pass::name);
+    const bool other = shown != plan.scene.passes.end() && shown->kind != scene::PassKind::cubemap;
+    if (plan.sheet && shown != plan.scene.passes.end() && !other)
+        return fail(ErrorCode::usage,
+                    "--sheet: a cube is shown as a panorama, which is too large for a cell");
+    if (plan.output.six_faces() && other)
+        return fail(ErrorCode::usage,
+                    fmt::format("-o {}: {{}} stands for a face of a cube: give --pass \"Cube A\"",
+                                plan.output.pattern().string()));
+    return {};
+}
+
+/// With fewer frames a trial of another program does not pay.
+constexpr size_t k_frames_worth_a_trial = 64;
+
+/// Plans a trial of the first and the last frame, in their states of the sequence but with empty buffers.
+/// While a recording changes knobs, they cannot be constants in a program.
+Result<std::optional<PlannedTrial>> plan_trial(const CaptureOptions& options, const CapturePlan& plan) {
+    const std::vector<int>& frames = plan.frames.frames;
+    const bool turned = plan.frames.input && turns_knobs(*plan.frames.input);
+    if (turned && options.allowed_difference)
+        return fail(ErrorCode::usage,
+                    fmt::format("--allow-difference: knobs cannot be constants while {} turns them",
+                                plan.frames.input_file));
+    const bool long_enough = frames.size() >= k_frames_worth_a_trial && !options.timeout;
+    if (options.plain || turned || !(options.allowed_difference || long_enough))
+        return std::nullopt;
+    const int first = plan.scene.passes.size() > 1 ? 0 : frames.front(); // buffers begin at frame 0
+    const render::FrameStates states = states_of(plan.frames);
+    return PlannedTrial{options.allowed_difference ? glsl::Specialise::constants
+                                                   : glsl::Specialise::invariant_uniforms,
+                        {inputs_of(states(first)), inputs_of(states(frames.back())), frames.size(),
+                         options.allowed_difference}};
+}
+
+/// Assigns whole segments of a video to the shard, since segments are encoded separately.
+void take_segments(const Shard& shard, CapturePlan& plan) {
+    for (VideoSegment& segment : plan.segments)
+        segment.others = true;
+    plan.frames.frames.clear();
+    for (const size_t index : segments_of_shard(shard, plan.segments.size(), plan.scene)) {
+        VideoSegment& own = plan.segments[index];
+        own.others = false;
+        plan.frames.frames.insert(plan.frames.frames.end(), own.frames.begin(), own.frames.end());
+    }
+}
+
+/// Reduces the plan to the shard's frames. All shards draw the same program, without a trial.
+Result<void> take_shard(const CaptureOptions& options, CapturePlan& plan) {
+    plan.shard = TRY(parse_shard(options.shard));
+    const std::filesystem::path folder = plan.output.of_frame(0).path().parent_path();
+    TRY(leave_note(OutputPath::typed(folder.empty() ? "." : folder) / k_shard_note,
+                   {options.words, plan.shard->count}));
+    if (plan.output.video())
+        take_segments(*plan.shard, plan);
+    else
+        plan.frames.frames = frames_of(*plan.shard, plan.frames.frames, plan.scene);
+    return {};
+}
+
+CaptureOptions sized(CaptureOptions options, const scene::Scene& scene) {
+    options.frames = sized(std::move(options.frames), scene);
+    return options;
+}
+
+} // namespace
+
+Result<CapturePlan> plan_capture(const CaptureOptions& options) {
+    auto plan = plan_of_options(options);
+    if (!plan)
+        return plan;
+    auto scene = TRY(load(options.scene, plan->frames));
+    if (scene.size && !options.frames.size && !options.likeness)
+        plan = TRY(plan_of_options(sized(options, scene)));
+    plan->scene = std::move(scene);
+    TRY(spare_what_is_read(options, *plan));
+    TRY(check_cube(*plan));
+    if (!options.shard.empty())
+        TRY(take_shard(options, *plan));
+    else
+        plan->trial = TRY(plan_trial(options, *plan));
+    return plan;
+}
+
+Result<std::string> parse_codec(const std::string& text, const OutputName& output) {
+    if (text.empty())
+        return text;
+    const auto codecs = output.video() ? image::codecs_of(output.pattern()) : std::vector<std::string_view>();
+    if (codecs.empty())
+        return fail(ErrorCode::usage, fmt::format("--codec {}: give an .mp4, an .mkv or a .webm", text));
+    if (std::ranges::find(codecs, text) == codecs.end())
+        return fail(ErrorCode::usage,
+                    fmt::format("--codec {}: a {} holds {}", text, output.pattern().extension().string(),
+                                fmt::join(codecs, ", ")));
+    return text;
+}
+
+Transfer drawn_transfer(const std::string& pass) {
+    return pass.empty() || pass == "Image" ? Transfer::srgb : Transfer::data;
+}
+
+bool can_be_resumed(const CapturePlan& plan) {
+    return !plan.sheet && check_resume(plan.output).has_value();
+}
+
+std::string words_on_resuming(const CapturePlan& plan, size_t whole_frames) {
+    if (whole_frames == 0 || !can_be_resumed(plan))
+        return {};
+    return fmt::format("{} frame{} whole, and the same command with --resume goes on", whole_frames,
+                       whole_frames == 1 ? " is" : "s are");
+}
+
+bool wants_sound(const CaptureOptions& options) {
+    return options.output && std::filesystem::path(*options.output).extension() == ".wav";
+}
+
+Result<SoundPlan> plan_sound(const CaptureOptions& options) {
+    if (options.resume)
+        return fail(ErrorCode::usage, "--resume: a sound is made at once, and whole or not at all");
+    const double duration = options.duration.value_or(k_seconds_of_sound);
+    if (!(duration > 0) || duration > k_longest_sound)
+        return fail(ErrorCode::usage, fmt::format("--duration {}: give seconds above 0, at most {}", duration,
+                                                  k_longest_sound));
+    auto scene = TRY(load(options.scene));
+    OutputPath output = OutputPath::typed(*options.output).sparing(files_read(scene));
+    TRY(check_writable(output));
+    return SoundPlan{std::move(scene), std::move(output), options.device, precision_of(options.scene),
+                     duration};
+}
+
+namespace {
+
+/// Returns the size of the tiles; nothing if frames are drawn whole.
+Result<std::optional<Extent>> choose_tile(const CapturePlan& plan) {
+    const int limit = gl::query_capabilities().largest_target;
+    if (plan.tile_side)
+        return render::tile_of_side(*plan.tile_side, limit).map([](Extent tile) {
+            return std::optional(tile);
+        });
+    const bool whole = plan.output.video() || plan.layers || plan.sheet;
+    const auto tile =
+        whole ? std::nullopt
+              : render::tile_for(plan.drawing.extent, 4 * image::size_of(plan.drawing.samples), limit);
+    return plan.exposure.several() && !tile ? plan.drawing.extent : tile; // one tile, shifted for each sample
+}
+
+/// Rejects options that the compiled scene does not allow.
+Result<void> check_compiled(const CapturePlan& plan, const render::Renderer& renderer) {
+    const auto refuse = [](std::string why) { return fail(ErrorCode::usage, std::move(why)); };
+    if (plan.tile_side && !renderer.tiles())
+        return refuse(fmt::format(
+            "--tile: {} must be drawn whole: it is a cube, a pass reads it, or it discards pixels",
+            renderer.shown_pass().name));
+    if (plan.loop && renderer.tiles() && renderer.tiles()->count() > 1)
+        return refuse("--loop: pictures that are drawn in tiles are never in memory as a whole");
+    if (plan.exposure.several() && renderer.shown_pass().kind != scene::PassKind::image)
+        return refuse("--samples: only Image is a picture; what other passes hold has no mean");
+    if (plan.exposure.several() && !renderer.tiles())
+        return refuse("--samples: Image cannot be drawn again: a pass reads it, or it discards pixels");
+    if (plan.exposure.shutter > 0 && renderer.plan().feedback)
+        return refuse("--shutter: this scene reads its own last frame, so that it has no moments between "
+                      "two frames; --samples alone smooths its edges");
+    return {};
+}
+
+/// Returns the faster of two programs if a trial is planned. No trial in tiles: the picture is too
+/// large to draw it for one.
+Result<Trial> choose_renderer(const CapturePlan& plan, render::RenderOptions drawing) {
+    if (!plan.trial || drawing.tile)
+        return Trial{TRY(render::Renderer::create(plan.scene, drawing))};
+    drawing.specialise = plan.trial->as_far_as;
+    auto trial = TRY(choose_program(plan.scene, drawing, plan.trial->frames));
+    if (!trial.said.empty())
+        say(trial.said);
+    return trial;
+}
+
+Result<Trial> compile_all(const CapturePlan& plan, Interrupt& interrupt) {
+    const Interrupt::Immediate at_once(interrupt);
+    Watchdog watchdog;
+    const Watchdog::Watch watch(watchdog, {"compiling", plan.timeout});
+    const auto tile = TRY(choose_tile(plan));
+    render::RenderOptions drawing = plan.drawing;
+    drawing.tile = tile;
+    auto compiled = TRY(choose_renderer(plan, drawing));
+    TRY(check_compiled(plan, compiled.renderer));
+    return compiled;
+}
+
+} // namespace
+
+Result<Trial> compile(const CapturePlan& plan, Interrupt& interrupt) {
+    if (!plan.frames.frames.empty())
+        Doing::note_frame(DoingPage::Frame{plan.frames.frames.front(), false});
+    return compile_all(plan, interrupt).map_error([&](Error error) {
+        if (error.code == ErrorCode::no_memory && !plan.frames.frames.empty())
+            error.message += fmt::format(" (before frame {})", plan.frames.frames.front());
+        return error;
+    });
+}
+
+} // namespace tidemark::cli

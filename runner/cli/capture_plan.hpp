@@ -1,0 +1,151 @@
+// The options of `tidemark capture`, and the plan made from them: the scene, its frames, how they are drawn
+// and where they go. Errors in the command line are found here, except those that only the driver or the
+// compiled scene shows; later code uses the plan, not the options.
+#pragma once
+
+#include "cli/capture_frames.hpp"
+#include "host/command_line.hpp"
+#include "host/devices.hpp"
+#include "host/frame_files.hpp"
+#include "host/program_trial.hpp"
+#include "host/requests.hpp"
+#include "host/supervision.hpp"
+#include "media/picture_file.hpp"
+#include "render/exposure.hpp"
+#include "render/renderer.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tidemark::cli {
+
+/// The metadata of the picture that `--like` names.
+struct Likeness {
+    FrameSequence sequence;
+    std::string fingerprint; ///< Fingerprint::text
+};
+
+struct CaptureOptions {
+    SceneRequest scene;
+    FrameOptions frames;
+    std::string like; ///< a picture; empty: none
+    std::optional<Likeness> likeness{};
+    std::optional<std::string> output;
+    std::string depth;
+    std::string transfer;
+    bool layers = false;
+    std::string alpha;
+    std::string codec;
+    platform::DeviceChoice device{};
+    std::optional<double> timeout;
+    std::string sheet;
+    std::optional<double> duration; ///< seconds
+    bool plain = false;
+    std::optional<double> allowed_difference;
+    std::optional<int> tile;
+    std::optional<int> samples;
+    std::optional<double> shutter;
+    bool json = false;
+    bool resume = false;
+    bool loop = false;
+    int state_every = 0;
+    std::string shard;
+    std::vector<std::string> words{}; ///< the arguments, without --shard, --resume and --json
+};
+
+/// A trial of a program with stronger optimisation than `CapturePlan::drawing` has.
+struct PlannedTrial {
+    glsl::Specialise as_far_as = glsl::Specialise::invariant_uniforms;
+    TrialPlan frames;
+};
+
+/// Frames of a video that are encoded separately.
+struct VideoSegment {
+    std::vector<int> frames;
+    std::vector<int> ticks; ///< for each frame, the number of video ticks that it is shown
+    bool kept = false;      ///< already exists
+    bool others = false;    ///< made by another shard
+
+    bool is_to_be_made() const { return !kept && !others; }
+};
+
+struct CapturePlan {
+    scene::Scene scene;
+    FrameSequence frames;
+    OutputName output;
+    image::SampleDepth depth = image::SampleDepth::u8;
+    image::Transfer transfer = image::Transfer::srgb; ///< of the files
+    image::Alpha alpha = image::Alpha::where_needed;  ///< of Image; where_needed: alpha is 1
+    std::optional<SheetGrid> sheet{};                 ///< its cells are the frames
+    /// Sample depth when all passes are written as layers; nothing: one picture.
+    std::optional<image::SampleDepth> layers{};
+    std::string codec{};                  ///< of a video; empty: the default of its file type
+    VideoPace pace;                       ///< of a video
+    std::vector<VideoSegment> segments{}; ///< of a video: all its frames
+    render::RenderOptions drawing;        ///< for frames drawn whole
+    render::Exposure exposure;
+    std::optional<int> tile_side;
+    std::optional<PlannedTrial> trial;
+    platform::DeviceChoice device;
+    std::optional<double> timeout; ///< seconds for a frame
+    SceneRequest request;          ///< the request that `scene` was loaded with
+    std::string like;              ///< the picture to reproduce; empty: none
+    std::optional<Likeness> likeness{};
+    bool json = false;            ///< print a report of the frames, with the SHA-256 of their pixels
+    bool resume = false;          ///< continue an interrupted capture
+    bool loop = false;            ///< report whether the sequence is a seamless loop
+    int state_every = 0;          ///< frames between two saved states of buffers; 0: none is saved
+    std::optional<Shard> shard{}; ///< the shard that makes `frames`
+    std::vector<int> kept{};      ///< frames that already exist, not in `frames`
+    /// Returns the command that finds where a pixel of that frame becomes NaN or infinite.
+    std::function<std::string(const render::FrameState&)> trace_command;
+
+    bool to_picture_files() const { return !output.standard_output() && !output.video(); }
+};
+
+/// Returns the transfer of a pass's samples as drawn. A buffer's samples are state, not colours.
+image::Transfer drawn_transfer(const std::string& pass);
+
+/// Returns the codec of --codec. Fails (ErrorCode::usage) if a file of that name cannot have it.
+Result<std::string> parse_codec(const std::string& text, const OutputName& output);
+
+/// Returns true if --resume could continue it.
+bool can_be_resumed(const CapturePlan& plan);
+
+/// Returns how to resume a capture that ended after so many whole frames; empty if it would start again.
+std::string words_on_resuming(const CapturePlan& plan, size_t whole_frames);
+
+/// Converts options to a plan. Loads the scene, and prints its warnings.
+Result<CapturePlan> plan_capture(const CaptureOptions& options);
+
+/// The sound of a scene instead of its pictures.
+struct SoundPlan {
+    scene::Scene scene;
+    OutputPath output;
+    platform::DeviceChoice device;
+    glsl::Precision precision = glsl::Precision::single;
+    double duration = 60; ///< seconds
+};
+
+/// Returns true if the output is a .wav file.
+bool wants_sound(const CaptureOptions& options);
+Result<SoundPlan> plan_sound(const CaptureOptions& options);
+
+// Compiles the programs that draw a plan, with tiles for large frames, and the faster of two programs if a
+// trial is planned.
+
+/// A context must be current. The plan's `timeout` applies.
+Result<Trial> compile(const CapturePlan& plan, Interrupt& interrupt);
+
+// The options of `tidemark capture`, for other code that parses its command line.
+
+struct CaptureOptions;
+
+void add_capture_options(Command command, CaptureOptions& options);
+
+/// Adds --codec, for every command that makes videos.
+void add_codec_option(Command command, std::string& codec);
+
+} // namespace tidemark::cli

@@ -1,0 +1,216 @@
+#include "cli/check.hpp"
+
+#include "base/error.hpp"
+#include "cli/check_report.hpp"
+#include "cli/commands.hpp"
+#include "host/console.hpp"
+#include "host/diagnostics.hpp"
+#include "host/gl_context.hpp"
+#include "host/json.hpp"
+#include "host/requests.hpp"
+#include "host/scene_report.hpp"
+#include "host/supervision.hpp"
+#include "host/version.hpp"
+#include "shader/portability.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <memory>
+
+namespace tidemark::cli {
+namespace {
+
+Json json_of(const Diagnostic& diagnostic) {
+    return {{"file", diagnostic.where.file},
+            {"line", diagnostic.where.line},
+            {"column", diagnostic.where.column},
+            {"message", diagnostic.message}};
+}
+
+} // namespace
+
+Result<int> check_portable(const SceneRequest& request, const platform::DeviceChoice& device, bool as_json) {
+    const auto scene = TRY(load(request));
+    std::vector<Diagnostic> found = glsl::portability_lint(scene);
+    const auto context = platform::HeadlessContext::create(device);
+    if (context)
+        add_site_refusals(scene, found);
+    else
+        say("only the texts were looked at, nothing was compiled: " + to_string(context.error()));
+
+    Json json = {{"tidemark", k_version},
+                 {"scene", scene.file.string()},
+                 {"portable", found.empty()},
+                 {"compiled", context.has_value()},
+                 {"findings", Json::array()}};
+    std::string text = found.empty() ? "nothing found\n" : "";
+    for (const Diagnostic& diagnostic : found) {
+        if (findings_are_diagnostics())
+            say(finding_of(diagnostic, {"portable", "The texts compile on ShaderToy's own site"}));
+        else
+            text += to_string(diagnostic) + '\n';
+        json["findings"].push_back(json_of(diagnostic));
+    }
+    const int code = found.empty() ? 0 : exit_code(ErrorCode::check_failed);
+    return put(as_json ? dump(json, 2) + "\n" : text).map([code] { return code; });
+}
+
+namespace {
+
+/// Places the finding at the operation that produced the value; the message is the first line of the text.
+Finding finding(const TraceFound& run, const scene::Scene& scene) {
+    const SourceLocation where = origin_in(run.json).value_or(SourceLocation{scene.file.string()});
+    return finding_of({where, Severity::error, run.text.substr(0, run.text.find('\n'))},
+                      {"trace", "Every pixel is finite"});
+}
+
+Result<int> report(const TraceFound& run, const TraceOptions& options, const scene::Scene& scene) {
+    Json json = {{"tidemark", k_version}, {"scene", scene.file.string()}, {"finite", !run.found}};
+    json["trace"] = run.json;
+    json["ended"] = run.ended;
+    std::string text = run.found ? run.text
+                       : options.hidden
+                           ? "every pixel is finite, and no operation gave NaN\n"
+                           : "every pixel is finite; --hidden looks for a NaN that was masked on "
+                             "the way\n";
+    if (!run.ended.empty())
+        text += fmt::format("  note: {}: the above is incomplete\n", run.ended);
+    if (findings_are_diagnostics()) {
+        text.clear();
+        if (run.found)
+            say(finding(run, scene));
+    }
+    const int code = run.found ? exit_code(ErrorCode::check_failed) : 0;
+    return put(options.json ? dump(json, 2) + "\n" : text).map([code] { return code; });
+}
+
+} // namespace
+
+Result<int> check_trace(const TraceOptions& options) {
+    const auto frames = TRY(resolve(sized(options.frames, options.scene)));
+    if (frames.frames.size() != 1)
+        return fail(ErrorCode::usage, "--trace looks at one frame: give --frame N or --time T");
+    if (!(options.timeout > 0))
+        return fail(ErrorCode::usage, "--timeout: give a number of seconds above 0");
+    TraceJob job{options.device, {}};
+    if (!options.pixel.empty()) {
+        const auto pixel = TRY(parse_pixel(options.pixel, frames.state.extent));
+        job.request.pixel = lab::PixelPlace{pixel.x, pixel.y};
+    }
+    const auto scene = TRY(load(options.scene, frames));
+    job.request.frame = frames.frames.front();
+    job.request.states = states_of(frames);
+    job.request.hidden = options.hidden;
+    const auto run = TRY(trace_apart(scene, job, options.timeout));
+    return report(run, options, scene);
+}
+
+namespace {
+
+struct CheckOptions {
+    ProbesRequest probes;
+    TraceOptions trace; ///< `scene`, `device` and `json` are copied from the probes' request
+    bool portable = false;
+    bool traced = false;
+    bool mended = false;
+    bool write = false;
+    bool hashes = false;
+    bool list = false;
+};
+
+/// Adds options that all need --trace, which must exist already.
+void add_trace_options(Command command, TraceOptions& options) {
+    const auto before = command.options();
+    add_picture_options(command, options.frames);
+    add_time_options(command, options.frames);
+    command
+        .add_option("--pixel", options.pixel, "The pixel to trace, from the bottom left [the first bad one]")
+        .type_name("X,Y");
+    command.add_flag("--hidden", options.hidden,
+                     "Where all pixels are finite, trace a NaN that a clamp or a condition masked");
+    command.add_option("--timeout", options.timeout, "Give up the trace after so long")
+        .type_name("SECONDS")
+        .capture_default_str();
+    for (const Option& option : command.options())
+        if (std::ranges::find(before, option) == before.end())
+            option.needs("--trace").group("With --trace");
+}
+
+Result<int> trace(const CheckOptions& options) {
+    TraceOptions trace = options.trace;
+    trace.scene = options.probes.scene;
+    trace.device = options.probes.device;
+    trace.json = options.probes.json;
+    return check_trace(trace);
+}
+
+FixOptions fix_options(const CheckOptions& options) {
+    const ProbesRequest& probes = options.probes;
+    return {probes.scene, probes.device,  probes.budget, options.write,
+            probes.json,  options.hashes, probes.output};
+}
+
+} // namespace
+
+void add_check(Command app, Action& chosen) {
+    auto options = std::make_shared<CheckOptions>();
+    Command command =
+        app.add_subcommand("check", "Tells whether a scene's numbers can be trusted, and where not");
+    ProbesRequest& probes = options->probes;
+    add_scene_options(command, probes.scene);
+    command.add_option("--probe", probes.probes, "Only this probe; may be given again [all]")
+        .repeatable()
+        .type_name("NAME");
+    command
+        .add_option("-o,--output", probes.output,
+                    "Folder for index.html, and a picture of each failure and warning")
+        .type_name("FOLDER");
+    command
+        .add_option("--budget", probes.budget,
+                    "Seconds for all of it: what has not answered by then is cut, and is exit 5")
+        .type_name("S")
+        .capture_default_str();
+    add_device_options(command, probes.device);
+    const Option list =
+        command.add_flag("--list", options->list, "What each probe looks at, and nothing else");
+    command.option("SCENE").required(false);
+    command
+        .add_flag("--portable", options->portable, "Instead: what will not compile on ShaderToy's own site")
+        .excludes(list);
+    command
+        .add_flag("--trace", options->traced,
+                  "Instead: where a NaN or an infinity in the picture has its origin")
+        .excludes(list)
+        .excludes("--portable");
+    const Option fix =
+        command.add_flag("--fix", options->mended,
+                         "Instead: cures of what is not finite, undefined or without a value, each "
+                         "drawn before it is offered, as a diff");
+    fix.excludes(list).excludes("--portable").excludes("--trace").excludes("--probe");
+    command.add_flag("--write", options->write, "Writes the cures into the scene's files, one by one")
+        .needs(fix);
+    command
+        .add_flag("--hashes", options->hashes,
+                  "Hashes of large sines, too: the same numbers on every GPU, and another picture")
+        .needs(fix);
+    add_trace_options(command, options->trace);
+    command.add_flag("--json", probes.json, "One JSON object on standard output");
+    command.on_call([options, &chosen] {
+        if (!options->list && options->probes.scene.path.empty())
+            fail_for_missing("SCENE");
+        chosen = [options]() -> Result<int> {
+            Interrupt interrupt;
+            const Interrupt::Immediate at_once(interrupt); // answers printed so far remain
+            return options->list ? list_probes()
+                   : options->portable
+                       ? check_portable(options->probes.scene, options->probes.device, options->probes.json)
+                   : options->traced ? trace(*options)
+                   : options->mended ? check_fix(fix_options(*options))
+                                     : check_probes(options->probes);
+        };
+    });
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,99 @@
+// Formats the trace of a NaN as text and as JSON.
+#pragma once
+
+#include "cli/check.hpp"
+#include "host/devices.hpp"
+#include "host/diagnostics.hpp"
+#include "host/json.hpp"
+#include "lab/nan_trace.hpp"
+#include "lab/probes.hpp"
+#include "scene/scene.hpp"
+
+#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace tidemark::cli {
+
+std::string to_text(const lab::NanTrace& trace);
+nlohmann::ordered_json to_json(const lab::NanTrace& trace);
+
+/// Returns the place of the first operation in the JSON of a trace; nothing if there is none, or if it is not
+/// in a file.
+std::optional<SourceLocation> origin_in(const nlohmann::ordered_json& trace);
+
+// Traces a NaN (lab/nan_trace.hpp) in a child process, so that a crash of the driver or an endless
+// shader is only an error.
+
+/// The pixel or frame to trace, and the device to draw on.
+struct TraceJob {
+    platform::DeviceChoice device{};
+    lab::TraceRequest request;
+};
+
+/// The best result reported before the end.
+struct TraceFound {
+    bool found = false;  ///< something is NaN or infinite
+    std::string text{};  ///< report as text, whole lines
+    Json json{};         ///< report as JSON; null if nothing was found
+    std::string ended{}; ///< why the trace is incomplete; empty: it is complete
+};
+
+/// Traces in a child process; call it before this process has a context (host/forked.hpp). Fails if the scene
+/// does not compile, or if nothing was found in time.
+Result<TraceFound> trace_apart(const scene::Scene& scene, const TraceJob& job, double seconds);
+
+// The result of one probe, and its JSON form, by which the child process sends it to its parent.
+
+struct ProbeResult {
+    const lab::Probe* probe;
+    lab::Answer answer; ///< without its picture, which is in a file
+    double seconds = 0;
+    std::filesystem::path picture{}; ///< empty: no picture was written
+    /// The origin of a NaN or infinity, or why it is unknown: as text with whole lines, and as JSON.
+    std::string trace{};
+    Json trace_json{};
+};
+
+Json to_json(const ProbeResult& asked);
+ProbeResult result_of(const Json& line);
+
+// Formats the results of probes as text, as JSON and as findings.
+
+/// Returns true for a failure or a warning.
+bool is_finding(const lab::Answer& answer);
+
+/// Returns the command that draws the frame in which a probe found something; empty if it found nothing, or
+/// in no particular frame.
+std::string reproduction(const ProbesRequest& request, const ProbeResult& asked);
+
+/// Returns the counts, for example `2 fail, 1 warn, 14 pass, 12 n/a`.
+std::string counted(std::span<const ProbeResult> all);
+
+/// Returns a result with all its details; empty for those that are listed in `summary`.
+std::string row(const ProbesRequest& request, const ProbeResult& asked);
+
+/// Returns the same for --diagnostics, placed at the operation that a trace found, otherwise at the pass's
+/// mainImage.
+Finding finding(const scene::Scene& scene, const ProbeResult& asked);
+
+/// Returns the probes that did not apply or were cut, one line for each reason, and the counts; `seconds` is
+/// the total time.
+std::string summary(std::span<const ProbeResult> all, double seconds);
+
+/// Returns all results as JSON.
+std::string report(const ProbesRequest& request, std::span<const ProbeResult> all);
+
+/// Returns the exit code of the command: a failure takes precedence over probes that were cut.
+int exit_code(std::span<const ProbeResult> all);
+
+// The page of `tidemark check -o`: failures first, each with its picture and the command that draws it.
+// Returns text; pictures are read from the files written before.
+
+std::string verdict_page(const ProbesRequest& request, std::span<const ProbeResult> all, double seconds);
+
+} // namespace tidemark::cli

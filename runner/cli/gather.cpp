@@ -1,0 +1,398 @@
+// Checks whether the frames that shards made are one sequence: all present, complete, and with one
+// fingerprint.
+
+#include "base/error.hpp"
+#include "base/folders.hpp"
+#include "cli/capture_frames.hpp"
+#include "cli/capture_output.hpp"
+#include "cli/capture_plan.hpp"
+#include "cli/capture_resume.hpp"
+#include "cli/capture_run.hpp"
+#include "cli/commands.hpp"
+#include "host/command_line.hpp"
+#include "host/console.hpp"
+#include "host/fingerprint.hpp"
+#include "host/gl_context.hpp"
+#include "host/moment.hpp"
+#include "host/scene_report.hpp"
+#include "media/file_samples.hpp"
+#include "media/picture_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tidemark::cli {
+
+struct Gathered {
+    std::vector<std::string> wrong;          ///< messages, one line each
+    std::map<std::string, size_t> devices{}; ///< devices that drew frames, and their number of frames
+    bool drawn_here = true;                  ///< by a device like this machine's
+};
+
+/// Checks the whole plan, not one shard. `run` is the fingerprint that this machine would draw with.
+Gathered gathered(const CapturePlan& plan, const Fingerprint& run, int shards);
+
+// Checks the output of a capture's shards against their common plan: whether every frame exists, is complete,
+// and was drawn by one program on one kind of device, and whether this machine draws the same. Then makes a
+// video of it on request.
+
+struct GatherOptions {
+    std::filesystem::path folder;
+    std::optional<std::string> video;
+    std::string codec{};          ///< of the video; empty: the default of its file type
+    int samples = 3;              ///< frames that are drawn again for comparison
+    double tolerance = 2.0 / 255; ///< of a sample, if another device drew the frames
+};
+
+/// Returns exit code 1 if something is missing or different.
+Result<int> gather(const GatherOptions& options);
+
+namespace {
+
+/// Frames with the same problem, with the file of the first one.
+struct Wrong {
+    std::string what;
+    std::string first;
+    size_t count = 0;
+};
+
+/// Returns the problem of one file; empty if there is none.
+std::string look_at(const std::filesystem::path& file, const Fingerprint& wanted, Gathered& gathered) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        return "missing";
+    const auto metadata = image::read_metadata(file);
+    if (!metadata)
+        return "not whole: " + metadata.error();
+    const std::string* text = image::find(*metadata, k_fingerprint);
+    if (!text)
+        return "without a fingerprint";
+    const Fingerprint found = Fingerprint::parse(*text);
+    const std::string* device = image::find(*metadata, "Driver");
+    ++gathered.devices[device ? *device : "an unknown device"];
+    gathered.drawn_here &= wanted.on_device_of(found) == wanted;
+    const std::string others = wanted.on_device_of(found).differences(found);
+    return others.empty() ? "" : "drawn with " + others;
+}
+
+void note(std::vector<Wrong>& all, std::string what, const std::string& file) {
+    const auto known = std::ranges::find(all, what, &Wrong::what);
+    if (known != all.end())
+        ++known->count;
+    else
+        all.push_back({std::move(what), file, 1});
+}
+
+/// Returns the problem of one segment of a video; empty if there is none.
+std::string look_at_segment(const std::filesystem::path& file, const Fingerprint& wanted,
+                            Gathered& gathered) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        return "missing";
+    const auto note = image::note_of_segment(file);
+    if (!note)
+        return "not whole";
+    const Fingerprint found = Fingerprint::parse(*note);
+    const bool here = wanted.on_device_of(found) == wanted;
+    ++gathered.devices[here ? "this device" : fmt::format("device {}", found.device())];
+    gathered.drawn_here &= here;
+    const std::string others = wanted.on_device_of(found).differences(found);
+    return others.empty() ? "" : "drawn with " + others;
+}
+
+int shard_of_segment(const CapturePlan& plan, int shards, const std::string& file) {
+    for (int index = 0; index < shards; ++index)
+        for (const int segment : segments_of_shard({index, shards}, plan.segments.size(), plan.scene))
+            if (segment_file(plan.output, size_t(segment)).path().string() == file)
+                return index + 1;
+    return 0;
+}
+
+/// Returns the number of the shard that makes the frame of this file.
+int shard_of(const CapturePlan& plan, int shards, const std::string& file) {
+    for (int index = 0; index < shards; ++index)
+        for (const int frame : frames_of({index, shards}, plan.frames.frames, plan.scene))
+            for (const auto& made : files_of(plan.output, frame))
+                if (made.string() == file)
+                    return index + 1;
+    return 0;
+}
+
+void count_devices(Gathered& result, std::string_view what) {
+    if (result.devices.size() > 1)
+        for (const auto& [device, count] : result.devices)
+            result.wrong.push_back(fmt::format("{} {} were drawn by {}", count, what, device));
+}
+
+Gathered gathered_segments(const CapturePlan& plan, const Fingerprint& run, int shards) {
+    Gathered result;
+    std::vector<Wrong> all;
+    Progress progress("segments looked at", plan.segments.size());
+    for (size_t i = 0; i < plan.segments.size(); ++i, progress.advance()) {
+        const auto file = segment_file(plan.output, i).path();
+        const Fingerprint wanted = Fingerprint::parse(note_of(plan, plan.segments[i], run));
+        if (auto what = look_at_segment(file, wanted, result); !what.empty())
+            note(all, std::move(what), file.string());
+    }
+    for (const auto& [what, first, count] : all)
+        result.wrong.push_back(fmt::format("{} of {} segments: {}, {} first (shard {}/{})", count,
+                                           plan.segments.size(), what, first,
+                                           shard_of_segment(plan, shards, first), shards));
+    std::error_code ignored;
+    if (result.devices.empty() && std::filesystem::exists(plan.output.pattern(), ignored))
+        result.wrong.push_back(
+            fmt::format("{} is there, and none of its segments: where it was joined before, "
+                        "nothing is left to do",
+                        plan.output.pattern().string()));
+    count_devices(result, "segments");
+    return result;
+}
+
+} // namespace
+
+Gathered gathered(const CapturePlan& plan, const Fingerprint& run, int shards) {
+    if (plan.output.video())
+        return gathered_segments(plan, run, shards);
+    Gathered result;
+    std::vector<Wrong> all;
+    const render::FrameStates states = states_of(plan.frames);
+    Progress progress("frames looked at", plan.frames.frames.size());
+    for (const int frame : plan.frames.frames) {
+        for (const std::filesystem::path& file : files_of(plan.output, frame))
+            if (auto what = look_at(file, run.of_frame(states(frame)), result); !what.empty())
+                note(all, std::move(what), file.string());
+        progress.advance();
+    }
+    for (const auto& [what, first, count] : all)
+        result.wrong.push_back(fmt::format("{} of {} frames: {}, {} first (shard {}/{})", count,
+                                           plan.frames.frames.size(), what, first,
+                                           shard_of(plan, shards, first), shards));
+    count_devices(result, "frames");
+    return result;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<CaptureOptions> options_of(const ShardNote& note, const fs::path& file) {
+    CaptureOptions options;
+    if (auto parsed =
+            parse_words([&](Command command) { add_capture_options(command, options); }, note.words);
+        !parsed)
+        return fail(ErrorCode::load, fmt::format("'{}': {}", file.string(), parsed.error().message));
+    return options;
+}
+
+/// Returns the plan that all shards share.
+Result<CapturePlan> shared_plan(const GatherOptions& options, const ShardNote& note) {
+    const fs::path file = options.folder / k_shard_note;
+    const CaptureOptions capture = TRY(options_of(note, file));
+    CapturePlan plan = TRY(plan_capture(capture));
+    std::error_code ignored;
+    const fs::path folder = plan.output.of_frame(0).path().parent_path();
+    if (!fs::equivalent(folder.empty() ? "." : folder, options.folder, ignored))
+        return fail(ErrorCode::usage,
+                    fmt::format("'{}' was written for '{}': run gather where the shards were run",
+                                file.string(), plan.output.pattern().string()));
+    plan.output.came_from_a_file();
+    plan.trial.reset(); // shards make none
+    return plan;
+}
+
+/// Selects frames evenly; if frames may depend on earlier ones, only the first.
+std::vector<int> sample_of(const CapturePlan& plan, int count) {
+    return evenly(plan.frames.frames, size_t(may_feed_back(plan.scene) ? std::min(count, 1) : count));
+}
+
+/// Returns the largest difference of a sample, 0..1 for pictures of bytes; infinite if sizes differ.
+double difference_of(const image::Image& a, const image::Image& b) {
+    if (a.extent != b.extent || a.channels != b.channels)
+        return std::numeric_limits<double>::infinity();
+    const auto floats = [](const image::Image& image) {
+        image::Image wide(image.extent, image.channels, image::SampleType::f32);
+        wide.bytes = image::file_samples(image, image::SampleDepth::f32);
+        return wide;
+    };
+    const image::Image x = floats(a);
+    const image::Image y = floats(b);
+    double largest = 0;
+    for (size_t i = 0; i < x.samples(); ++i)
+        if (const double d = std::abs(double(x.f32()[i]) - double(y.f32()[i])); !(d <= largest))
+            largest = d;
+    return largest;
+}
+
+/// Draws the plan's sample of frames into another folder; returns the plan for it.
+Result<CapturePlan> draw_sample(const CapturePlan& whole, int count, const fs::path& folder,
+                                Interrupt& interrupt) {
+    CapturePlan plan = whole;
+    plan.frames.frames = sample_of(whole, count);
+    const std::string name =
+        (whole.output.six_faces() ? "%d_{}" : "%d") + whole.output.pattern().extension().string();
+    plan.output = TRY(OutputName::parse((folder / name).string(), plan.frames.frames.size()));
+    auto compiled = TRY(compile(plan, interrupt));
+    Capture run(plan, fingerprint_of_run(plan, gl::query_capabilities()), compiled);
+    if (!TRY(run.run(interrupt)))
+        return fail(ErrorCode::check_failed, "interrupted before the frames were compared");
+    return plan;
+}
+
+/// Draws the sample again and returns the differences as messages; prints a message if there is none.
+Result<std::vector<std::string>> compare_sample(const GatherOptions& options, const CapturePlan& whole,
+                                                bool drawn_here, Interrupt& interrupt) {
+    const ScratchFolder scratch;
+    const CapturePlan again = TRY(draw_sample(whole, options.samples, scratch.path(), interrupt));
+    const double allowed = drawn_here ? 0 : options.tolerance;
+    std::vector<std::string> wrong;
+    double largest = 0;
+    for (const int frame : again.frames.frames)
+        for (size_t i = 0; i < files_of(again.output, frame).size(); ++i) {
+            const fs::path made = files_of(whole.output, frame)[i];
+            const image::Image theirs = TRY(image::read_picture(made));
+            const image::Image ours = TRY(image::read_picture(files_of(again.output, frame)[i]));
+            const double difference = difference_of(theirs, ours);
+            largest = std::max(largest, difference);
+            if (!(difference <= allowed))
+                wrong.push_back(fmt::format("{} is drawn otherwise here: a sample differs by {:.3g}",
+                                            made.string(), difference));
+        }
+    if (wrong.empty())
+        say(fmt::format("{} of them drawn again: {}", again.frames.frames.size(),
+                        drawn_here
+                            ? "the same pixels"
+                            : fmt::format("on another device, the largest difference is {:.3g}", largest)));
+    return wrong;
+}
+
+/// Converts a picture to four channels of the same type, as encoders require.
+image::Image for_video(const image::Image& picture) {
+    if (picture.channels == 4)
+        return picture;
+    image::Image rgba(picture.extent, 4, picture.type);
+    const size_t colours = picture.channels < 3 ? 1 : 3, sample = image::size_of(picture.type);
+    const float one = 1;
+    const uint8_t most = 255;
+    const void* const opaque = picture.type == image::SampleType::u8 ? static_cast<const void*>(&most) : &one;
+    for (size_t pixel = 0; pixel < rgba.extent.pixels(); ++pixel) {
+        const std::byte* const from = &picture.bytes[pixel * size_t(picture.channels) * sample];
+        std::byte* const to = &rgba.bytes[4 * pixel * sample];
+        for (size_t channel = 0; channel < 3; ++channel)
+            std::memcpy(to + channel * sample, from + channel % colours * sample, sample);
+        std::memcpy(to + 3 * sample, picture.has_alpha() ? from + colours * sample : opaque, sample);
+    }
+    return rgba;
+}
+
+Result<void> make_video(const CapturePlan& pictures, const GatherOptions& options, const Fingerprint& run,
+                        Interrupt& interrupt) {
+    const std::string& name = *options.video;
+    CapturePlan plan = pictures;
+    plan.output = TRY(OutputName::parse(name, plan.frames.frames.size()));
+    if (!plan.output.video() || pictures.output.six_faces())
+        return fail(ErrorCode::usage,
+                    fmt::format("-o {}: give an .mp4, an .mkv, a .webm, a .mov, a .gif or a .webp", name));
+    plan.codec = TRY(parse_codec(options.codec, plan.output));
+    if (plan.alpha != image::Alpha::where_needed &&
+        !image::video_holds_alpha(plan.output.pattern(), plan.codec, plan.alpha))
+        return fail(ErrorCode::usage,
+                    fmt::format("-o {}: the frames have an alpha that it cannot hold: give a .mov", name));
+    if (plan.alpha == image::Alpha::premultiplied)
+        plan.alpha = image::Alpha::straight; // in files, alpha is straight
+    plan.segments = segments_of(plan.frames.frames, plan.pace, 0);
+    const auto sound = draw_sound_of_video(plan, interrupt);
+    std::optional<SegmentedVideo> video;
+    for (const int frame : plan.frames.frames) {
+        const image::Image picture = TRY(image::read_picture(pictures.output.of_frame(frame).path()));
+        if (!video)
+            video.emplace(TRY(SegmentedVideo::create(plan, run, picture.extent)));
+        TRY(video->push(for_video(picture)));
+    }
+    TRY(video->finish(sound ? sound->path() : fs::path()));
+    say(fmt::format("wrote {}: {} frames", name, plan.frames.frames.size()));
+    return {};
+}
+
+/// Joins the segments that the shards made. They are not drawn again for comparison, which would require
+/// decoding.
+Result<void> join_video(const GatherOptions& options, const CapturePlan& plan, const Fingerprint& run,
+                        Interrupt& interrupt) {
+    const std::string name = plan.output.pattern().string();
+    if (options.video)
+        return fail(ErrorCode::usage,
+                    fmt::format("-o {}: the shards made segments of '{}', which they are joined to: leave it "
+                                "out",
+                                *options.video, name));
+    const auto sound = draw_sound_of_video(plan, interrupt);
+    TRY(join(plan, run, sound ? sound->path() : fs::path()));
+    say(fmt::format("wrote {}: {} frames", name, plan.frames.frames.size()));
+    StagedFile::remove_abandoned(segment_file(plan.output, 0), StagedFile::Machines::all);
+    return {};
+}
+
+int report(const std::vector<std::string>& wrong) {
+    for (const std::string& line : wrong)
+        say(line);
+    return exit_code(ErrorCode::check_failed);
+}
+
+} // namespace
+
+Result<int> gather(const GatherOptions& options) {
+    Interrupt interrupt;
+    const ShardNote note = TRY(read_note(options.folder / k_shard_note));
+    const CapturePlan plan = TRY(shared_plan(options, note));
+    const auto context = TRY(platform::HeadlessContext::create(plan.device));
+    const Fingerprint run = fingerprint_of_run(plan, gl::query_capabilities());
+    const Gathered found = gathered(plan, run, note.count);
+    if (!found.wrong.empty())
+        return report(found.wrong);
+    say(fmt::format("{} frames are there, whole and with one fingerprint, drawn by {}",
+                    plan.frames.frames.size(), found.devices.begin()->first));
+    if (plan.output.video())
+        TRY(join_video(options, plan, run, interrupt));
+    else if (options.samples > 0)
+        if (const auto wrong = TRY(compare_sample(options, plan, found.drawn_here, interrupt));
+            !wrong.empty())
+            return report(wrong);
+    if (options.video && !plan.output.video())
+        TRY(make_video(plan, options, run, interrupt));
+    remove_states(plan.output);
+    for (const OutputPath& file : {plan.output.of_frame(0), state_file(plan.output, 0)})
+        StagedFile::remove_abandoned(file, StagedFile::Machines::all); // no shard is running any more
+    return 0;
+}
+
+void add_gather(Command app, Action& chosen) {
+    auto options = std::make_shared<GatherOptions>();
+    Command command = app.add_subcommand("gather", "Checks what the shards of a capture made, and joins it");
+    command.add_option("FOLDER", options->folder, "That the shards of `capture --shard` wrote into")
+        .required()
+        .check(existing_folder());
+    command
+        .add_option("-o,--output", options->video, "A video of the frames: .mp4 .mkv .webm .mov .gif .webp")
+        .type_name("OUT");
+    add_codec_option(command, options->codec);
+    command.option("--codec").needs("--output");
+    command.add_option("--sample", options->samples, "Frames that are drawn again and compared")
+        .type_name("N")
+        .check(non_negative_number())
+        .capture_default_str();
+    command
+        .add_option("--tolerance", options->tolerance,
+                    "How far a sample may be off where another device drew the frames [2/255]")
+        .type_name("D")
+        .check(non_negative_number());
+    command.on_call([options, &chosen] { chosen = [options] { return gather(*options); }; });
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,396 @@
+// The marching loops that are found in a pass, for `inspect`.
+
+#include "cli/inspect.hpp"
+
+#include "base/error.hpp"
+#include "base/folders.hpp"
+#include "cli/commands.hpp"
+#include "host/command_line.hpp"
+#include "host/console.hpp"
+#include "host/devices.hpp"
+#include "host/gl_context.hpp"
+#include "host/json.hpp"
+#include "host/requests.hpp"
+#include "host/scene_report.hpp"
+#include "host/version.hpp"
+#include "lab/pass_function.hpp"
+#include "render/compiled_scene.hpp"
+#include "render/gl_context.hpp"
+#include "scene/scene.hpp"
+#include "shader/driver_log.hpp"
+#include "shader/pass_reading.hpp"
+#include "shader/shader_source.hpp"
+#include "shader/specialise.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tidemark::cli {
+
+/// Returns one line for each loop; empty if the pass has none or cannot be analysed.
+std::string march_lines(const scene::Scene& scene, const scene::Pass& pass);
+/// Returns [{"file", "line", "kind"}], or {"not_followed": reason}.
+Json marches_of(const scene::Scene& scene, const scene::Pass& pass);
+
+// The size of a scene's compiled passes, in bytes of the driver's own program format and in instructions if
+// its compiler reports them, for each level of specialisation.
+
+struct DriverCode {
+    size_t bytes = 0; ///< 0: the driver has no program binaries
+    std::vector<glsl::InstructionCount> instructions{};
+};
+
+/// The sizes of one pass, for each value of glsl::Specialise.
+using CompiledSizes = std::array<DriverCode, 4>;
+
+/// Gives the driver an empty shader cache, so that it compiles: from its cache it would report no counts.
+/// Construct it before the process has a context.
+class FreshDriverCache {
+public:
+    FreshDriverCache();
+
+private:
+    ScratchFolder folder_;
+};
+
+/// Returns the sizes of each pass of the scene; nothing for a pass that does not link. A context must be
+/// current.
+std::vector<std::optional<CompiledSizes>> compiled_sizes(const scene::Scene& scene,
+                                                         glsl::Precision precision);
+
+std::string to_lines(const CompiledSizes& sizes);
+nlohmann::ordered_json to_json(const CompiledSizes& sizes);
+
+std::string march_lines(const scene::Scene& scene, const scene::Pass& pass) {
+    const auto function = lab::PassFunction::create(scene, pass);
+    std::string text;
+    if (!function)
+        return text;
+    for (const ir::MarchingLoop& loop : function->loops()) {
+        const SourceLocation where = function->locate(loop.line);
+        text += fmt::format(
+            "  march     {}:{}: {}, leaves here where it is near the surface\n", where.file, where.line,
+            loop.kind == ir::MarchingLoop::Kind::sphere_tracing ? "steps by the distance (sphere tracing)"
+                                                                : "steps that the distance does not choose");
+    }
+    return text;
+}
+
+Json marches_of(const scene::Scene& scene, const scene::Pass& pass) {
+    const auto function = lab::PassFunction::create(scene, pass);
+    if (!function)
+        return {{"not_followed", function.error().message}};
+    Json loops = Json::array();
+    for (const ir::MarchingLoop& loop : function->loops()) {
+        const SourceLocation where = function->locate(loop.line);
+        loops.push_back({{"file", where.file},
+                         {"line", where.line},
+                         {"kind", loop.kind == ir::MarchingLoop::Kind::sphere_tracing ? "sphere tracing"
+                                                                                      : "fixed step"}});
+    }
+    return loops;
+}
+
+namespace {
+
+using glsl::Specialise;
+
+constexpr const char* k_cache_variable = "MESA_SHADER_CACHE_DIR";
+
+const DriverCode& of(const CompiledSizes& sizes, Specialise how) {
+    return sizes[size_t(how)];
+}
+
+/// The program is deleted on return: a driver that still has an equal one would not compile the next.
+std::optional<DriverCode> code_of(const scene::Scene& scene, const scene::Pass& pass,
+                                  glsl::Precision precision, Specialise how) {
+    gl::CompilerMessages messages;
+    const auto linked = render::link_pass(scene, pass, {precision, how});
+    if (!linked)
+        return std::nullopt;
+    DriverCode code{linked->program.binary().bytes.size()};
+    for (const std::string& message : messages.take())
+        if (auto count = glsl::read_instruction_count(message))
+            code.instructions.push_back(*std::move(count));
+    return code;
+}
+
+std::optional<CompiledSizes> sizes_of(const scene::Scene& scene, const scene::Pass& pass,
+                                      glsl::Precision precision) {
+    CompiledSizes sizes;
+    for (size_t i = 0; i < sizes.size(); ++i) {
+        auto code = code_of(scene, pass, precision, Specialise(i));
+        if (!code)
+            return std::nullopt;
+        // A driver that reported counts before and reports none now reuses code that it compiled before.
+        if (code->instructions.empty() && i > 0)
+            code->instructions = sizes[i - 1].instructions;
+        sizes[i] = *std::move(code);
+    }
+    return sizes;
+}
+
+Json code_json(const DriverCode& code) {
+    Json instructions = Json::object();
+    for (const auto& [shader, count] : code.instructions)
+        instructions[shader] = count;
+    return {{"bytes", code.bytes ? Json(code.bytes) : Json()}, {"instructions", instructions}};
+}
+
+std::string counts_of(const DriverCode& code) {
+    std::vector<std::string> counts;
+    for (const auto& [shader, count] : code.instructions)
+        counts.push_back(fmt::format("{} {}", shader, count));
+    return fmt::format("{}", fmt::join(counts, ", "));
+}
+
+std::string bytes_of(const DriverCode& code) {
+    return fmt::format("{}", code.bytes);
+}
+
+/// Formats one figure of the four levels as a line.
+std::string to_line(std::string_view what, const CompiledSizes& sizes,
+                    std::string (*figure)(const DriverCode&)) {
+    return fmt::format(
+        "  {}: {}; of the whole text {}, in a long sequence {}, with constant knobs {}\n", what,
+        figure(of(sizes, Specialise::unreachable)), figure(of(sizes, Specialise::nothing)),
+        figure(of(sizes, Specialise::invariant_uniforms)), figure(of(sizes, Specialise::constants)));
+}
+
+} // namespace
+
+FreshDriverCache::FreshDriverCache() {
+    if (folder_.path().empty())
+        return;
+    ::setenv(k_cache_variable, folder_.path().c_str(), 1);
+    platform::do_without_full_driver_cache();
+}
+
+std::vector<std::optional<CompiledSizes>> compiled_sizes(const scene::Scene& scene,
+                                                         glsl::Precision precision) {
+    std::vector<std::optional<CompiledSizes>> sizes;
+    for (const scene::Pass& pass : scene.passes)
+        sizes.push_back(pass.kind == scene::PassKind::sound ? std::nullopt
+                                                            : sizes_of(scene, pass, precision));
+    return sizes;
+}
+
+std::string to_lines(const CompiledSizes& sizes) {
+    std::string text;
+    if (sizes.front().bytes > 0)
+        text += to_line("bytes of program", sizes, bytes_of);
+    if (!sizes.front().instructions.empty())
+        text += to_line("instructions", sizes, counts_of);
+    return text;
+}
+
+Json to_json(const CompiledSizes& sizes) {
+    return {{"plain", code_json(of(sizes, Specialise::nothing))},
+            {"specialised", code_json(of(sizes, Specialise::unreachable))},
+            {"long_sequence", code_json(of(sizes, Specialise::invariant_uniforms))},
+            {"constant_knobs", code_json(of(sizes, Specialise::constants))}};
+}
+
+namespace {
+
+struct InspectOptions {
+    SceneRequest scene;
+    platform::DeviceChoice device{};
+    std::string pass;
+    std::string size = "640x360";
+    std::vector<std::string> with;
+    double budget = 20;
+    bool devices = false;
+    bool self_test = false;
+    bool source = false;
+    bool specialised = false;
+    bool json = false;
+};
+
+Json json_of(const glsl::LeftOut& left_out) {
+    Json json = {{"lines", left_out.lines},
+                 {"branches", left_out.branches},
+                 {"out_of_loops", left_out.loop_invariants}};
+    if (!left_out.anything())
+        json["none_because"] = left_out.kept_whole;
+    return json;
+}
+
+std::string to_line(const glsl::LeftOut& left_out) {
+    if (!left_out.anything())
+        return fmt::format("  code removed: none, because {}\n", left_out.kept_whole);
+    std::string text = fmt::format("  code removed: {} lines", left_out.lines);
+    if (left_out.in_doubt())
+        text += fmt::format("; in a long sequence also {} branches closed, {} expressions taken out of loops",
+                            left_out.branches, left_out.loop_invariants);
+    return text + '\n';
+}
+
+/// One entry per pass.
+using Sizes = std::vector<std::optional<CompiledSizes>>;
+
+Json json_of(const render::Renderer& renderer, const gl::Capabilities& driver, const Sizes& sizes) {
+    const SceneFacts facts = facts_of(renderer);
+    const scene::Scene& scene = renderer.scene();
+    Json json;
+    json["tidemark"] = k_version;
+    json["scene"] = scene.file.string();
+    json["driver"] = driver.version;
+    json["renderer"] = driver.renderer;
+    json["files"] = files_of(scene);
+    json["uniforms"] = facts.uniforms;
+    json["passes"] = Json::array();
+    for (const PassFacts& facts_of_pass : facts.passes) {
+        const scene::Pass& pass = scene.passes[facts_of_pass.pass];
+        Json channels = Json::object();
+        for (const int channel : facts_of_pass.channels)
+            channels[fmt::format("iChannel{}", channel)] = describe(scene, pass.channels[size_t(channel)]);
+        Json& json_of_pass = json["passes"].emplace_back(
+            Json{{"name", pass.name},
+                 {"channels", channels},
+                 {"code_removed",
+                  json_of(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::invariant_uniforms))},
+                 {"marches", marches_of(scene, pass)}});
+        if (const auto& size = sizes[facts_of_pass.pass])
+            json_of_pass["program"] = to_json(*size);
+    }
+    if (scene.size)
+        json["size"] = {scene.size->width, scene.size->height};
+    json["knobs"] = knobs_of(scene);
+    json["definitions"] = definitions_of(scene);
+    add_precision(json, renderer);
+    json["left_out"] = facts.left_out;
+    return json;
+}
+
+std::string to_text(const render::Renderer& renderer, const gl::Capabilities& driver, const Sizes& sizes) {
+    const SceneFacts facts = facts_of(renderer);
+    const scene::Scene& scene = renderer.scene();
+    std::string text =
+        fmt::format("{}\n  driver    {}, OpenGL {}\n", scene.file.string(), driver.renderer, driver.version);
+    text += fmt::format("  uniforms  {}\n", fmt::join(facts.uniforms, ", "));
+    for (const PassFacts& facts_of_pass : facts.passes) {
+        const scene::Pass& pass = scene.passes[facts_of_pass.pass];
+        if (scene.passes.size() > 1)
+            text += fmt::format("  pass      {}\n", pass.name);
+        for (const int channel : facts_of_pass.channels)
+            text +=
+                fmt::format("  iChannel{} {}\n", channel, describe(scene, pass.channels[size_t(channel)]));
+        text += to_line(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::invariant_uniforms));
+        text += march_lines(scene, pass);
+        if (const auto& size = sizes[facts_of_pass.pass])
+            text += to_lines(*size);
+    }
+    text += knob_lines(scene) + definition_lines(scene);
+    text += precision_lines(renderer);
+    for (const std::string& thing : facts.left_out)
+        text += fmt::format("  left out  {}\n", thing);
+    return text;
+}
+
+/// Prints the text of a pass, Image if no name is given.
+Result<int> put_source(const scene::Scene& scene, const std::string& name, glsl::Precision precision,
+                       glsl::Specialise how) {
+    for (const scene::Pass& pass : scene.passes) {
+        if (pass.name != name && !(name.empty() && pass.kind == scene::PassKind::image))
+            continue;
+        const glsl::PassReading reading(scene, pass);
+        const auto assembly = TRY(reading.assemble(reading.dialects(precision).front()));
+        return put_exact(glsl::specialise(assembly.source, scene.knobs, how).source.text()).map([] {
+            return 0;
+        });
+    }
+    return fail(ErrorCode::usage, fmt::format("--pass {}: the scene has no such pass", name));
+}
+
+Result<int> inspect_scene(const InspectOptions& options) {
+    auto scene = TRY(load(options.scene));
+    if (options.source)
+        return put_source(scene, options.pass, precision_of(options.scene),
+                          options.specialised ? glsl::Specialise::invariant_uniforms
+                                              : glsl::Specialise::nothing);
+    if (options.device.name == "none")
+        return put(options.json ? dump(what_files_say(scene), 2) + "\n" : lines_of_files(scene)).map([] {
+            return 0;
+        });
+    const FreshDriverCache fresh;
+    const auto context = TRY(platform::HeadlessContext::create(options.device, platform::DebugContext::yes));
+    render::RenderOptions target;
+    target.pass = options.pass;
+    target.precision = precision_of(options.scene);
+    target.specialise = glsl::Specialise::unreachable;
+    const Sizes sizes = compiled_sizes(scene, target.precision); // before the driver has compiled any of it
+    const auto renderer = TRY(render::Renderer::create(std::move(scene), target));
+    const gl::Capabilities driver = gl::query_capabilities();
+    return put(options.json ? dump(json_of(renderer, driver, sizes), 2) + "\n"
+                            : to_text(renderer, driver, sizes))
+        .map([] { return 0; });
+}
+
+} // namespace
+
+void add_inspect(Command app, Action& chosen) {
+    auto options = std::make_shared<InspectOptions>();
+    Command command = app.add_subcommand("inspect", "Tells what a scene needs and what was left out");
+    add_scene_options(command, options->scene);
+    command.option("SCENE").required(false);
+    add_precision_options(command, options->scene);
+    add_device_options(command, options->device);
+    command.option("--device")
+        .description("Where to draw: a name from --devices; none: without a driver, what the files say");
+    command.add_option("--pass", options->pass, "The pass to look at, as in \"Buffer A\" [Image]")
+        .type_name("NAME");
+    const Option devices = command.add_flag("--devices", options->devices,
+                                            "Lists where OpenGL contexts can be had, and no scene");
+    command
+        .add_flag("--self-test", options->self_test,
+                  "With --devices: what each of them can be trusted with, a verdict a line")
+        .needs(devices);
+    command.add_flag("--source", options->source,
+                     "Prints the text that the driver compiles, and nothing else");
+    const auto things = things_left_out();
+    command
+        .add_option("--with", options->with,
+                    fmt::format("Puts back what was left out and measures what that costs: {}",
+                                fmt::join(things, ", ")))
+        .type_name("THING[,…]")
+        .delimiter(',')
+        .one_word()
+        .check(one_of(things));
+    command.add_option("--size", options->size, "With --with: the picture's size")
+        .type_name("WxH")
+        .capture_default_str();
+    command.add_option("--budget", options->budget, "With --with: seconds to measure for")
+        .type_name("S")
+        .check(number<double>("a number of seconds above 0", 1e-3))
+        .capture_default_str();
+    command
+        .add_flag("--specialised", options->specialised,
+                  "With --source: the text without what the scene does not need, as a long sequence is drawn")
+        .needs("--source");
+    command.add_flag("--json", options->json, "One JSON object on standard output");
+    command.on_call([options, &chosen] {
+        chosen = [options]() -> Result<int> {
+            if (options->devices)
+                return inspect_devices(options->self_test, options->json);
+            if (options->scene.path.empty())
+                return fail(ErrorCode::usage, "inspect: give a SCENE, or --devices");
+            if (!options->with.empty())
+                return inspect_savings({options->scene, options->size, options->pass, options->device,
+                                        options->with, options->budget, options->json});
+            return inspect_scene(*options);
+        };
+    });
+}
+
+} // namespace tidemark::cli

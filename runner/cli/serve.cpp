@@ -1,0 +1,311 @@
+// Browser pages as a Screen: pictures go out as JPEG or VP8, the input of the client in control comes in.
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "cli/commands.hpp"
+#include "cli/viewer_options.hpp"
+#include "host/command_line.hpp"
+#include "host/console.hpp"
+#include "host/gl_context.hpp"
+#include "render/frame_plan.hpp"
+#include "web/audience.hpp"
+#include "web/embedded.hpp"
+#include "web/messages.hpp"
+#include "web/plugin/server.hpp"
+#include "web/request.hpp"
+#include "window/screen.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace tidemark::cli {
+
+class RemoteScreen : public Screen {
+public:
+    struct Settings {
+        serve::ServerSettings server;
+        Extent extent;
+        int quality = 85;  ///< JPEG's, 1 to 100; VP8's is similar
+        bool film = false; ///< VP8 instead of JPEG for clients that can show it
+        bool once = false; ///< closes when the last client has left
+    };
+
+    /// Makes a headless context current and starts to listen. Fails as HeadlessContext and the plug-in do.
+    static Result<std::unique_ptr<RemoteScreen>> open(Settings settings);
+    ~RemoteScreen() override;
+
+    /// Returns the URL for a browser, including the token.
+    std::string address() const;
+    bool is_loopback() const { return server_->is_loopback(); }
+
+    Result<platform::SharedContext> create_context() override { return context_.create_context(); }
+    std::vector<platform::InputEvent> wait(double seconds) override;
+    void wake() override { inbox_.wake(); }
+    bool take(const platform::InputEvent&) override { return false; }
+    live::Commands take_commands() override;
+    bool has(platform::Key key) const override;
+
+    Extent extent() const override { return settings_.extent; }
+    bool is_watched() const override { return encoder_->has_room() && audience_.is_waiting(); }
+    bool wants_frame() const override { return was_asked_; }
+    void begin(const gl::RenderTarget* picture, bool fresh) override;
+    Result<void> finish(live::Model model, const ShownMoment& moment) override;
+
+    void set_title(const std::string& title) override;
+    void set_clipboard(const std::string& text) override;
+    void toggle_full_screen() override {}
+    std::optional<platform::WindowPlace> place() const override { return std::nullopt; }
+    std::shared_ptr<void> when_lost(std::function<void(std::string_view what)>) override { return nullptr; }
+
+private:
+    RemoteScreen(Settings settings, platform::HeadlessContext context);
+    Result<void> listen();
+    void send_picture(const live::Model& model, const ShownMoment& moment);
+
+    Settings settings_;
+    platform::HeadlessContext context_;
+    serve::Inbox inbox_;
+    serve::Audience audience_;
+    std::unique_ptr<serve::Server> server_;
+    std::unique_ptr<serve::Film> film_; ///< used by the encoder
+    std::unique_ptr<serve::PictureEncoder> encoder_;
+    live::Commands commands_;
+    const gl::RenderTarget* picture_ = nullptr; ///< of the scene, between `begin` and `finish`
+    bool fresh_ = false;                        ///< it differs from the picture that was sent last
+    std::optional<size_t> large_;               ///< the large picture that was sent last
+    uint32_t pictures_ = 0;                     ///< number of pictures sent
+    std::string told_;                          ///< the state that clients have
+    bool was_asked_ = false;
+    double woken_at_ = 0; ///< by now_seconds
+};
+
+namespace {
+
+serve::SharedMessage text_message(std::string text) {
+    return std::make_shared<serve::Message>(serve::Message{std::move(text)});
+}
+
+/// Returns a texture as RGBA bytes, whatever its format.
+image::Image read_texture(unsigned texture, Extent extent) {
+    image::Image picture(extent, 4, image::SampleType::u8);
+    glGetTextureImage(texture, 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(picture.bytes.size()),
+                      picture.bytes.data());
+    return picture;
+}
+
+image::Image read_target(const gl::RenderTarget& target) {
+    image::Image picture(target.extent(), 4, image::SampleType::u8);
+    gl::read_pixels(target, GL_RGBA, GL_UNSIGNED_BYTE, picture.bytes);
+    return picture;
+}
+
+} // namespace
+
+RemoteScreen::RemoteScreen(Settings settings, platform::HeadlessContext context)
+    : settings_(std::move(settings)), context_(std::move(context)),
+      audience_({.send = [this](auto viewer, auto message) { server_->send(viewer, std::move(message)); },
+                 .once = settings_.once,
+                 .film = settings_.film},
+                inbox_) {}
+
+/// Stops the threads first: they send through members that are destroyed next.
+RemoteScreen::~RemoteScreen() {
+    if (server_)
+        server_->stop();
+    encoder_.reset();
+}
+
+Result<std::unique_ptr<RemoteScreen>> RemoteScreen::open(Settings settings) {
+    auto context = TRY(platform::HeadlessContext::create());
+    TRY(render::check_size(settings.extent));
+    std::unique_ptr<RemoteScreen> screen(new RemoteScreen(std::move(settings), std::move(context)));
+    TRY(screen->listen());
+    return screen;
+}
+
+Result<void> RemoteScreen::listen() {
+    const serve::ServePlugIn& plug_in = *TRY(serve::load_serve_plug_in());
+    settings_.server.page = serve::k_page;
+    server_ = TRY(plug_in.open(settings_.server));
+    film_ = plug_in.open_film(settings_.quality);
+    encoder_ = std::make_unique<serve::PictureEncoder>(serve::PictureEncoder::Settings{
+        .whole = [encode = plug_in.encode, quality = settings_.quality](
+                     const image::Image& picture) { return encode(picture.extent, picture.bytes, quality); },
+        .film = [this](const image::Image& picture,
+                       bool key) { return film_->encode(picture.extent, picture.bytes, key); },
+        .wanted = [this] { return audience_.wanted(); },
+        .done = [this](serve::NumberedPicture picture) { audience_.show(std::move(picture)); }});
+    server_->start(audience_);
+    return {};
+}
+
+std::string RemoteScreen::address() const {
+    return fmt::format("http://{}/?token={}", server_->place(), settings_.server.token);
+}
+
+std::vector<platform::InputEvent> RemoteScreen::wait(double seconds) {
+    serve::Inbox::Content content = inbox_.wait(seconds);
+    woken_at_ = now_seconds();
+    was_asked_ |= !content.commands.empty();
+    commands_.insert(commands_.end(), std::make_move_iterator(content.commands.begin()),
+                     std::make_move_iterator(content.commands.end()));
+    return std::move(content.events);
+}
+
+live::Commands RemoteScreen::take_commands() {
+    return std::exchange(commands_, {});
+}
+
+/// Returns whether the key works in a page. The others have no use there, or must not act on another machine.
+bool RemoteScreen::has(platform::Key key) const {
+    using platform::Key;
+    switch (key) {
+    case Key::space:
+    case Key::left:
+    case Key::right:
+    case Key::home:
+    case Key::r:
+    case Key::c: return true;
+    default: return key >= Key::digit_0 && key <= Key::digit_9;
+    }
+}
+
+void RemoteScreen::begin(const gl::RenderTarget* picture, bool fresh) {
+    picture_ = picture;
+    fresh_ |= fresh;
+}
+
+Result<void> RemoteScreen::finish(live::Model model, const ShownMoment& moment) {
+    was_asked_ = false;
+    if (picture_ && (fresh_ || model.large != large_))
+        send_picture(model, moment);
+    std::string state = serve::state_text(model, settings_.extent, moment.reads_keyboard);
+    if (state != told_)
+        audience_.tell("state", text_message(state));
+    told_ = std::move(state);
+    return {};
+}
+
+void RemoteScreen::send_picture(const live::Model& model, const ShownMoment& moment) {
+    // An unchanged picture is only read back, so its time counts from the start of this iteration.
+    const double begun = std::exchange(fresh_, false) ? moment.begun : woken_at_;
+    large_ = model.large;
+    const live::PictureField* large = large_ ? &model.pictures[*large_] : nullptr;
+    image::Image picture = large ? read_texture(large->texture, large->extent) : read_target(*picture_);
+    const uint32_t number = 2 * pictures_++ + 1; // the number after it is for the encoder
+    serve::PictureHead head{.number = number, .seconds = moment.seconds, .frame = moment.frame};
+    for (const live::PictureField& field : model.pictures)
+        head.costs.push_back(field.milliseconds);
+    head.draw_ms = (now_seconds() - begun) * 1000;
+    encoder_->push({std::move(picture), std::move(head)});
+}
+
+void RemoteScreen::set_title(const std::string& title) {
+    audience_.tell("title", text_message(serve::line_text("title", title)));
+}
+
+void RemoteScreen::set_clipboard(const std::string& text) {
+    audience_.tell_steering(text_message(serve::line_text("clipboard", text)));
+}
+
+namespace {
+
+/// JPEG's limit of pixels along a side.
+constexpr int k_largest_picture = 65500;
+constexpr const char* k_token_variable = "TIDEMARK_TOKEN";
+
+struct ServeOptions : ViewerOptions {
+    std::string host = "127.0.0.1";
+    int port = 0;
+    std::string token_file;
+    int quality = 85;
+    std::string codec = "jpeg";
+    bool once = false;
+};
+
+/// Returns the token. It cannot be a command line argument, because every user of the machine can read those.
+Result<std::string> token_for(const ServeOptions& options) {
+    std::string token;
+    if (!options.token_file.empty())
+        token = TRY(read_text_file(options.token_file));
+    else if (const char* given = std::getenv(k_token_variable))
+        token = given;
+    else
+        return serve::make_token();
+    token.erase(token.find_last_not_of(" \r\n") + 1);
+    TRY(serve::check_token(token));
+    return token;
+}
+
+/// Prints the address on standard output. It contains the token, so it gives access and must be kept secret.
+Result<void> announce(const RemoteScreen& screen) {
+    if (!screen.is_loopback())
+        say("warning: everybody who can reach this machine can read along: neither the pictures nor the "
+            "token are encrypted. Without --host, `ssh -L` brings them to another machine in private");
+    return put(screen.address() + "\n");
+}
+
+Result<int> serve_scene(const ServeOptions& options) {
+    if (options.host.empty())
+        return fail(ErrorCode::usage,
+                    "--host '': give an address or a name of this machine, as in --host 127.0.0.1; 0.0.0.0 "
+                    "is every address of it");
+    auto frames = TRY(resolve(sized(options.frames, options.scene)));
+    const Extent size = frames.state.extent;
+    if (std::max(size.width, size.height) > k_largest_picture)
+        return fail(ErrorCode::usage,
+                    fmt::format("--size {}x{}: a picture that is sent has at most {} pixels "
+                                "on a side",
+                                size.width, size.height, k_largest_picture));
+    const serve::ServerSettings server{options.host, uint16_t(options.port), TRY(token_for(options)), {}};
+    auto settings = TRY(resolve(options, std::move(frames)));
+    settings.plain = true; // knobs may change at any time
+    settings.controls = true;
+    settings.sounds = false;
+    return show(std::move(settings), [&](const std::string&) -> Result<std::unique_ptr<Screen>> {
+        auto screen =
+            TRY(RemoteScreen::open({server, size, options.quality, options.codec == "vp8", options.once}));
+        TRY(announce(*screen));
+        return screen;
+    });
+}
+
+} // namespace
+
+void add_serve(Command app, Action& chosen) {
+    auto options = std::make_shared<ServeOptions>();
+    Command command =
+        app.add_subcommand("serve", "Shows a scene in browsers, from a machine without a display");
+    add_viewer_options(command, *options);
+    command.add_option("--host", options->host, "Where to listen: an address or a name of this machine")
+        .type_name("HOST")
+        .capture_default_str();
+    command.add_option("--port", options->port, "Where to listen; 0: any that is free")
+        .type_name("N")
+        .check(number<int>("a whole number from 0 to 65535", 0, 65535))
+        .capture_default_str();
+    command
+        .add_option("--token-file", options->token_file,
+                    "Has the address's token, as TIDEMARK_TOKEN may; else one is made")
+        .type_name("FILE");
+    command.add_option("--quality", options->quality, "Of the pictures: JPEG's, from 1 to 100")
+        .type_name("N")
+        .check(number<int>("a whole number from 1 to 100", 1, 100))
+        .capture_default_str();
+    command
+        .add_option("--codec", options->codec,
+                    "jpeg, or vp8: films for browsers that show them, smaller where little moves")
+        .type_name("NAME")
+        .check(one_of({"jpeg", "vp8"}))
+        .capture_default_str();
+    command.add_flag("--once", options->once, "Ends when the last viewer has left");
+    command.on_call([options, &chosen] { chosen = [options] { return serve_scene(*options); }; });
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,216 @@
+// The options of `view` that place its windows.
+
+#include "base/error.hpp"
+#include "cli/commands.hpp"
+#include "cli/viewer_options.hpp"
+#include "host/command_line.hpp"
+#include "window/window.hpp"
+#include "window/window_screen.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace tidemark::cli {
+
+/// The options as typed.
+struct WindowOptions {
+    bool on_top = false;
+    std::optional<int> monitor;
+    std::optional<std::string> position;
+    bool output = false;
+    std::optional<int> output_monitor;
+};
+
+/// Adds --on-top, --monitor, --position, --output-window and --output-monitor.
+void add_window_options(Command command, WindowOptions& options);
+
+/// Returns the placement of the first window.
+Result<platform::WindowWishes> resolve(const WindowOptions& options);
+
+namespace {
+
+/// Bound of plausible screen coordinates, in pixels.
+constexpr int k_farthest_place = 1 << 15;
+
+Result<platform::ScreenPoint> parse_position(const std::string& text) {
+    platform::ScreenPoint point;
+    const char* const end = text.data() + text.size();
+    const auto x = std::from_chars(text.data(), end, point.x);
+    const bool has_two = x.ec == std::errc{} && x.ptr != end && *x.ptr == ',';
+    const auto y = has_two ? std::from_chars(x.ptr + 1, end, point.y) : x;
+    const bool far = std::abs(point.x) > k_farthest_place || std::abs(point.y) > k_farthest_place;
+    if (!has_two || y.ec != std::errc{} || y.ptr != end || far)
+        return fail(
+            ErrorCode::usage,
+            fmt::format("--position {}: give X,Y, the window's left upper corner, as in 100,50", text));
+    return point;
+}
+
+} // namespace
+
+void add_window_options(Command command, WindowOptions& options) {
+    command.add_flag("--on-top", options.on_top, "The window stays above the others");
+    command
+        .add_option("--monitor", options.monitor,
+                    "Opens the window on that monitor, in its middle; 1 is the first")
+        .type_name("N")
+        .check(number<int>("a monitor's number from 1", 1));
+    command
+        .add_option("--position", options.position,
+                    "Left upper corner of the window, on the screen or on the monitor of --monitor")
+        .type_name("X,Y");
+    command.add_flag("--output-window", options.output,
+                     "A second window that shows the picture and nothing else");
+    command
+        .add_option("--output-monitor", options.output_monitor,
+                    "The same, full screen on that monitor; 1 is the first")
+        .type_name("N")
+        .check(number<int>("a monitor's number from 1", 1));
+}
+
+Result<platform::WindowWishes> resolve(const WindowOptions& options) {
+    platform::WindowWishes wishes;
+    wishes.monitor = options.monitor;
+    wishes.on_top = options.on_top;
+    if (options.position)
+        wishes.position = TRY(parse_position(*options.position));
+    return wishes;
+}
+
+namespace {
+
+/// X11's limit: window sizes are signed 16-bit numbers. Larger windows get another size.
+constexpr int k_largest_window = 32767;
+
+struct ViewOptions : ViewerOptions {
+    std::optional<render::RenderScale> scale;
+    std::optional<double> adaptive;
+    bool plain = false;
+    bool fresh = false;
+    WindowOptions window;
+    LiveInputRequest inputs;
+};
+
+/// Returns the saved state of the last window, without what the options override. `sized`: the size is given
+/// by an option or by the file.
+std::optional<Remembered> left_before(const ViewOptions& options, bool sized, FrameSequence& frames) {
+    auto state = recall(options.scene.path);
+    if (!state)
+        return state;
+    if (state->place && !sized)
+        frames.state.extent = state->place->size;
+    if (state->moment && options.frames.camera)
+        state->moment->sequence.state.camera = frames.state.camera;
+    if (state->moment)
+        erase_named(options.scene.sets, state->moment->sequence.state.knobs);
+    return state;
+}
+
+render::RenderScale first_scale(const ViewOptions& options, const std::optional<Remembered>& left) {
+    if (options.scale)
+        return *options.scale;
+    return left && left->scale ? *left->scale : render::RenderScale();
+}
+
+/// Returns the learned MIDI bindings, which also apply while recording and with --fresh.
+std::optional<Remembered> controllers_before(const ViewOptions& options) {
+    auto state = options.inputs.midi ? recall(options.scene.path) : std::nullopt;
+    if (!state)
+        return state;
+    return Remembered{.controllers = std::move(state->controllers)};
+}
+
+Result<int> view(const ViewOptions& options) {
+    const FrameOptions typed = sized(options.frames, options.scene);
+    auto frames = TRY(resolve(typed));
+    const bool remembers = !options.by_frames();
+    auto left = remembers && !options.fresh ? left_before(options, typed.size.has_value(), frames)
+                                            : controllers_before(options);
+    const Extent size = frames.state.extent;
+    if (std::max(size.width, size.height) > k_largest_window)
+        return fail(ErrorCode::usage, fmt::format("--size {}x{}: a window has at most {} pixels on a side",
+                                                  size.width, size.height, k_largest_window));
+    auto wishes = TRY(resolve(options.window));
+    auto settings = TRY(resolve(options, std::move(frames)));
+    settings.scale = first_scale(options, left);
+    settings.adaptive = options.adaptive;
+    settings.plain = options.plain;
+    settings.remembers = remembers;
+    settings.left = std::move(left);
+    if (options.inputs.any())
+        settings.inputs = options.inputs;
+    if (settings.left)
+        wishes.left_at = settings.left->place;
+    std::optional<WindowScreen::Output> second;
+    if (options.window.output || options.window.output_monitor)
+        second = WindowScreen::Output{options.window.output_monitor};
+    return show(std::move(settings),
+                [&](const std::string& title) { return WindowScreen::open(size, title, wishes, second); });
+}
+
+void add_scale_options(Command command, ViewOptions& options) {
+    std::vector<std::string> names;
+    for (const render::RenderScale scale : render::RenderScale::all())
+        names.push_back(scale.name());
+    command
+        .add_option(
+            "--scale",
+            [&options](const std::string& name) { options.scale = render::RenderScale::named(name); },
+            "Pixels that are drawn for one of the window's, along a side, at first [1]")
+        .type_name(fmt::format("{}", fmt::join(names, "|")))
+        .check(one_of(names));
+    command.add_option("--adaptive", options.adaptive, "Changes the scale to hold that frame rate")
+        .type_name("FPS")
+        .check(number<double>("a frame rate from 1 to 1000", 1, 1000))
+        .excludes("--record")
+        .excludes("--input");
+}
+
+void add_live_options(Command command, LiveInputRequest& inputs) {
+    command
+        .add_option(
+            "--osc", inputs.osc,
+            "Listens for OSC at that port of this machine, or at that address: /knob/NAME, /time, /play")
+        .type_name("[HOST:]PORT")
+        .excludes("--input");
+    command
+        .add_option("--midi", inputs.midi,
+                    "Listens to the controllers of a MIDI device: a part of its port's name, or its file")
+        .type_name("PORT|FILE")
+        .excludes("--input");
+    command
+        .add_option("--microphone", inputs.microphone,
+                    "What inputs without a sound file hear: a device of ALSA's, as in --microphone default")
+        .type_name("DEVICE")
+        .excludes("--input");
+    command
+        .add_option("--webcam", inputs.webcam,
+                    "What webcam inputs see: a device, as in --webcam /dev/video0, or a video")
+        .type_name("DEVICE|FILE")
+        .excludes("--input");
+}
+
+} // namespace
+
+void add_view(Command app, Action& chosen) {
+    auto options = std::make_shared<ViewOptions>();
+    Command command =
+        app.add_subcommand("view", "Opens a window, reloads the scene on save; press H in it for the keys");
+    add_viewer_options(command, *options);
+    add_scale_options(command, *options);
+    add_window_options(command, options->window);
+    command.add_flag("--plain", options->plain,
+                     "Stays with the scene's text as it is when nobody touches it for a while");
+    command.add_flag("--fresh", options->fresh, "Starts anew, not as the scene's last window was left");
+    add_live_options(command, options->inputs);
+    command.on_call([options, &chosen] { chosen = [options] { return view(*options); }; });
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,121 @@
+#include "cli/viewer_options.hpp"
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "host/console.hpp"
+#include "host/diagnostics.hpp"
+#include "host/gl_context.hpp"
+#include "render/renderer.hpp"
+#include "render/sound_renderer.hpp"
+#include "window/rehearsal.hpp"
+#include "window/screen.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace tidemark::cli {
+namespace {
+
+constexpr Extent k_played{16, 16};
+
+/// Seconds. A scene whose first frames are too much for the driver would otherwise be reset for ever.
+constexpr double k_shortest_life = 5;
+
+/// Runs in a separate process: does everything once that the screen will do with the driver, in a small size.
+/// Reports no errors; the screen's own driver does.
+void play(SceneRequest request, const HeldTexts& held, const std::string& pass) {
+    request.sets = held.sets;
+    request.defines = held.defines;
+    request.knobs_may_go = true;
+    const auto context = platform::HeadlessContext::create();
+    if (!context)
+        return;
+    auto scene = load(request);
+    if (!scene)
+        return;
+    if (scene->find(scene::PassKind::sound))
+        if (auto sound = render::SoundRenderer::create(*scene, {}, precision_of(request)))
+            sound->draw_rows(0, 1);
+    auto renderer = render::Renderer::create(*std::move(scene),
+                                             {k_played, image::SampleType::u8, pass, precision_of(request)});
+    if (!renderer)
+        return;
+    renderer->warm_up({});
+    renderer->draw({});
+    renderer->read_back();
+}
+
+/// Returns why the window is not opened again after a driver reset; empty: it is.
+std::string why_not_again(const Viewer::Settings& settings, double life) {
+    if (!settings.record.empty())
+        return fmt::format("what was recorded is in {}", settings.record.path().string());
+    if (settings.frames.input)
+        return "the recording cannot go on from there";
+    if (life < k_shortest_life)
+        return "so soon after it was opened, the window is not opened again: `tidemark capture` draws this "
+               "scene "
+               "in small parts with --tile 64";
+    return "";
+}
+
+} // namespace
+
+void add_viewer_options(Command command, ViewerOptions& options) {
+    add_scene_options(command, options.scene);
+    add_precision_options(command, options.scene);
+    add_picture_options(command, options.frames);
+    command
+        .add_option("--record", options.record,
+                    "Writes what mouse and keyboard do, for --input; iTime goes by frames")
+        .type_name("FILE")
+        .excludes("--input");
+    command.option("--fps").description(
+        "Highest frame rate; with --record or --input the time step too: iTime = frame / F");
+    add_memory_option(command, options.limits);
+}
+
+Result<Viewer::Settings> resolve(const ViewerOptions& options, FrameSequence frames) {
+    const auto limits = TRY(resolve(options.limits));
+    Viewer::Settings settings{options.scene, std::move(frames)};
+    settings.rehearsal = Rehearsal::start(
+        [&](const HeldTexts& held) { play(options.scene, held, options.frames.pass); }, limits.memory);
+    settings.record = OutputPath::typed(options.record);
+    // A recording must be reproducible, so its date advances with iTime.
+    if (options.frames.date || options.by_frames())
+        settings.date = settings.frames.state.date;
+    if (!settings.record.empty())
+        TRY(check_writable(settings.record));
+    return settings;
+}
+
+Result<int> show(Viewer::Settings settings, const OpenScreen& open_screen) {
+    Interrupt interrupt;
+    while (true) {
+        const double opened = now_seconds();
+        auto opened_viewer = [&] { // opening a camera may take long; Ctrl-C ends it
+            const Interrupt::Immediate immediate(interrupt);
+            return Viewer::open(settings, open_screen);
+        }();
+        auto viewer = TRY(std::move(opened_viewer));
+        const Interrupt::Waking waking(interrupt, [&] { viewer.wake(); });
+        auto outcome = viewer.run(interrupt);
+        if (viewer.busy()) {
+            if (!outcome)
+                say(outcome.error());
+            finish_diagnostics(true);
+            ::_exit(outcome ? *outcome : exit_code(outcome.error().code));
+        }
+        if (!viewer.was_reset())
+            return outcome;
+        if (const std::string why = why_not_again(settings, now_seconds() - opened); !why.empty()) {
+            outcome.error().message += "; " + why;
+            return outcome;
+        }
+        outcome.error().message += "; the window is opened again";
+        say(outcome.error());
+        settings.left = viewer.state();
+        settings.scene = viewer.request();
+    }
+}
+
+} // namespace tidemark::cli

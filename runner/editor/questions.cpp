@@ -1,0 +1,402 @@
+// The colours in a file that an editor can change: the defaults of its `color3` knobs.
+
+#include "editor/questions.hpp"
+
+#include "base/error.hpp"
+#include "editor/workspace.hpp"
+#include "scene/host_uniforms.hpp"
+#include "shader/builtin_functions.hpp"
+#include "shader/vocabulary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tidemark::lsp {
+
+/// Returns the ColorInformations of the first file.
+Json document_colours(const Workspace& workspace, Encoding encoding);
+
+/// Returns the ColorPresentations of a Color: `color3(1, 0.5, 0)`.
+Json colour_presentations(const Json& colour, const Json& range);
+
+// The text for the name under the pointer.
+
+/// Returns Markdown: a knob's value and range, a declaration with the comment above it, a built-in function's
+/// signatures and the cases where it is undefined, a uniform of the host, or the first comment of an included
+/// file. Empty where nothing is known.
+std::string hover_text(const Workspace& workspace, size_t offset, const Documents& documents);
+
+// Locations for the editor: where a name is declared, what a file declares.
+
+/// Returns Locations: the declarations of a name, all overloads included; for an `#include` the file.
+Json definitions(const Workspace& workspace, size_t offset, const Documents& documents, Encoding encoding);
+
+/// Returns the DocumentSymbols of the first file.
+Json document_symbols(const Workspace& workspace, Encoding encoding);
+
+// Renames a knob in all files of the scene.
+
+/// Returns the range of the knob's name at an offset; null without a knob there.
+Json renamed_range(const Workspace& workspace, size_t offset, Encoding encoding);
+
+/// Returns a WorkspaceEdit. Fails without a knob there, or where the name is not valid or is used in the
+/// scene already.
+Result<Json> rename_knob(const Workspace& workspace, size_t offset, const std::string& name,
+                         const Documents& documents, Encoding encoding);
+
+namespace {
+
+/// Returns begin and end (offsets) of the default in a knob's line: after the `=`, through the first `)` or
+/// the last token. Returns nothing without a default.
+std::optional<std::pair<size_t, size_t>> default_of(const Symbol& symbol, std::string_view text) {
+    const std::string_view line = text.substr(symbol.begin, symbol.end - symbol.begin);
+    const auto tokens = text::tokenize(line);
+    const auto equals = std::ranges::find_if(tokens, [](const text::Token& token) { return token.is("="); });
+    if (equals == tokens.end() || equals + 1 == tokens.end())
+        return std::nullopt;
+    const auto close =
+        std::find_if(equals, tokens.end(), [](const text::Token& token) { return token.is(")"); });
+    const auto last = close == tokens.end() ? tokens.end() - 1 : close;
+    return std::pair(symbol.begin + (equals + 1)->begin, symbol.begin + last->end());
+}
+
+Json colour_of(const scene::KnobValue& value) {
+    const auto part = [](double number) { return std::clamp(number, 0.0, 1.0); };
+    return {{"red", part(value[0])}, {"green", part(value[1])}, {"blue", part(value[2])}, {"alpha", 1}};
+}
+
+/// Rounds to three decimals, which is finer than a byte's 255 steps.
+double rounded(const Json& number) {
+    return std::round(number.get<double>() * 1000) / 1000;
+}
+
+} // namespace
+
+Json document_colours(const Workspace& workspace, Encoding encoding) {
+    Json colours = Json::array();
+    const SourceFile& file = workspace.files.front();
+    const Lines lines(file.text, encoding);
+    for (const Symbol& symbol : file.symbols) {
+        const scene::Knob* knob = symbol.kind == Symbol::Kind::knob ? workspace.knob(symbol.name) : nullptr;
+        if (!knob || knob->type != scene::KnobType::color3)
+            continue;
+        if (const auto range = default_of(symbol, file.text))
+            colours.push_back(
+                {{"range", lines.range(range->first, range->second)}, {"color", colour_of(knob->initial)}});
+    }
+    return colours;
+}
+
+Json colour_presentations(const Json& colour, const Json& range) {
+    const scene::Knob knob{
+        .name = {},
+        .type = scene::KnobType::color3,
+        .value = {rounded(colour.at("red")), rounded(colour.at("green")), rounded(colour.at("blue")), 0}};
+    const std::string literal = scene::to_literal(knob);
+    return Json::array({{{"label", literal}, {"textEdit", {{"range", range}, {"newText", literal}}}}});
+}
+
+namespace {
+
+std::string code(std::string_view text) {
+    return fmt::format("```glsl\n{}\n```\n", text);
+}
+
+std::string of_knob(const scene::Knob& knob) {
+    std::string text = code(fmt::format("uniform {} {}", info(knob.type).glsl_name, knob.name));
+    text += fmt::format("Knob, {} at first", scene::to_string(knob, knob.initial));
+    if (knob.range)
+        text += fmt::format(", from {} to {}", scene::to_string(knob, knob.range->low),
+                            scene::to_string(knob, knob.range->high));
+    if (knob.step)
+        text += fmt::format(", in steps of {}", scene::to_string(knob, *knob.step));
+    return text + ".\n";
+}
+
+std::string signature(const glsl::BuiltinFunction& function, const glsl::BuiltinOverload& overload) {
+    std::string parameters;
+    for (const glsl::BuiltinParameter& parameter : overload.parameters)
+        parameters += fmt::format("{}{}{}", parameters.empty() ? "" : ", ", parameter.written ? "out " : "",
+                                  parameter.type);
+    return fmt::format("{} {}({})", overload.result, function.name, parameters);
+}
+
+/// Signatures in one hover text; functions of vectors have one for each vector size.
+constexpr size_t k_most_signatures = 8;
+
+std::string of_builtin(const glsl::BuiltinFunction& function) {
+    std::string signatures;
+    const auto overloads = glsl::overloads_of(function);
+    for (size_t i = 0; i < std::min(overloads.size(), k_most_signatures); ++i)
+        signatures += (i > 0 ? "\n" : "") + signature(function, overloads[i]);
+    if (overloads.size() > k_most_signatures)
+        signatures += fmt::format("\n// and {} more", overloads.size() - k_most_signatures);
+    std::string text = code(signatures);
+    if (function.domain)
+        for (const glsl::UndefinedWhere& where : function.domain->undefined)
+            if (!where.fault.empty())
+                text += fmt::format("Undefined {}.\n", where.fault);
+    if (!function.in_es())
+        text += fmt::format("Not in GLSL ES 3.00, which ShaderToy's site compiles: {}.\n", function.instead);
+    return text;
+}
+
+std::string of_symbol(const SourceFile& file, const Symbol& symbol, bool elsewhere) {
+    std::string text = code(symbol.signature);
+    if (!symbol.comment.empty())
+        text += symbol.comment + "\n";
+    if (elsewhere)
+        text += fmt::format("\nFrom `{}`.\n", file.path.filename().string());
+    return text;
+}
+
+/// Describes a channel. Leaves out the sampler type, which depends on the input that the pass reads.
+std::string of_channel(std::string_view name) {
+    return fmt::format(
+        "Input {} of the pass: a texture, a video, the keyboard, a cubemap or another pass, as "
+        "`#{} \"…\"` or the scene's channels say.\n",
+        name.back(), name);
+}
+
+/// A uniform that a scene may declare to get a value from this host, in addition to ShaderToy's.
+struct OwnUniform {
+    std::string_view name, meaning;
+};
+
+constexpr OwnUniform k_own_uniforms[] = {
+    {scene::k_camera_uniform, "the orbit camera, camera to world: right, up, backwards, position"},
+    {scene::k_orbit_uniform, "how the orbit camera was moved: azimuth, elevation, distance, 1 once it was"},
+    {scene::k_orbit_pan_uniform, "how the orbit camera's target was moved, in first distances"},
+    {scene::k_time_low_uniform, "what iTime as a float leaves of the seconds"},
+    {scene::k_mouse_button_uniform, "1 while a button is down: x left, y right"},
+    {scene::k_view_uniform, "a camera to world, the identity until a person moves it"}};
+
+std::string of_own_uniform(std::string_view name) {
+    const auto own = std::ranges::find(k_own_uniforms, name, &OwnUniform::name);
+    return own == std::end(k_own_uniforms) ? "" : fmt::format("Given by this host: {}.\n", own->meaning);
+}
+
+std::string of_host(std::string_view name) {
+    if (std::ranges::find(scene::k_channel_names, name) != scene::k_channel_names.end())
+        return of_channel(name);
+    const auto uniform = std::ranges::find(scene::k_site_uniforms, name, &scene::SiteUniform::name);
+    if (uniform == std::end(scene::k_site_uniforms))
+        return of_own_uniform(name);
+    const std::string length = uniform->length > 0 ? fmt::format("[{}]", uniform->length) : "";
+    return code(fmt::format("uniform {} {}{}", uniform->type, name, length)) +
+           "Given by the host, as on ShaderToy's site.\n";
+}
+
+} // namespace
+
+std::string hover_text(const Workspace& workspace, size_t offset, const Documents& documents) {
+    if (const auto included = included_at(workspace, offset); !included.empty()) {
+        const auto text = documents.text_of(included);
+        return text && workspace.may_read(included)
+                   ? fmt::format("`{}`\n\n{}\n", included.string(), leading_comment(*text))
+                   : "";
+    }
+    const auto tokens = text::tokenize(workspace.files.front().text);
+    const auto word = word_at(tokens, offset);
+    if (!word)
+        return {};
+    if (const scene::Knob* knob = workspace.knob(word->text))
+        return of_knob(*knob);
+    std::string text;
+    for (const SourceFile& file : workspace.files)
+        for (const Symbol& symbol : file.symbols)
+            if (symbol.name == word->text)
+                text += of_symbol(file, symbol, &file != &workspace.files.front());
+    if (!text.empty())
+        return text + of_own_uniform(word->text);
+    if (const glsl::BuiltinFunction* function = glsl::find_builtin(word->text))
+        return of_builtin(*function);
+    const auto old = std::ranges::find(glsl::k_old_names, word->text, &glsl::OldName::name);
+    if (old == std::end(glsl::k_old_names))
+        return of_host(word->text);
+    const glsl::BuiltinFunction* const today = glsl::find_builtin(old->today);
+    return fmt::format("An older name of `{}`.\n\n", old->today) +
+           (today ? of_builtin(*today) : of_host(old->today));
+}
+
+namespace {
+
+/// Returns the protocol's SymbolKind.
+int number_of(Symbol::Kind kind) {
+    switch (kind) {
+    case Symbol::Kind::function: return 12;
+    case Symbol::Kind::variable: return 13;
+    case Symbol::Kind::constant: return 14;
+    case Symbol::Kind::structure: return 23;
+    case Symbol::Kind::macro: return 14;
+    case Symbol::Kind::knob: return 7; // Property
+    }
+    return 13;
+}
+
+} // namespace
+
+Json definitions(const Workspace& workspace, size_t offset, const Documents& documents, Encoding encoding) {
+    Json found = Json::array();
+    if (const auto included = included_at(workspace, offset); !included.empty()) {
+        if (documents.text_of(included))
+            found.push_back(
+                {{"uri", documents.uri_of(included)}, {"range", Lines("", encoding).range(0, 0)}});
+        return found;
+    }
+    const auto tokens = text::tokenize(workspace.files.front().text);
+    const auto word = word_at(tokens, offset);
+    for (const SourceFile& file : workspace.files) {
+        const Lines lines(file.text, encoding);
+        for (const Symbol& symbol : file.symbols)
+            if (word && symbol.name == word->text)
+                found.push_back({{"uri", documents.uri_of(file.path)},
+                                 {"range", lines.range(symbol.name_begin, symbol.name_end())}});
+    }
+    return found;
+}
+
+Json document_symbols(const Workspace& workspace, Encoding encoding) {
+    const SourceFile& file = workspace.files.front();
+    const Lines lines(file.text, encoding);
+    Json symbols = Json::array();
+    for (const Symbol& symbol : file.symbols)
+        symbols.push_back({{"name", symbol.name},
+                           {"detail", symbol.signature},
+                           {"kind", number_of(symbol.kind)},
+                           {"range", lines.range(symbol.begin, symbol.end)},
+                           {"selectionRange", lines.range(symbol.name_begin, symbol.name_end())}});
+    return symbols;
+}
+
+namespace {
+
+using text::Token;
+
+std::optional<Token> knob_at(const Workspace& workspace, const std::vector<Token>& tokens, size_t offset) {
+    const auto word = word_at(tokens, offset);
+    return word && workspace.knob(word->text) ? word : std::nullopt;
+}
+
+/// Returns the tokens that use the name; after a dot it is a member and does not count.
+std::vector<const Token*> uses_of(const std::vector<Token>& tokens, std::string_view name) {
+    std::vector<const Token*> uses;
+    for (size_t i = 0; i < tokens.size(); ++i)
+        if (tokens[i].kind == text::TokenKind::identifier && tokens[i].is(name) &&
+            (i == 0 || !tokens[i - 1].is(".")))
+            uses.push_back(&tokens[i]);
+    return uses;
+}
+
+constexpr std::string_view k_entry_points[] = {"main",        "mainImage", "mainSound",
+                                               "mainCubemap", "mainHit",   "mainVR"};
+
+/// Returns the reason why a knob cannot have that name; empty: it can.
+std::string why_not(const Workspace& workspace, const std::string& name) {
+    const auto tokens = text::tokenize(name);
+    if (tokens.size() != 1 || tokens.front().kind != text::TokenKind::identifier ||
+        tokens.front().text.size() != name.size())
+        return "it is no name of GLSL";
+    if (name.starts_with("gl_") || name.find("__") != name.npos || glsl::find_builtin(name) ||
+        glsl::is_keyword(name) || glsl::is_one_of(name, glsl::k_reserved_words) || glsl::value_type(name) ||
+        scene::is_host_uniform(name) || name.starts_with("tidemark_") ||
+        glsl::is_one_of(name, k_entry_points))
+        return "the name is GLSL's or the host's";
+    for (const SourceFile& file : workspace.files)
+        if (!uses_of(text::tokenize(file.text), name).empty())
+            return fmt::format("'{}' has that name already", file.path.filename().string());
+    return {};
+}
+
+} // namespace
+
+Json renamed_range(const Workspace& workspace, size_t offset, Encoding encoding) {
+    const std::string& text = workspace.files.front().text;
+    const auto tokens = text::tokenize(text);
+    const auto knob = knob_at(workspace, tokens, offset);
+    return knob ? Lines(text, encoding).range(knob->begin, knob->end()) : Json();
+}
+
+Result<Json> rename_knob(const Workspace& workspace, size_t offset, const std::string& name,
+                         const Documents& documents, Encoding encoding) {
+    const auto tokens = text::tokenize(workspace.files.front().text);
+    const auto knob = knob_at(workspace, tokens, offset);
+    if (!knob)
+        return fail(ErrorCode::usage, "only knobs (#iUniform) can be renamed: no knob stands here");
+    if (const std::string why = why_not(workspace, name); !why.empty())
+        return fail(ErrorCode::usage, fmt::format("'{}' cannot be called '{}': {}", knob->text, name, why));
+    Json changes = Json::object();
+    for (const SourceFile& file : workspace.files) {
+        const Lines lines(file.text, encoding);
+        const auto words = text::tokenize(file.text);
+        for (const Token* use : uses_of(words, knob->text))
+            changes[documents.uri_of(file.path)].push_back(
+                {{"range", lines.range(use->begin, use->end())}, {"newText", name}});
+    }
+    return Json{{"changes", std::move(changes)}};
+}
+
+namespace {
+
+Answer hover(const Question& asked) {
+    const std::string text = hover_text(asked.workspace, asked.offset(), asked.documents);
+    return text.empty() ? Json() : Json{{"contents", {{"kind", "markdown"}, {"value", text}}}};
+}
+
+Answer definition(const Question& asked) {
+    return definitions(asked.workspace, asked.offset(), asked.documents, asked.encoding);
+}
+
+Answer symbols(const Question& asked) {
+    return document_symbols(asked.workspace, asked.encoding);
+}
+
+Answer colours(const Question& asked) {
+    return document_colours(asked.workspace, asked.encoding);
+}
+
+Answer presentations(const Question& asked) {
+    return colour_presentations(asked.params.at("color"), asked.params.at("range"));
+}
+
+Answer prepare_rename(const Question& asked) {
+    return renamed_range(asked.workspace, asked.offset(), asked.encoding);
+}
+
+Answer rename(const Question& asked) {
+    const auto name = asked.params.at("newName").get<std::string>();
+    return rename_knob(asked.workspace, asked.offset(), name, asked.documents, asked.encoding)
+        .map_error([](const Error& error) {
+            return Refusal{ErrorNumber::request_failed, error.message};
+        });
+}
+
+constexpr std::pair<std::string_view, AnswerTo> k_questions[] = {
+    {"textDocument/hover", hover},
+    {"textDocument/definition", definition},
+    {"textDocument/documentSymbol", symbols},
+    {"textDocument/documentColor", colours},
+    {"textDocument/colorPresentation", presentations},
+    {"textDocument/prepareRename", prepare_rename},
+    {"textDocument/rename", rename},
+};
+
+} // namespace
+
+tl::unexpected<Refusal> refuse(ErrorNumber number, std::string message) {
+    return tl::unexpected<Refusal>(Refusal{number, std::move(message)});
+}
+
+size_t Question::offset() const {
+    return Lines(workspace.files.front().text, encoding).offset(params.at("position"));
+}
+
+AnswerTo find_question(std::string_view method) {
+    const auto known = std::ranges::find(k_questions, method, &std::pair<std::string_view, AnswerTo>::first);
+    return known == std::end(k_questions) ? nullptr : known->second;
+}
+
+} // namespace tidemark::lsp

@@ -1,0 +1,384 @@
+#include "host/input_script.hpp"
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "host/requests.hpp"
+#include "scene/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace tidemark::cli {
+
+using platform::Button;
+
+bool Controls::handle(const ControlEvent& event, double height) {
+    height_ = height;
+    return std::visit([this](const auto& happened) { return take(happened); }, event);
+}
+
+bool Controls::take(const platform::PointerMoved& event) {
+    const double dx = event.at.x - pointer_.x;
+    const double dy = event.at.y - pointer_.y;
+    pointer_ = event.at;
+    if (turning_) {
+        mouse_.move(event.at.x, event.at.y);
+        camera_.turn(dx, dy, height_);
+    }
+    if (panning_)
+        camera_.pan(dx, dy, height_);
+    return turning_ || panning_;
+}
+
+bool Controls::take(const platform::ButtonPressed& event) {
+    pointer_ = event.at;
+    if (event.button == Button::left) {
+        turning_ = true;
+        mouse_.press(event.at.x, event.at.y);
+    } else if (event.button == Button::middle) {
+        panning_ = true;
+    } else {
+        right_down_ = true;
+    }
+    return true;
+}
+
+bool Controls::take(const platform::ButtonReleased& event) {
+    if (event.button == Button::left) {
+        turning_ = false;
+        mouse_.release();
+    } else if (event.button == Button::middle) {
+        panning_ = false;
+    } else {
+        right_down_ = false;
+    }
+    return true;
+}
+
+bool Controls::take(const platform::WheelTurned& event) {
+    camera_.zoom(event.up);
+    return true;
+}
+
+bool Controls::take(const platform::KeyPressed& event) {
+    keyboard_.press(platform::js_key_code(event.key));
+    return true;
+}
+
+bool Controls::take(const platform::KeyReleased& event) {
+    keyboard_.release(platform::js_key_code(event.key));
+    return true;
+}
+
+bool Controls::take(const CameraReset&) {
+    camera_ = initial_camera_;
+    return true;
+}
+
+bool Controls::take(const KnobTurned& event) {
+    scene::set(knobs_, event.setting);
+    return true;
+}
+
+void Controls::release(const std::vector<scene::Knob>& knobs) {
+    for (const scene::Knob& knob : knobs)
+        if (knob.value == knob.initial && value_after(knob, knobs_) == knob.initial)
+            std::erase_if(knobs_, [&](const scene::Setting& held) { return held.name == knob.name; });
+}
+
+void Controls::adopt(const render::FrameState& state) {
+    mouse_ = state.mouse;
+    mouse_.release();
+    mouse_.frame_drawn();
+    camera_ = state.camera;
+    knobs_ = state.knobs;
+}
+
+void Controls::stretch(Extent from, Extent to) {
+    mouse_.stretch(from, to);
+    pointer_.x *= double(to.width) / from.width;
+    pointer_.y *= double(to.height) / from.height;
+}
+
+void Controls::fill(render::FrameState& state) const {
+    state.mouse = mouse_;
+    state.right_button = right_down_;
+    state.keys = keyboard_.texels();
+    state.camera = camera_;
+    state.initial_camera = initial_camera_;
+    for (const scene::Setting& setting : knobs_)
+        scene::set(state.knobs, setting);
+}
+
+void Controls::frame_drawn() {
+    mouse_.frame_drawn();
+    keyboard_.frame_drawn();
+}
+
+namespace {
+
+using platform::Button;
+
+constexpr std::pair<std::string_view, Button> k_buttons[] = {
+    {"left", Button::left}, {"middle", Button::middle}, {"right", Button::right}};
+
+constexpr std::string_view k_blanks = " \t\r";
+
+/// Removes the first token from `line` and returns it.
+std::string_view take_word(std::string_view& line) {
+    line.remove_prefix(std::min(line.find_first_not_of(k_blanks), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(k_blanks));
+    line.remove_prefix(word.size());
+    return word;
+}
+
+template <class T>
+bool take_number(std::string_view& line, T& number, T least, T most) {
+    const std::string_view word = take_word(line);
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    return error == std::errc{} && end == word.data() + word.size() && number >= least && number <= most;
+}
+
+bool take_position(std::string_view& line, platform::PointerPosition& at) {
+    return take_number(line, at.x, -k_farthest_pixel, k_farthest_pixel) &&
+           take_number(line, at.y, -k_farthest_pixel, k_farthest_pixel);
+}
+
+bool take_button(std::string_view& line, Button& button) {
+    const std::string_view word = take_word(line);
+    const auto* found = std::find_if(std::begin(k_buttons), std::end(k_buttons),
+                                     [&](const auto& known) { return known.first == word; });
+    if (found == std::end(k_buttons))
+        return false;
+    button = found->second;
+    return true;
+}
+
+bool take_key(std::string_view& line, platform::Key& key) {
+    int code = 0;
+    if (!take_number(line, code, 1, 255))
+        return false;
+    key = platform::Key(code);
+    return true;
+}
+
+/// Parses the rest of the line as NAME=VALUE.
+bool take_setting(std::string_view& line, scene::Setting& setting) {
+    line.remove_prefix(std::min(line.find_first_not_of(k_blanks), line.size()));
+    line = line.substr(0, line.find_last_not_of(k_blanks) + 1);
+    const auto split = scene::split_setting(line, "set");
+    if (!split)
+        return false;
+    setting = {std::string(split->first), std::string(split->second)};
+    line = {};
+    return true;
+}
+
+/// A kind of event: its name, its syntax for error messages, and its parser.
+struct Kind {
+    std::string_view name;
+    std::string_view form;
+    std::optional<ControlEvent> (*take)(std::string_view& line);
+};
+
+template <class Event, class Take>
+std::optional<ControlEvent> event_if(Take&& take) {
+    Event event;
+    if (!take(event))
+        return std::nullopt;
+    return event;
+}
+
+constexpr Kind k_kinds[] = {
+    {"press", "press left|middle|right X Y",
+     [](std::string_view& line) {
+         return event_if<platform::ButtonPressed>([&](platform::ButtonPressed& event) {
+             return take_button(line, event.button) && take_position(line, event.at);
+         });
+     }},
+    {"release", "release left|middle|right",
+     [](std::string_view& line) {
+         return event_if<platform::ButtonReleased>(
+             [&](platform::ButtonReleased& event) { return take_button(line, event.button); });
+     }},
+    {"move", "move X Y",
+     [](std::string_view& line) {
+         return event_if<platform::PointerMoved>(
+             [&](platform::PointerMoved& event) { return take_position(line, event.at); });
+     }},
+    {"wheel", "wheel UP",
+     [](std::string_view& line) {
+         return event_if<platform::WheelTurned>([&](platform::WheelTurned& event) {
+             return take_number(line, event.up, -k_farthest_pixel, k_farthest_pixel);
+         });
+     }},
+    {"keydown", "keydown CODE (1 to 255)",
+     [](std::string_view& line) {
+         return event_if<platform::KeyPressed>(
+             [&](platform::KeyPressed& event) { return take_key(line, event.key); });
+     }},
+    {"keyup", "keyup CODE (1 to 255)",
+     [](std::string_view& line) {
+         return event_if<platform::KeyReleased>(
+             [&](platform::KeyReleased& event) { return take_key(line, event.key); });
+     }},
+    {"set", "set NAME=VALUE",
+     [](std::string_view& line) {
+         return event_if<KnobTurned>([&](KnobTurned& event) { return take_setting(line, event.setting); });
+     }},
+    {"camera", "camera reset",
+     [](std::string_view& line) {
+         return event_if<CameraReset>([&](CameraReset&) { return take_word(line) == "reset"; });
+     }},
+};
+
+tl::unexpected<Error> refuse(std::string message) {
+    return fail(ErrorCode::load, std::move(message)); // the caller adds the place
+}
+
+Result<TimedEvent> parse_line(std::string_view line) {
+    TimedEvent timed;
+    std::string_view rest = line;
+    if (!take_number(rest, timed.frame, 0, render::k_last_frame))
+        return refuse("a line begins with the number of a frame, as in `12 move 100 50`");
+    const std::string_view name = take_word(rest);
+    const auto* kind = std::find_if(std::begin(k_kinds), std::end(k_kinds),
+                                    [&](const Kind& known) { return known.name == name; });
+    if (kind == std::end(k_kinds))
+        return refuse(fmt::format(
+            "unknown event '{}': give press, release, move, wheel, keydown, keyup, set or camera", name));
+    const auto event = kind->take(rest);
+    if (!event || !take_word(rest).empty())
+        return refuse(fmt::format("give it as `{} {}`", timed.frame, kind->form));
+    timed.event = *event;
+    return timed;
+}
+
+std::string_view name_of(Button button) {
+    return std::find_if(std::begin(k_buttons), std::end(k_buttons),
+                        [&](const auto& known) { return known.second == button; })
+        ->first;
+}
+
+/// Formats an event as in its line.
+struct Wording {
+    std::string operator()(const platform::ButtonPressed& event) const {
+        return fmt::format("press {} {} {}", name_of(event.button), event.at.x, event.at.y);
+    }
+    std::string operator()(const platform::ButtonReleased& event) const {
+        return fmt::format("release {}", name_of(event.button));
+    }
+    std::string operator()(const platform::PointerMoved& event) const {
+        return fmt::format("move {} {}", event.at.x, event.at.y);
+    }
+    std::string operator()(const platform::WheelTurned& event) const {
+        return fmt::format("wheel {}", event.up);
+    }
+    std::string operator()(const platform::KeyPressed& event) const {
+        return fmt::format("keydown {}", platform::js_key_code(event.key));
+    }
+    std::string operator()(const platform::KeyReleased& event) const {
+        return fmt::format("keyup {}", platform::js_key_code(event.key));
+    }
+    std::string operator()(const CameraReset&) const { return "camera reset"; }
+    std::string operator()(const KnobTurned& event) const {
+        return fmt::format("set {}={}", event.setting.name, event.setting.value);
+    }
+};
+
+} // namespace
+
+Result<InputScript> parse_input_script(std::string_view text, const std::string& file) {
+    InputScript script;
+    int number = 0;
+    while (!text.empty()) {
+        ++number;
+        const size_t end = text.find('\n');
+        std::string_view line = text.substr(0, end);
+        text.remove_prefix(end == text.npos ? text.size() : end + 1);
+        line = line.substr(0, line.find('#'));
+        if (line.find_first_not_of(k_blanks) == line.npos)
+            continue;
+        auto event = parse_line(line);
+        if (!event)
+            return fail(error_at({file, number}, event.error().message));
+        if (!script.empty() && event->frame < script.back().frame)
+            return fail(error_at({file, number},
+                                 fmt::format("frame {} comes after frame {}: frames do not go backwards",
+                                             event->frame, script.back().frame)));
+        script.push_back(*event);
+    }
+    return script;
+}
+
+Result<InputScript> load_input_script(const std::filesystem::path& file) {
+    auto text = TRY(read_text_file(file));
+    return parse_input_script(text, file.string());
+}
+
+bool turns_knobs(const InputScript& script) {
+    return std::ranges::any_of(
+        script, [](const TimedEvent& timed) { return std::holds_alternative<KnobTurned>(timed.event); });
+}
+
+Result<void> check_knobs(const InputScript& script, std::vector<scene::Knob> knobs) {
+    for (const TimedEvent& timed : script)
+        if (const auto* turned = std::get_if<KnobTurned>(&timed.event))
+            TRY(find_knob(knobs, turned->setting.name).and_then([&](const scene::Knob* knob) {
+                return parse_knob_value(*knob, turned->setting.value);
+            }));
+    return {};
+}
+
+std::string to_string(const InputScript& script) {
+    std::string text;
+    for (const TimedEvent& timed : script)
+        text += fmt::format("{} {}\n", timed.frame, std::visit(Wording{}, timed.event));
+    return text;
+}
+
+render::FrameState without_recorded(render::FrameState state) {
+    const render::FrameState plain;
+    state.mouse = plain.mouse;
+    state.right_button = plain.right_button;
+    state.keys = plain.keys;
+    state.camera = state.initial_camera.value_or(state.camera);
+    state.initial_camera.reset();
+    state.knobs.clear();
+    return state;
+}
+
+void Replay::go_back(int frame) {
+    while (!script_.empty() && script_.back().frame > frame)
+        script_.pop_back();
+}
+
+void Replay::note(int frame, const ControlEvent& event) {
+    go_back(frame);
+    script_.push_back({frame, event});
+}
+
+void Replay::fill(render::FrameState& state) {
+    if (state.frame < frame_) {
+        controls_ = Controls(camera_);
+        next_ = 0;
+        frame_ = 0;
+    }
+    for (; next_ < script_.size() && script_[next_].frame <= state.frame; ++next_) {
+        if (script_[next_].frame > frame_)
+            controls_.frame_drawn();
+        frame_ = script_[next_].frame;
+        controls_.handle(script_[next_].event, state.extent.height);
+    }
+    if (state.frame > frame_)
+        controls_.frame_drawn();
+    frame_ = state.frame;
+    controls_.fill(state);
+}
+
+} // namespace tidemark::cli

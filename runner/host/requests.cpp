@@ -1,0 +1,512 @@
+#include "host/requests.hpp"
+
+#include "base/error.hpp"
+#include "host/command_line.hpp"
+#include "host/console.hpp"
+#include "host/diagnostics.hpp"
+#include "host/forked.hpp"
+#include "render/frame_fields.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/scene.hpp"
+#include "shader/definitions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <optional>
+#include <utility>
+
+namespace tidemark::cli {
+namespace {
+
+/// The limit for all ranges together.
+constexpr size_t k_most_frames = 10'000'000;
+
+/// Parses a number at the start of `text` and removes it.
+template <class T>
+bool take(std::string_view& text, T& number) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{})
+        return false;
+    text.remove_prefix(size_t(end - text.data()));
+    return true;
+}
+
+bool take(std::string_view& text, char wanted) {
+    if (!text.starts_with(wanted))
+        return false;
+    text.remove_prefix(1);
+    return true;
+}
+
+constexpr std::string_view k_down = ",down";
+
+/// Parses `x,y`.
+bool take(std::string_view& text, glm::dvec2& place) {
+    return take(text, place.x) && take(text, ',') && take(text, place.y) &&
+           std::abs(place.x) <= k_farthest_pixel && std::abs(place.y) <= k_farthest_pixel;
+}
+
+/// Parses one range: `7`, `1-10`, `1-10x3`.
+bool take_range(std::string_view& text, std::vector<int>& frames) {
+    int first = 0;
+    if (!take(text, first) || first < 0 || first > render::k_last_frame)
+        return false;
+    int last = first;
+    int step = 1;
+    if (take(text, '-') && (!take(text, last) || last < 0 || last > render::k_last_frame))
+        return false;
+    if (take(text, 'x') && (!take(text, step) || step < 1))
+        return false;
+    const int steps = std::abs(last - first) / step;
+    if (frames.size() + size_t(steps) >= k_most_frames)
+        return false;
+    const int direction = last < first ? -1 : 1;
+    for (int i = 0; i <= steps; ++i)
+        frames.push_back(first + direction * i * step);
+    return true;
+}
+
+/// Formats a value as its option accepts it.
+struct Typed {
+    std::string operator()(double number) const { return fmt::format("{}", number); }
+    std::string operator()(const std::optional<double>& number) const { return fmt::format("{}", *number); }
+    std::string operator()(const Extent& size) const { return fmt::format("{}x{}", size.width, size.height); }
+    std::string operator()(const render::Mouse& mouse) const {
+        const glm::vec2 at = mouse.position, from = mouse.pressed_at;
+        const bool dragged = at != from || (mouse.down && !mouse.is_new);
+        return fmt::format("{},{}{}{}", at.x, at.y, dragged ? fmt::format(",{},{}", from.x, from.y) : "",
+                           mouse.down ? k_down : "");
+    }
+    std::string operator()(const render::Date& date) const {
+        const int minutes = int(date.seconds / 60);
+        return fmt::format("{}-{:02}-{:02}T{:02}:{:02}:{}", date.year, date.month + 1, date.day, minutes / 60,
+                           minutes % 60, date.seconds - 60 * minutes);
+    }
+    std::string operator()(const render::OrbitCamera& camera) const { return to_string(camera); }
+    std::string operator()(const scene::Setting& setting) const { return setting.name + "=" + setting.value; }
+    std::string operator()(const std::string& text) const { return text; }
+};
+
+/// Returns true if the options would describe another state without this field.
+template <class T>
+bool must_be_said(const render::FrameState& state, const render::FrameField<T>& field) {
+    if (field.option == "--frame")
+        return !state.time;
+    if (field.option == "--camera" && state.moves_camera())
+        return true;
+    return field.option == "--size" || state.*field.member != render::FrameState().*field.member;
+}
+
+void say_warnings(const std::vector<Diagnostic>& warnings, const std::vector<Diagnostic>& said) {
+    for (const Diagnostic& warning : warnings)
+        if (std::ranges::find(said, warning) == said.end())
+            say(finding_of(warning));
+}
+
+} // namespace
+
+std::vector<std::string> option_words(const SceneRequest& request) {
+    std::vector<std::string> words;
+    const auto add = [&words](const char* option, const std::vector<std::string>& values) {
+        for (const std::string& value : values)
+            words.insert(words.end(), {option, value});
+    };
+    add("--set", request.sets);
+    add("--define", request.defines);
+    add("--channel", request.channels);
+    if (!request.files.media.empty())
+        add("--media", {request.files.media.string()});
+    if (request.files.allow_outside)
+        words.emplace_back("--allow-outside");
+    return words;
+}
+
+std::vector<std::string> option_words(const render::FrameState& state) {
+    std::vector<std::string> words;
+    const auto add = [&words]<class T>(std::string_view option, const T& value) {
+        if constexpr (std::invocable<Typed, T>)
+            words.insert(words.end(), {std::string(option), Typed{}(value)});
+        else if constexpr (requires { Typed{}(value.front()); })
+            for (const auto& each : value)
+                words.insert(words.end(), {std::string(option), Typed{}(each)});
+    };
+    render::for_each_field([&](const auto& field) {
+        if (!field.option.empty() && must_be_said(state, field))
+            add(field.option, state.*field.member);
+    });
+    return words;
+}
+
+std::vector<std::string> option_words(const SceneRequest& scene, const std::string& recording,
+                                      render::FrameState state) {
+    std::vector<std::string> words = option_words(scene); // first, so that later values override these
+    if (!recording.empty()) {
+        state = without_recorded(std::move(state));
+        words.insert(words.end(), {"--input", recording});
+    }
+    const std::vector<std::string> typed = option_words(state);
+    words.insert(words.end(), typed.begin(), typed.end());
+    return words;
+}
+
+std::string to_string(const render::OrbitCamera& camera) {
+    const glm::dvec3& target = camera.target;
+    return fmt::format("{},{},{}{}", camera.azimuth, camera.elevation, camera.distance,
+                       target == glm::dvec3(0) ? "" : fmt::format(",{},{},{}", target.x, target.y, target.z));
+}
+
+Result<scene::Scene> load_as_written(const SceneRequest& request) {
+    auto scene = scene::load_scene(request.path, request.files);
+    if (scene)
+        say_warnings(scene->warnings, request.said);
+    return scene;
+}
+
+Result<void> apply_options(const SceneRequest& request, scene::Scene& scene) {
+    std::vector<Diagnostic> said = scene.warnings;
+    said.insert(said.end(), request.said.begin(), request.said.end());
+    using Override = Result<void> (*)(scene::Scene&, std::string_view);
+    const std::pair<const std::vector<std::string>&, Override> overrides[] = {
+        {request.defines, glsl::override_definition},
+        {request.sets, scene::override_knob},
+        {request.channels, scene::override_channel},
+    };
+    for (const auto& [settings, apply] : overrides)
+        for (const std::string& setting : settings)
+            if (auto applied = apply(scene, setting); !applied) {
+                if (apply == scene::override_channel || !request.knobs_may_go)
+                    return applied;
+                scene.warnings.push_back(
+                    {{request.path.string()}, Severity::warning, std::move(applied.error().message)});
+            }
+    say_warnings(scene.warnings, said);
+    return {};
+}
+
+Result<scene::Scene> load(const SceneRequest& request) {
+    auto scene = load_as_written(request);
+    if (scene)
+        TRY(apply_options(request, *scene));
+    return scene;
+}
+
+Result<scene::Scene> load(const SceneRequest& request, const FrameSequence& sequence) {
+    auto scene = TRY(load(request));
+    if (sequence.input)
+        if (auto known = check_knobs(*sequence.input, scene.knobs); !known)
+            return fail(ErrorCode::usage,
+                        fmt::format("--input {}: {}", sequence.input_file, known.error().message));
+    return scene;
+}
+
+std::string file_word(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    return name.starts_with('-') ? "./" + name : name;
+}
+
+std::filesystem::path file_beside(const std::filesystem::path& scene, const std::string& name) {
+    std::error_code ignored;
+    return std::filesystem::is_directory(scene, ignored)
+               ? scene / name
+               : std::filesystem::path(scene).replace_extension(name);
+}
+
+glsl::Precision precision_of(const SceneRequest& request) {
+    return !request.doubles.value_or(false) ? glsl::Precision::single
+           : request.double_hashes          ? glsl::Precision::promoted_whole
+                                            : glsl::Precision::promoted;
+}
+
+render::FrameStates states_of(const FrameSequence& sequence) {
+    std::optional<Replay> replay;
+    if (sequence.input)
+        replay.emplace(*sequence.input, sequence.state.camera);
+    render::FrameState leading = sequence.state;
+    if (sequence.lead_in_fps) {
+        leading.time.reset();
+        leading.time_delta.reset();
+        leading.fps = *sequence.lead_in_fps;
+    }
+    return [state = sequence.state, leading = std::move(leading),
+            replay = std::move(replay)](int frame) mutable {
+        render::FrameState seen = frame == state.frame ? state : leading.at_frame(frame);
+        if (replay)
+            replay->fill(seen);
+        return seen;
+    };
+}
+
+Result<Extent> parse_size(std::string_view text) {
+    const auto extent = parse_extent(text);
+    if (!extent)
+        return fail(
+            ErrorCode::usage,
+            fmt::format("--size {}: give WIDTHxHEIGHT in pixels, both at least 1, as in 640x360", text));
+    return *extent;
+}
+
+Result<std::vector<int>> parse_frames(std::string_view text) {
+    std::vector<int> frames;
+    std::string_view rest = text;
+    bool good = take_range(rest, frames);
+    while (good && take(rest, ','))
+        good = take_range(rest, frames);
+    if (!good || !rest.empty())
+        return fail(ErrorCode::usage,
+                    fmt::format("--frames {}: give frames from 0 to {} as in 7, 0-29, 0-120x10 or 0-9,20-29",
+                                text, render::k_last_frame));
+    return frames;
+}
+
+Result<render::Mouse> parse_mouse(std::string_view text) {
+    glm::dvec2 at{0};
+    std::string_view rest = text;
+    bool good = take(rest, at);
+    std::optional<glm::dvec2> from;
+    if (good && !rest.empty() && rest != k_down) {
+        from.emplace();
+        good = take(rest, ',') && take(rest, *from);
+    }
+    if (!good || (!rest.empty() && rest != k_down))
+        return fail(
+            ErrorCode::usage,
+            fmt::format("--mouse {}: give x,y after a click or x,y,from_x,from_y after a drag, and ,down "
+                        "before its end, in pixels from the bottom left",
+                        text));
+    const bool down = !rest.empty();
+    return from ? render::Mouse::dragged(*from, at, down) : render::Mouse::clicked(at, down);
+}
+
+Result<glm::ivec2> parse_pixel(std::string_view text, Extent extent) {
+    glm::ivec2 pixel{0};
+    const char* const end = text.data() + text.size();
+    const auto x = std::from_chars(text.data(), end, pixel.x);
+    if (x.ec == std::errc{} && x.ptr != end && *x.ptr == ',') {
+        const auto y = std::from_chars(x.ptr + 1, end, pixel.y);
+        if (y.ec == std::errc{} && y.ptr == end && pixel.x >= 0 && pixel.y >= 0 && pixel.x < extent.width &&
+            pixel.y < extent.height)
+            return pixel;
+    }
+    return fail(ErrorCode::usage, fmt::format("--pixel {}: give x,y from the bottom left, within {}x{}", text,
+                                              extent.width, extent.height));
+}
+
+void add_scene_options(Command command, SceneRequest& request) {
+    command
+        .add_option("SCENE", request.path,
+                    "A .glsl or .frag file with mainImage, a scene folder, or ShaderToy's .json")
+        .required()
+        .each(place_diagnostics);
+    command.add_option("--set", request.sets, "Value of a knob (#iUniform)")
+        .type_name("NAME=VALUE")
+        .repeatable();
+    command.add_option("--define", request.defines, "Replaces a #define or const of the scene")
+        .type_name("NAME=VALUE")
+        .repeatable();
+    command
+        .add_option("--channel", request.channels,
+                    "What iChannelN reads, of Image or another pass: a file, a name as in a directive "
+                    "(noise, keyboard), none; to test with: black, white, nan, texel")
+        .type_name("[PASS:]N=FILE|noise|none")
+        .repeatable();
+    add_file_options(command, request);
+}
+
+void add_file_options(Command command, SceneRequest& request) {
+    command.add_option("--media", request.files.media, "Where ShaderToy's media files are looked up by name")
+        .type_name("DIR")
+        .check(existing_folder());
+    command.add_flag("--allow-outside", request.files.allow_outside,
+                     "The scene may read files that lie outside its folder");
+}
+
+void add_precision_options(Command command, SceneRequest& request) {
+    const Option precision =
+        command
+            .add_option(
+                "--precision", [&request](const std::string& text) { request.doubles = text == "double"; },
+                "double: the scene promoted to 64-bit floats [single]")
+            .type_name("single|double")
+            .check(one_of({"single", "double"}));
+    command
+        .add_flag("--double-hashes", request.double_hashes,
+                  "Promotes hashes too: other random numbers, another scene")
+        .needs(precision);
+}
+
+void add_device_options(Command command, platform::DeviceChoice& device) {
+    command.add_option("--device", device.name, "Where to draw: a name from `tidemark inspect --devices`")
+        .type_name("NAME")
+        .capture_default_str();
+    command.add_flag("--require-gpu", device.gpu_only,
+                     "Fails where the CPU would draw instead of a graphics card");
+}
+
+void add_picture_options(Command command, FrameOptions& options) {
+    command.add_option("--size", options.size, "Resolution in pixels, where the scene's #iSize says no other")
+        .type_name("WxH")
+        .default_str("640x360");
+    command.add_option("--fps", options.fps, "Time step: iTime = frame / F, iTimeDelta = 1 / F")
+        .type_name("F")
+        .check(number<double>("a number"))
+        .default_str("60");
+    command.add_option("--date", options.date, "iDate at iTime 0, as in 2024-12-31T23:59:58")
+        .type_name("ISO");
+    command
+        .add_option("--camera", options.camera,
+                    "Orbit camera of a scene that declares iCamera or iOrbit, in degrees")
+        .type_name("AZIMUTH,ELEVATION,DISTANCE[,X,Y,Z]");
+    command.add_option("--pass", options.pass, "The pass to show, as in \"Buffer A\" [Image]")
+        .type_name("NAME");
+    command.add_option("--input", options.input, "Mouse and keyboard events by frame, from a recording")
+        .type_name("FILE");
+}
+
+void add_time_options(Command command, FrameOptions& options) {
+    const Option frame = command.add_option("--frame", options.frame, "One frame, from 0 (the default)")
+                             .type_name("N")
+                             .check(number<int>("a whole number"));
+    const Option frames =
+        command.add_option("--frames", options.frames, "Frames, inclusive, as in 0-29 or 0-120x10")
+            .type_name("A-B[xS][,...]");
+    const Option time = command.add_option("--time", options.time, "iTime in seconds, instead of a frame")
+                            .type_name("T")
+                            .check(number<double>("a number"));
+    frame.excludes(frames).excludes(time);
+    frames.excludes(time);
+    command
+        .add_option("--mouse", options.mouse,
+                    "iMouse after a click at that pixel, or after a drag to it from another; down: in the "
+                    "frame of the press, or before the drag's end")
+        .type_name("X,Y[,FROM_X,FROM_Y][,down]")
+        .excludes("--input");
+}
+
+std::vector<std::filesystem::path> files_read(const scene::Scene& scene, const FrameOptions& options) {
+    std::vector<std::filesystem::path> files = scene.files;
+    files.push_back(scene.file);
+    if (options.input)
+        files.emplace_back(*options.input);
+    return files;
+}
+
+namespace {
+
+template <class T>
+Result<void> keep(Result<T> parsed, auto& place) {
+    if (!parsed)
+        return fail(std::move(parsed.error()));
+    place = *std::move(parsed);
+    return {};
+}
+
+/// Drops the window's clock: --frame, --frames and --time refer to a run with a constant time step from its
+/// start.
+void leave_window_time(FrameSequence& sequence) {
+    render::FrameState& state = sequence.state;
+    state.time.reset();
+    state.time_delta.reset();
+    if (const auto fps = std::exchange(sequence.lead_in_fps, std::nullopt))
+        state.fps = *fps;
+}
+
+Result<void> resolve_time(const FrameOptions& options, FrameSequence& sequence) {
+    render::FrameState& state = sequence.state;
+    if (options.frame || options.frames || options.time)
+        leave_window_time(sequence);
+    if (options.fps && (!(*options.fps > 0) || !std::isfinite(*options.fps)))
+        return fail(ErrorCode::usage, fmt::format("--fps {}: give a number above 0", *options.fps));
+    if (options.fps)
+        (sequence.lead_in_fps ? *sequence.lead_in_fps : state.fps) = *options.fps;
+    if (options.frame && (*options.frame < 0 || *options.frame > render::k_last_frame))
+        return fail(ErrorCode::usage, fmt::format("--frame {}: frames count from 0 to {}", *options.frame,
+                                                  render::k_last_frame));
+    if (options.frame)
+        sequence.frames = {*options.frame};
+    if (options.time && !std::isfinite(*options.time))
+        return fail(ErrorCode::usage, "--time: give a finite number of seconds");
+    if (options.time) {
+        state = render::at_time(*options.time, state);
+        sequence.frames = {state.frame};
+    }
+    return options.frames ? keep(parse_frames(*options.frames), sequence.frames) : Result<void>();
+}
+
+} // namespace
+
+FrameOptions sized(FrameOptions options, const scene::Scene& scene) {
+    if (!options.size && scene.size)
+        options.size = scene::to_string(*scene.size);
+    return options;
+}
+
+FrameOptions sized(FrameOptions options, const SceneRequest& request) {
+    const auto scene = options.size ? Result<scene::Scene>() : scene::load_scene(request.path, request.files);
+    return scene ? sized(std::move(options), *scene) : options;
+}
+
+Result<FrameSequence> resolve(const FrameOptions& options, FrameSequence base) {
+    FrameSequence sequence = std::move(base);
+    render::FrameState& state = sequence.state;
+    if (options.size) {
+        const Extent before = state.extent;
+        TRY(keep(parse_size(*options.size), state.extent));
+        state.mouse.stretch(before, state.extent);
+    }
+    TRY(resolve_time(options, sequence));
+    if (options.mouse)
+        TRY(keep(parse_mouse(*options.mouse), state.mouse));
+    if (options.date)
+        TRY(keep(render::parse_date(*options.date), state.date));
+    if (options.camera) {
+        TRY(keep(render::parse_camera(*options.camera), state.camera));
+        state.initial_camera = state.camera;
+    }
+    if (!options.pass.empty())
+        state.pass = options.pass;
+    if (options.input) {
+        sequence.input_file = *options.input;
+        TRY(keep(load_input_script(*options.input), sequence.input));
+    }
+    return sequence;
+}
+
+bool compiles_scenes(Command command) {
+    return command.has_option("SCENE") && command.has_option("--set");
+}
+
+void add_memory_option(Command command, LimitOptions& options) {
+    command.add_option("--memory", options.memory, "What compiling and drawing may take, as in 2G [50%]")
+        .type_name("SIZE");
+}
+
+void add_limit_options(Command app, LimitOptions& options) {
+    for (Command command : app.subcommands()) {
+        if (!compiles_scenes(command) || command.has_option("--memory")) // `view` adds its own
+            continue;
+        add_memory_option(command, options);
+        if (!command.has_option("--timeout"))
+            command
+                .add_option("--timeout", options.timeout,
+                            "Give up where the driver takes longer to compile a pass or to draw")
+                .type_name("SECONDS")
+                .check(number<double>("a number of seconds"));
+    }
+}
+
+Result<Limits> resolve(const LimitOptions& options) {
+    if (options.timeout && !(*options.timeout > 0))
+        return fail(ErrorCode::usage, "--timeout: give a number of seconds above 0");
+    const uint64_t machine = machine_memory();
+    if (!options.memory)
+        return Limits{machine / 2, options.timeout};
+    return parse_memory(*options.memory, machine).map([&](uint64_t bytes) {
+        return Limits{bytes, options.timeout};
+    });
+}
+
+} // namespace tidemark::cli

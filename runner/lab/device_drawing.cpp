@@ -1,0 +1,251 @@
+#include "base/error.hpp"
+#include "base/measurement.hpp"
+#include "base/software_renderer.hpp"
+#include "lab/device_check.hpp"
+#include "lab/work_precision.hpp"
+#include "render/exposure.hpp"
+#include "render/gl_context.hpp"
+#include "render/gl_sync.hpp"
+
+#include <GL/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <set>
+
+namespace tidemark::lab {
+
+std::span<const DeviceCheck> device_checks() {
+    static constexpr DeviceCheck k_checks[] = {
+        {"read-back", ask_read_back},   {"read-ahead", ask_read_ahead},
+        {"bytes", ask_bytes},           {"special-values", ask_special_values},
+        {"arithmetic", ask_arithmetic}, {"contraction", ask_contraction},
+        {"functions", ask_functions},   {"large-sines", ask_large_sines},
+        {"doubles", ask_doubles},       {"repeatability", ask_repeatability},
+        {"tiles", ask_tiles},           {"program-cache", ask_program_cache},
+        {"reset", ask_reset},           {"loops", ask_loops},
+        {"timer", ask_timer},           {"conformance", ask_conformance},
+    };
+    return k_checks;
+}
+
+namespace {
+
+/// Each pixel takes another path through functions, derivatives and branches, and keeps every bit.
+constexpr std::string_view k_busy = R"(void mainImage(out vec4 c, in vec2 p) {
+    vec2 z = p / iResolution.y + iTime;
+    for (int i = 0; i < 40; ++i) {
+        z = vec2(sin(3.1 * z.y) + 0.3 * z.x, cos(2.7 * z.x) * exp(-0.1 * z.y));
+        if (z.x > 0.9) z = z.yx * 1.01;
+    }
+    c.rgb = vec3(z.x, dFdx(z.x), dFdy(z.y));
+}
+)";
+constexpr Extent k_extent{250, 141};
+
+bool same_bytes(const image::Image& a, const image::Image& b) {
+    return std::ranges::equal(a.f32(), b.f32(), {}, std::bit_cast<uint32_t, float>,
+                              std::bit_cast<uint32_t, float>);
+}
+
+render::RenderOptions options_of(Extent extent) {
+    return {.extent = extent, .samples = image::SampleType::f32};
+}
+
+Result<image::Image> drawn(std::string_view text, const render::RenderOptions& options) {
+    auto renderer = TRY(renderer_of(text, options));
+    renderer.draw({});
+    return renderer.read_back();
+}
+
+/// Computes the PCG hash, as the text in device_numbers.cpp does on the device.
+uint32_t bits(uint32_t n) {
+    n = n * 747796405U + 2891336453U;
+    n = ((n >> ((n >> 28U) + 4U)) ^ n) * 277803737U;
+    return (n >> 22U) ^ n;
+}
+
+/// Changes a bit pattern to a normal number if it is not one.
+uint32_t normal(uint32_t pattern) {
+    const uint32_t exponent = pattern & 0x7F800000U;
+    return exponent == 0 || exponent == 0x7F800000U ? pattern ^ 0x40000000U : pattern;
+}
+
+} // namespace
+
+Result<DeviceAnswer> ask_read_back() {
+    const auto samples =
+        TRY(samples_of("for (int k = 0; k < 3; ++k) {"
+                       "  uint u = bits(3u * i + uint(k)), e = u & 0x7F800000u;"
+                       "  c[k] = uintBitsToFloat(e == 0u || e == 0x7F800000u ? u ^ 0x40000000u : u);"
+                       "}",
+                       1 << 16));
+    size_t wrong = 0;
+    for (uint32_t i = 0; i < samples.size(); ++i)
+        for (uint32_t k = 0; k < 3; ++k)
+            wrong += std::bit_cast<uint32_t>(samples[i][k]) != normal(bits(3 * i + k));
+    const size_t floats = 3 * samples.size();
+    if (wrong > 0)
+        return DeviceAnswer{Verdict::fail,
+                            fmt::format("{} of {} floats are not read as they were written", wrong, floats)};
+    return DeviceAnswer{Verdict::pass,
+                        fmt::format("{} floats are read bit by bit as they were written", floats)};
+}
+
+Result<DeviceAnswer> ask_read_ahead() {
+    constexpr int k_frames = 7;
+    auto renderer = TRY(renderer_of(k_busy, options_of(k_extent)));
+    std::vector<image::Image> at_once;
+    for (int frame = 0; frame < k_frames; ++frame) {
+        renderer.draw({.time = double(frame)});
+        at_once.push_back(renderer.read_back());
+    }
+    gl::PixelRing ring(2);
+    int taken = 0;
+    int wrong = 0;
+    const auto take = [&] { wrong += !same_bytes(renderer.take(ring), at_once[size_t(taken++)]); };
+    for (int frame = 0; frame < k_frames; ++frame) {
+        renderer.draw({.time = double(frame)});
+        if (ring.full())
+            take();
+        if (!renderer.read_ahead(ring))
+            return DeviceAnswer{Verdict::warn,
+                                "the driver has no memory to read pictures behind the drawing"};
+    }
+    while (!ring.empty())
+        take();
+    if (wrong > 0)
+        return DeviceAnswer{Verdict::fail,
+                            fmt::format("{} of {} pictures that are read behind the drawing have other bytes "
+                                        "(TIDEMARK_READ_BACK=at-once does without)",
+                                        wrong, k_frames)};
+    return DeviceAnswer{
+        Verdict::pass,
+        fmt::format("{} pictures read behind the drawing have the bytes of those read at once", k_frames)};
+}
+
+/// Checks rounding to bytes. OpenGL allows either neighbour for a colour between two levels. NVIDIA's H100
+/// keeps 12 bits before it rounds: a colour up to 0.06 of a level above the middle becomes the lower level.
+Result<DeviceAnswer> ask_bytes() {
+    auto renderer = TRY(renderer_of("void mainImage(out vec4 c, in vec2 p) {"
+                                    "  float k = floor(p.x); c = vec4(k, k - 0.4, k + 0.4, k * 2.0) / 255.0;"
+                                    "}",
+                                    {.extent = {256, 1}}));
+    renderer.draw({});
+    const image::Image picture = renderer.read_back();
+    for (int k = 0; k < 256; ++k)
+        for (size_t channel = 0; channel < 3; ++channel)
+            if (const int got = picture.u8()[size_t(4 * k) + channel]; got != k)
+                return DeviceAnswer{Verdict::fail, fmt::format("{}/255 is kept as {}/255", k, got)};
+    return DeviceAnswer{
+        Verdict::pass,
+        "colours within 0.4 of one of 256 levels are kept as that level, and nothing is done to them"};
+}
+
+Result<DeviceAnswer> ask_repeatability() {
+    std::vector<image::Image> pictures;
+    for (int program = 0; program < 2; ++program) {
+        auto renderer = TRY(renderer_of(k_busy, options_of(k_extent)));
+        // Alternate, as an unchanged picture is not drawn again.
+        for (const double time : {0.0, 1.0, 0.0, 1.0, 0.0}) {
+            renderer.draw({.time = time});
+            if (time == 0.0)
+                pictures.push_back(renderer.read_back());
+        }
+    }
+    const auto differs = [&](const image::Image& picture) { return !same_bytes(picture, pictures[0]); };
+    if (const auto others = std::ranges::count_if(pictures, differs))
+        return DeviceAnswer{Verdict::fail, fmt::format("{} of {} drawings of one frame have other bytes",
+                                                       others, pictures.size())};
+    return DeviceAnswer{
+        Verdict::pass,
+        fmt::format("{} drawings of one frame by two programs have the same bytes", pictures.size())};
+}
+
+Result<DeviceAnswer> ask_tiles() {
+    const image::Image whole = TRY(drawn(k_busy, options_of(k_extent)));
+    render::RenderOptions in_tiles = options_of(k_extent);
+    in_tiles.tile = Extent{64, 64};
+    auto renderer = TRY(renderer_of(k_busy, in_tiles));
+    renderer.draw({});
+    if (!same_bytes(whole, draw_in_tiles(renderer, {})))
+        return DeviceAnswer{Verdict::fail,
+                            "a frame drawn in tiles has other bytes than the same frame drawn whole"};
+    return DeviceAnswer{Verdict::pass, "a frame drawn in tiles has the bytes of one drawn whole"};
+}
+
+Result<DeviceAnswer> ask_loops() {
+    constexpr int k_turns = 1'000'000;
+    const Sample counted =
+        TRY(samples_of(fmt::format("uint s = i; int n = 0;"
+                                   "for (; n < {} + int(iTime); ++n) s = s * 1664525u + 1013904223u;"
+                                   "c.rg = vec2(float(n), float(s & 0xFFFFu));",
+                                   k_turns),
+                       1))[0];
+    uint32_t state = 0;
+    for (int n = 0; n < k_turns; ++n)
+        state = state * 1664525U + 1013904223U;
+    if (counted[0] < k_turns)
+        return DeviceAnswer{Verdict::warn, fmt::format("loops are cut off: {:.0f} of {} turns were made",
+                                                       counted[0], k_turns)};
+    if (counted[0] != k_turns || counted[1] != float(state & 0xFFFFU))
+        return DeviceAnswer{Verdict::fail,
+                            fmt::format("a loop of {} turns counts {:.0f}", k_turns, counted[0])};
+    return DeviceAnswer{Verdict::pass, fmt::format("a loop of {} turns is made whole", k_turns)};
+}
+
+Result<DeviceAnswer> ask_program_cache() {
+    const auto renderer = TRY(renderer_of(
+        "void mainImage(out vec4 c, in vec2 p) { c = vec4(p, iTime, 1.0); }", {.extent = {8, 8}}));
+    const gl::ProgramBinary binary = renderer.program(renderer.shown_index()).binary();
+    if (binary.bytes.empty())
+        return DeviceAnswer{Verdict::pass, "the driver writes no programs down: each is compiled anew"};
+    if (!gl::Program::load(binary))
+        return DeviceAnswer{Verdict::warn, "a program that the driver wrote down does not link again"};
+    return DeviceAnswer{Verdict::pass, fmt::format("a program of {} bytes links again", binary.bytes.size())};
+}
+
+Result<DeviceAnswer> ask_timer() {
+    ClockComparison clocks;
+    for (const int turns : {200, 2000}) {
+        auto renderer = TRY(
+            renderer_of(fmt::format("void mainImage(out vec4 c, in vec2 p) {{"
+                                    "  float s = p.x; for (int i = 0; i < {}; ++i) s = sin(s + p.y + iTime);"
+                                    "  c = vec4(s);"
+                                    "}}",
+                                    turns),
+                        {.extent = {640, 360}}));
+        for (int frame = 0; frame < 6; ++frame) {
+            glFinish();
+            const Stopwatch watch;
+            gl::ElapsedTime timer;
+            renderer.draw({.time = double(frame)});
+            timer.stop();
+            glFinish();
+            const auto told = timer.milliseconds();
+            if (!told)
+                return DeviceAnswer{Verdict::warn, "the driver has no timer: times are by the wall clock"};
+            if (frame > 0) // the first frame includes compilation
+                clocks.add(*told, watch.elapsed().wall);
+        }
+    }
+    return DeviceAnswer{
+        clocks.agree() ? Verdict::pass : Verdict::warn,
+        fmt::format("the driver's timer is {:.2f} to {:.2f} times the wall clock around glFinish{}",
+                    clocks.least, clocks.most, clocks.agree() ? "" : ": times are by the wall clock")};
+}
+
+Result<DeviceAnswer> ask_reset() {
+    if (gl::tells_resets())
+        return DeviceAnswer{Verdict::pass,
+                            "the driver says when it was reset: what it drew is not taken for a picture"};
+    if (is_software_renderer(gl::query_capabilities().renderer))
+        return DeviceAnswer{Verdict::pass, "the processor draws: there is no driver to be reset"};
+    return DeviceAnswer{
+        Verdict::warn,
+        "the driver does not say when it was reset: pictures drawn after that are not what they seem"};
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,106 @@
+// A buffer of 32-bit words that instrumented texts write (shader/watch.hpp,
+// shader/domain_watch.hpp). A context must be current.
+#pragma once
+
+#include "base/error.hpp"
+#include "media/image.hpp"
+#include "render/frame_stepper.hpp"
+#include "render/gl_textures.hpp"
+#include "render/renderer.hpp"
+#include "shader/watch.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tidemark::lab {
+
+class ShaderWords {
+public:
+    /// Creates `count` zeros and binds them for the instrumented texts.
+    explicit ShaderWords(size_t count);
+
+    /// Returns what the draws so far have written.
+    std::vector<uint32_t> read() const;
+
+private:
+    gl::BufferHandle buffer_;
+    size_t count_;
+};
+
+// Draws one of Tidemark's texts in place of a pass, into a picture of its own. A context must be current.
+
+using render::PassPreview;
+
+class StandIn {
+public:
+    /// Links the text. Fails (ErrorCode::load) with the driver's message, which names the text by `what`,
+    /// such as "the watched text". `extent` is the picture's size; none: that of the pass.
+    static Result<StandIn> link(const PassPreview& preview, const std::string& text, std::string_view what,
+                                std::optional<Extent> extent = {});
+
+    /// Sets a uniform of the text; does nothing if the driver removed it.
+    void set(const std::string& uniform, double value);
+
+    /// Draws the text. It does not clear the picture first.
+    void draw(const PassPreview& preview, int face = 0) const;
+    /// Clears the picture and draws it with the pass's own program.
+    void draw_own(const PassPreview& preview) const;
+    /// Reads the picture back, RGBA floats.
+    image::Image picture() const;
+    const gl::RenderTarget& target() const { return target_; }
+
+private:
+    StandIn(gl::Program program, gl::RenderTarget target)
+        : program_(std::move(program)), target_(std::move(target)) {}
+
+    gl::Program program_;
+    gl::RenderTarget target_;
+};
+
+// Draws an instrumented text in place of a pass, for one pixel or for the whole picture, and reads what it
+// recorded. A context must be current.
+
+/// A pixel: column and row from the bottom, and the face of a cubemap pass.
+struct PixelPlace {
+    int x = 0;
+    int y = 0;
+    int face = 0;
+
+    bool operator==(const PixelPlace&) const = default;
+};
+
+/// The bits of a pixel's four floats.
+using PixelBits = std::array<uint32_t, 4>;
+bool is_finite(const PixelBits& bits);
+PixelBits bits_at(const image::Image& image, PixelPlace pixel);
+
+struct WatchReading {
+    PixelBits colour{};
+    std::vector<uint32_t> words; ///< glsl::WatchLayout
+
+    bool arrived() const { return words[glsl::WatchLayout::k_arrived] != 0; }
+    glsl::NodeId hit() const { return words[glsl::WatchLayout::k_hit]; }
+};
+
+/// Parses the text of a pass in the plan as it was linked. `as_written`: without the zeros that variables are
+/// initialised with, here and on ShaderToy's site.
+Result<std::unique_ptr<const glsl::ParsedText>> read_text(const render::Renderer& renderer, size_t pass,
+                                                          bool as_written = false);
+
+/// Does the same for a pass that was linked in that dialect.
+Result<std::unique_ptr<const glsl::ParsedText>> read_text(const scene::Scene& scene, const scene::Pass& pass,
+                                                          glsl::Dialect dialect, bool as_written);
+
+/// Draws the whole triangle with all other pixels cut off, so that derivatives are as in the picture. Fails
+/// (ErrorCode::load) with the driver's message if it refuses the text.
+Result<WatchReading> read_pixel(const PassPreview& preview, const glsl::Watch& watch, PixelPlace pixel);
+
+/// Returns the first hit of each pixel. WatchRequest::map_width must be the picture's width.
+Result<std::vector<glsl::NodeId>> read_map(const PassPreview& preview, const glsl::Watch& watch, int face);
+
+} // namespace tidemark::lab

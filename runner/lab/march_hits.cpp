@@ -1,0 +1,438 @@
+#include "lab/march_hits.hpp"
+
+#include "base/error.hpp"
+#include "base/measurement.hpp"
+#include "proof/ray_proofs.hpp"
+#include "render/frame_stepper.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <thread>
+
+namespace tidemark::lab {
+namespace {
+
+using Outcome = ProvedRay::Outcome;
+using Verdict = ir::FirstHit::Verdict;
+
+/// A march stops within its threshold, and a step of one hundredth is invisible.
+constexpr double k_same_end = 0.01;
+/// Mipmap levels differ by more than the usual width of a hit; this is still narrower than is visible.
+constexpr double k_width_at_any_level = 1e-3;
+/// Each evaluation covers all levels; most decided rays need about fifty.
+constexpr uint64_t k_most_at_any_level = 500;
+/// Below the threshold by more than rounding.
+constexpr float k_surely_below = -1e-5f;
+
+/// Returns whether a sample of the march was below the threshold where that is excluded. A march that goes
+/// backwards may sample places before its start. For a threshold that changes with the iterations zero is
+/// used instead, because the first threshold is not below it.
+bool contradicts(const ir::MarchSlice& slice, const ir::March& march, const ir::FirstHit& found,
+                 bool threshold_by_turn) {
+    const double free_to = found.verdict == Verdict::none ? found.where.high : found.where.low;
+    return std::ranges::any_of(march.turns, [&](const ir::Turn& turn) {
+        const double at = slice.parameter(turn);
+        return (threshold_by_turn ? turn.measured : turn.distance()) < k_surely_below &&
+               at >= slice.start() && at < free_to - 1e-6 * std::max(1.0, std::abs(free_to));
+    });
+}
+
+/// Returns how far the march has passed along the ray. A march that looks for a change of sign ends below the
+/// surface and steps back after the loop, so the sample before that counts. Single steps may have been taken
+/// back.
+double passed_by(const ir::MarchSlice& slice, const ir::March& march) {
+    const double last = slice.parameter(march.turns.back());
+    if (!march.hit || march.turns.back().threshold != 0)
+        return last;
+    double before = slice.start();
+    for (const ir::Turn& turn : march.turns)
+        if (const double at = slice.parameter(turn); at < last)
+            before = std::max(before, at);
+    return before;
+}
+
+/// Returns whether the interval is as narrow as the tolerance by which a march is judged.
+bool is_narrow(const ir::FirstHit& found) {
+    return found.verdict == Verdict::none ||
+           (found.verdict == Verdict::hit &&
+            found.where.width() <= k_same_end * std::max(1.0, std::abs(found.where.high)));
+}
+
+Outcome outcome_of(const ir::MarchSlice& slice, const ir::March& march, const ir::FirstHit& found) {
+    if (found.verdict == Verdict::undecided)
+        return Outcome::undecided;
+    if (found.verdict == Verdict::none)
+        return Outcome::agrees;
+    if (!march.hit)
+        return Outcome::misses;
+    const double ended = passed_by(slice, march);
+    const double tolerance = k_same_end * std::max(1.0, std::abs(ended));
+    return ended > found.where.high + tolerance ? Outcome::steps_over : Outcome::agrees;
+}
+
+} // namespace
+
+std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::FloatEvaluator& pixel,
+                                   const ir::TextureSet& textures, glm::ivec2 at, uint64_t most_evaluations) {
+    ir::FloatEvaluator evaluator = pixel;
+    bool unknown = false, chooses_level = false;
+    evaluator.textures = [&](const ir::Lookup& lookup, std::span<const ir::Point<float>> operands) {
+        const auto texels = textures.find(lookup.sampler);
+        unknown = unknown || texels == textures.end();
+        chooses_level = chooses_level || (!unknown && texels->second->chooses_level(lookup));
+        return ir::look_up(textures, lookup, operands);
+    };
+    const auto loop_index = ir::enter_first(evaluator, function.loops());
+    if (!loop_index)
+        return std::nullopt;
+    ProvedRay ray{at, *loop_index};
+    const ir::LoopSlice& loop_slice = function.slices()[*loop_index];
+    const ir::FloatEvaluator entered = evaluator;
+    unknown = chooses_level = false; // from here on only reads of the march count
+    const ir::March march = ir::follow(evaluator, function.function(), loop_slice.loop);
+    ray.turns = march.turns.size();
+    if (unknown) {
+        ray.outcome = Outcome::unknown_texture;
+        return ray;
+    }
+    if (march.turns.empty()) { // its range is empty
+        ray.outcome = Outcome::agrees;
+        return ray;
+    }
+    if (!ir::is_faithful(loop_slice, entered, march)) {
+        ray.outcome = Outcome::unfaithful;
+        return ray;
+    }
+    ir::MarchSlice slice(loop_slice, entered, ir::textures_in<ir::Interval>(textures));
+    const double end = slice.end(march);
+    if (end < slice.start()) {
+        ray.reason = ir::FirstHit::Reason::not_finite;
+        return ray;
+    }
+    ir::FirstHit found;
+    if (chooses_level) {
+        ir::MarchSlice at_any(loop_slice, entered, ir::textures_at_any_level(textures));
+        found = ir::first_hit(at_any, end, k_most_at_any_level, k_width_at_any_level);
+    }
+    ray.at_base_level = chooses_level && !is_narrow(found);
+    if (!chooses_level || ray.at_base_level)
+        found = ir::first_hit(slice, end, most_evaluations);
+    ray.outcome = outcome_of(slice, march, found);
+    ray.reason = found.reason;
+    ray.evaluations = found.evaluations;
+    ray.contradicted = contradicts(slice, march, found, loop_slice.loop.threshold_by_turn);
+    return ray;
+}
+
+void RayCounts::add(const ProvedRay& ray) {
+    ++rays;
+    contradicted += ray.contradicted;
+    at_base_level += ray.at_base_level;
+    if (ray.evaluations > 0)
+        evaluations.push_back(double(ray.evaluations));
+    if (!wrong_loop && (ray.outcome == Outcome::steps_over || ray.outcome == Outcome::misses))
+        wrong_loop = ray.loop;
+    switch (ray.outcome) {
+    case Outcome::agrees: ++agree; break;
+    case Outcome::steps_over: ++step_over; break;
+    case Outcome::misses: ++miss; break;
+    case Outcome::undecided:
+        ++undecided;
+        ++reasons[size_t(ray.reason)];
+        break;
+    case Outcome::unknown_texture: ++unknown_texture; break;
+    case Outcome::unfaithful: ++unfaithful; break;
+    }
+}
+
+ir::FirstHit::Reason RayCounts::commonest() const {
+    return ir::FirstHit::Reason(std::ranges::max_element(reasons) - reasons.begin());
+}
+
+namespace {
+
+constexpr double k_relative_width = 1e-9;
+constexpr uint64_t k_most_evaluations = 20'000;
+/// Number of rays from which the time per ray is estimated.
+constexpr size_t k_pilot = 64;
+
+constexpr ir::Interval k_no_hit{-1, -1};
+
+/// Returns the interval of the first hit; k_no_hit if there is none; nullopt if it is not known.
+std::optional<ir::Interval> hit_of(const MarchRays& rays, size_t number, ir::Surface surface) {
+    const int width = rays.extent().width;
+    auto ray = rays.enter({int(number) % width, int(number) / width}, surface);
+    if (!ray || (ray->slice && ray->march.turns.empty()))
+        return k_no_hit;
+    if (!ray->slice)
+        return std::nullopt;
+    ir::MarchSlice& slice = *ray->slice;
+    const bool limited = ray->march.far.has_value();
+    const double last = slice.end(ray->march);
+    if (last < slice.start())
+        return limited ? std::optional(k_no_hit) : std::nullopt;
+    const ir::FirstHit found = ir::first_hit(slice, last, k_most_evaluations, k_relative_width);
+    if (found.verdict == ir::FirstHit::Verdict::hit)
+        return ir::Interval{found.where.low * slice.unit(), found.where.high * slice.unit()};
+    const bool none = found.verdict == ir::FirstHit::Verdict::none && limited;
+    return none ? std::optional(k_no_hit) : std::nullopt;
+}
+
+using Found = std::vector<std::optional<ir::Interval>>;
+
+/// The first few rays, and the seconds that one takes.
+struct Pilot {
+    ir::Surface surface;
+    Found found{};
+    double seconds = 0;
+
+    Pilot(const MarchRays& rays, ir::Surface which) : surface(which) {
+        const size_t pixels = rays.extent().pixels();
+        const auto start = std::chrono::steady_clock::now();
+        while (found.size() < std::min(k_pilot, pixels))
+            found.push_back(hit_of(rays, spread(found.size(), pixels), surface));
+        const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start;
+        seconds = all.count() / double(found.size());
+    }
+
+    size_t hits() const {
+        return size_t(
+            std::ranges::count_if(found, [](const auto& each) { return each && each->low != k_no_hit.low; }));
+    }
+};
+
+/// Searches for zeros, unless fewer than half of the rays that fall below the threshold have one.
+Pilot pilot_of(const MarchRays& rays) {
+    Pilot zeros(rays, ir::Surface::zero), places(rays, ir::Surface::threshold);
+    return 2 * zeros.hits() < places.hits() ? places : zeros;
+}
+
+TrueHits truth_of(const Found& found, size_t pixels, ir::Surface surface) {
+    TrueHits truth;
+    truth.surface = surface;
+    truth.looked_at = found.size();
+    truth.hits.distance.assign(pixels, std::nan(""));
+    truth.hits.evaluations.assign(pixels, 0.0f);
+    truth.hits.flags.assign(pixels, 0);
+    double squares = 0;
+    for (size_t i = 0; i < found.size(); ++i) {
+        if (!found[i]) {
+            ++truth.unknown;
+            continue;
+        }
+        truth.hits.distance[spread(i, pixels)] = found[i]->low + found[i]->width() / 2;
+        squares += found[i]->width() * found[i]->width() / 4;
+    }
+    truth.half_width = std::sqrt(squares / double(std::max<size_t>(1, truth.looked_at - truth.unknown)));
+    return truth;
+}
+
+} // namespace
+
+std::optional<TrueHits> true_hits(const DrawnPass& drawn, double seconds, const KeepGoing& keep_going) {
+    const MarchRays rays(drawn);
+    const size_t pixels = rays.extent().pixels();
+    Pilot pilot = pilot_of(rays);
+    Found& found = pilot.found;
+    const double affordable = seconds * std::max(1u, std::thread::hardware_concurrency()) / pilot.seconds;
+    const auto every = size_t(std::ceil(std::max(1.0, double(pixels) / affordable)));
+    const size_t first = found.size();
+    found.resize(std::max(first, pixels / every));
+    const bool complete = on_all_cores(found.size() - first, keep_going, [&](size_t i) {
+        found[first + i] = hit_of(rays, spread(first + i, pixels), pilot.surface);
+    });
+    return complete ? std::optional(truth_of(found, pixels, pilot.surface)) : std::nullopt;
+}
+
+namespace {
+
+/// Approximate number of pixels that are compared with the CPU.
+constexpr double k_compared = 900;
+/// A march with an iteration more or less ends within its threshold of the same place.
+constexpr float k_same_place = 2e-3f;
+constexpr float k_same_turns = 0.05f;
+constexpr double k_least_agreeing = 0.9;
+
+/// Returns the index of the carried value that is the ray's parameter itself.
+std::optional<size_t> parameter_of(const ir::MarchingLoop& loop) {
+    for (size_t i = 0; i < loop.carried.size(); ++i)
+        if (loop.by_parameter() || loop.carried[i].factors.empty())
+            return i;
+    return std::nullopt;
+}
+
+/// Returns each loop of the text once: one that is called from several places is inlined several times.
+std::vector<glsl::MarchLines> marches_of(const PassFunction& image) {
+    std::vector<glsl::MarchLines> marches;
+    for (const ir::MarchingLoop& loop : image.loops())
+        if (glsl::MarchLines lines = lines_of(image, loop);
+            std::ranges::find(marches, lines) == marches.end())
+            marches.push_back(std::move(lines));
+    return marches;
+}
+
+/// Copies Common into each pass, so that Image's copy can be changed.
+void inline_common(scene::Scene& scene) {
+    for (scene::Pass& pass : scene.passes) {
+        text::MappedText whole = scene.common;
+        whole.append(pass.text);
+        pass.text = std::move(whole);
+    }
+    scene.common = {};
+}
+
+image::Image answer(render::Renderer& renderer, glsl::RecordAnswer which, const render::FrameState& state) {
+    ask(renderer, which);
+    render::FrameStepper(renderer, state).draw(state.frame);
+    return renderer.read_back();
+}
+
+/// Lets NaN equal itself in comparisons.
+uint32_t as_bits(float value) {
+    return std::bit_cast<uint32_t>(value);
+}
+
+size_t differing_colours(const image::Image& a, const image::Image& b) {
+    size_t count = 0;
+    for (size_t i = 0; i < a.extent.pixels(); ++i)
+        count +=
+            !std::ranges::equal(a.f32().subspan(4 * i, 3), b.f32().subspan(4 * i, 3), {}, as_bits, as_bits);
+    return count;
+}
+
+/// The march of a pixel on the CPU.
+struct CpuMarch {
+    bool textured = false;
+    ir::March march;
+    float place = 0; ///< place on the ray of the last distance measured
+};
+
+float place_of(const ir::MarchingLoop& loop, const ir::FloatEvaluator& entered, const ir::Turn& turn) {
+    if (const auto parameter = parameter_of(loop))
+        return turn.carried[*parameter];
+    float squares = 0;
+    for (size_t i = 0; i < turn.carried.size(); ++i) {
+        const float way = turn.carried[i] - entered.value(loop.carried[i].phi).real;
+        squares += way * way;
+    }
+    return std::sqrt(squares);
+}
+
+/// Runs the pixel that `evaluator` is set to; nullopt if it enters no marching loop.
+std::optional<CpuMarch> march_of(const PassFunction& image, ir::FloatEvaluator& evaluator) {
+    CpuMarch result;
+    evaluator.textures = [&](const ir::Lookup&, std::span<const ir::Point<float>>) {
+        result.textured = true;
+        return ir::Point<float>{};
+    };
+    const auto entered = ir::enter_first(evaluator, image.loops());
+    if (!entered)
+        return std::nullopt;
+    const ir::MarchingLoop& loop = image.loops()[*entered];
+    const ir::FloatEvaluator at_entry = evaluator;
+    result.march = ir::follow(evaluator, image.function(), loop);
+    if (!result.march.turns.empty())
+        result.place = place_of(loop, at_entry, result.march.turns.back());
+    return result;
+}
+
+bool same_place(float a, float b) {
+    return (std::isnan(a) && std::isnan(b)) ||
+           std::abs(a - b) <= k_same_place * std::max({1.0f, std::abs(a), std::abs(b)});
+}
+
+/// The end of a march that goes astray far away depends on rounding, so only the places of hits are compared.
+bool agrees(const CpuMarch& cpu, const float* recorded) {
+    const auto turns = float(cpu.march.turns.size());
+    if (turns == 0 || recorded[1] == 0)
+        return turns == recorded[1];
+    const bool hit = recorded[2] <= recorded[3];
+    return hit == cpu.march.hit && std::abs(recorded[1] - turns) <= std::max(1.0f, k_same_turns * turns) &&
+           (!hit || same_place(recorded[0], cpu.place));
+}
+
+} // namespace
+
+glsl::MarchLines lines_of(const PassFunction& image, const ir::MarchingLoop& loop) {
+    const ir::Function& function = image.function();
+    const ir::Instruction& comparison = function.instructions[loop.comparison];
+    glsl::MarchLines lines;
+    lines.test = image.locate(loop.line);
+    lines.comparisons = loop.comparisons;
+    lines.which = loop.which;
+    lines.distance_is_less = function.operands_of(comparison)[0] == loop.distance;
+    const auto parameter = parameter_of(loop);
+    for (size_t i = 0; i < loop.carried.size(); ++i)
+        if (!parameter || i == *parameter)
+            lines.updates.push_back(image.locate(function.instructions[loop.carried[i].update].line));
+    lines.at_update = loop.cut_at_update;
+    lines.fixed_steps = loop.kind == ir::MarchingLoop::Kind::fixed_step;
+    lines.in_next_turn = loop.in_next_turn;
+    lines.stops_before = loop.stops_before;
+    return lines;
+}
+
+Result<Recording> record_hits(const scene::Scene& scene, const PassFunction& image) {
+    if (image.loops().empty())
+        return fail(ErrorCode::load, "no loop of Image is found to march along a ray");
+    const std::vector<glsl::MarchLines> marches = marches_of(image);
+    Recording recording{scene, std::ranges::all_of(marches, &glsl::MarchLines::stops_before),
+                        std::ranges::all_of(marches, &glsl::MarchLines::fixed_steps)};
+    inline_common(recording.scene);
+    scene::Pass& pass = recording.scene.passes[recording.scene.image_index()];
+    const auto text = TRY(glsl::ParsedText::read(pass.text, glsl::k_site_macros));
+    pass.text = TRY(glsl::record_marches(*text, glsl::find_facts(*text), marches));
+    pass.kind = scene::PassKind::hit;
+    recording.scene.knobs.push_back({.name = std::string(glsl::k_record_knob)});
+    return recording;
+}
+
+void ask(render::Renderer& recording, glsl::RecordAnswer answer) {
+    std::vector<scene::Knob> knobs = recording.scene().knobs;
+    knobs.back().value = {double(answer)};
+    recording.turn(std::move(knobs));
+}
+
+RecordingCheck check_recording(render::Renderer& plain, render::Renderer& recording,
+                               const PassFunction& image, const render::FrameState& state) {
+    RecordingCheck check;
+    render::FrameStepper(plain, state).draw(state.frame);
+    check.other_pixels =
+        differing_colours(plain.read_back(), answer(recording, glsl::RecordAnswer::picture, state));
+    const image::Image marches = answer(recording, glsl::RecordAnswer::march, state);
+    answer(recording, glsl::RecordAnswer::hit, state);
+    const ir::FloatEvaluator frame = image.frame(plain, plain.scene().image_index(), inputs_of(state));
+    const Extent extent = plain.extent();
+    const int stride = std::max(1, int(std::sqrt(double(extent.pixels()) / k_compared)));
+    for (int y = stride / 2; y < extent.height; y += stride)
+        for (int x = stride / 2; x < extent.width; x += stride) {
+            ir::FloatEvaluator pixel = frame;
+            image.move_to(pixel, {x, y});
+            const auto cpu = march_of(image, pixel);
+            if (!cpu)
+                continue;
+            ++check.rays;
+            check.textured += cpu->textured;
+            check.agree += !cpu->textured && agrees(*cpu, &marches.f32()[4 * size_t(y * extent.width + x)]);
+        }
+    return check;
+}
+
+std::string refusal_of(const RecordingCheck& check) {
+    if (check.other_pixels > 0)
+        return fmt::format("the text that records draws {} other pixels", check.other_pixels);
+    if (check.rays == 0)
+        return "no ray comes to the loop that marches";
+    if (double(check.agree) < k_least_agreeing * double(check.compared()))
+        return fmt::format("of {} rays only {} are recorded as they are computed from the text",
+                           check.compared(), check.agree);
+    return {};
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,263 @@
+#include "lab/march_rays.hpp"
+
+#include "lab/pass_function.hpp"
+#include "proof/number_systems.hpp"
+#include "scene/host_uniforms.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace tidemark::lab {
+
+InputRanges::InputRanges(const DrawnPass& drawn) : drawn_(&drawn) {
+    const ir::Function& function = drawn.function.function();
+    const auto frame = drawn.function.frame<double>(drawn.renderer, drawn.pass, drawn.inputs);
+    for (size_t cell = 0; cell < function.cells.size(); ++cell) {
+        const ir::Point<double>& point = frame.memory()[cell];
+        const bool real = function.cells[cell] == ir::Scalar::real;
+        memory_.push_back(real ? ir::IntervalSystem::number(point.real)
+                               : ir::IntervalSystem::constant(point.bits, function.cells[cell]));
+    }
+}
+
+void InputRanges::set(std::string_view name, std::span<const ir::Interval> ranges) {
+    const ir::Variable* variable = drawn_->function.function().find(name);
+    for (size_t i = 0; variable && i < std::min<size_t>(ranges.size(), variable->size); ++i)
+        memory_[variable->first + i] = ranges[i];
+}
+void InputRanges::set(std::string_view name, const ir::Interval& range) {
+    set(name, std::array{range});
+}
+
+void InputRanges::set_place(const ir::Interval& x, const ir::Interval& y) {
+    set("gl_FragCoord", std::array<ir::Interval, 4>{{x, y, {0.5, 0.5}, {1, 1}}});
+}
+
+void InputRanges::set_time(const ir::Interval& time) {
+    constexpr double k_frames_a_second = 1000;
+    set("iTime", time);
+    set(scene::k_time_low_uniform, {-1, 1});
+    set("iFrame", {0, std::min(time.high * k_frames_a_second, 2147483647.0)});
+    set("iTimeDelta", {0, 1});
+    set("iFrameRate", {0, k_frames_a_second});
+    set("iChannelTime", std::array{time, time, time, time});
+    set("iDate", std::array<ir::Interval, 4>{{{0, 9999}, {0, 11}, {1, 31}, {0, 86400}}});
+}
+
+void InputRanges::turn_knobs() {
+    for (const scene::Knob& knob : drawn_->renderer.scene().knobs) {
+        if (!knob.range)
+            continue;
+        std::array<ir::Interval, 4> ranges;
+        for (size_t i = 0; i < ranges.size(); ++i)
+            ranges[i] = {knob.range->low[i], knob.range->high[i]};
+        set(knob.name, ranges);
+    }
+}
+
+std::optional<ir::Interval> changing(const DrawnPass& drawn, const std::string& sampler) {
+    const scene::Pass& pass = drawn.renderer.scene().passes[drawn.pass];
+    const auto name = std::ranges::find(scene::k_channel_names, sampler);
+    const auto channel = size_t(name - scene::k_channel_names.begin());
+    if (channel >= pass.channels.size())
+        return std::nullopt;
+    switch (scene::traits_of(pass.channels[channel].input).changes) {
+    case scene::Changes::never: return std::nullopt;
+    case scene::Changes::with_passes: return ir::everything(false);
+    case scene::Changes::with_clock:
+    case scene::Changes::with_keys: return ir::Interval{0, 1};
+    }
+    return std::nullopt;
+}
+
+MarchRays::MarchRays(DrawnPass drawn)
+    : drawn_(std::move(drawn)), ranges_(drawn_), textures_(textures_of(drawn_.renderer, drawn_.pass)),
+      floats_(drawn_.function.frame<float>(drawn_.renderer, drawn_.pass, drawn_.inputs)),
+      doubles_(drawn_.function.frame<double>(drawn_.renderer, drawn_.pass, drawn_.inputs)) {
+    floats_.textures = ir::textures_in<ir::Point<float>>(textures_);
+    doubles_.textures = ir::textures_in<ir::Point<double>>(textures_);
+    for (const ir::MarchingLoop& loop : drawn_.function.loops()) {
+        auto& step = steps_.emplace_back();
+        if (loop.advance != ir::k_no_value)
+            step = ir::slice_of(drawn_.function.function(), loop, ir::SliceOf::step);
+    }
+}
+
+std::optional<MarchRay> MarchRays::enter(glm::ivec2 pixel, ir::Surface surface) const {
+    const PassFunction& function = drawn_.function;
+    ir::FloatEvaluator in_float = floats_;
+    ir::PointEvaluator<double> in_double = doubles_;
+    function.move_to(in_float, pixel);
+    function.move_to(in_double, pixel);
+    const auto index = ir::enter_first(in_float, function.loops());
+    const bool both = index == ir::enter_first(in_double, function.loops());
+    if (!index && both)
+        return std::nullopt;
+    MarchRay ray;
+    if (!index || !both)
+        return ray;
+    ray.loop = *index;
+    const ir::LoopSlice& slice = function.slices()[*index];
+    const ir::FloatEvaluator entered = in_float;
+    ray.march = ir::follow(in_float, function.function(), slice.loop);
+    if (!ir::is_faithful(slice, entered, ray.march))
+        return ray;
+    ray.slice.emplace(slice, in_double, ir::textures_in<ir::Interval>(textures_), surface);
+    ray.in_float.emplace(slice, entered);
+    return ray;
+}
+
+ir::Textures<ir::Interval> MarchRays::textures_of_all(bool at_any_time) const {
+    return [this, at_any_time](const ir::Lookup& lookup, std::span<const ir::Interval> operands) {
+        const auto any = at_any_time ? changing(drawn_, lookup.sampler) : std::nullopt;
+        return any ? *any : ir::look_up(textures_, lookup, operands, ir::UnnamedLevel::any);
+    };
+}
+
+std::optional<AreaRays> MarchRays::enter_all(const RayArea& area, ir::SliceOf what,
+                                             ir::Surface surface) const {
+    InputRanges ranges = ranges_;
+    ranges.set_place(area.x, area.y);
+    if (area.time)
+        ranges.set_time(*area.time);
+    ir::Evaluator<ir::IntervalSystem> all(drawn_.function.function());
+    all.memory() = ranges.memory();
+    all.textures = textures_of_all(area.time.has_value());
+    const auto index = ir::enter_first(all, drawn_.function.loops());
+    if (!index || (what == ir::SliceOf::step && !steps_[*index]))
+        return std::nullopt;
+    const ir::LoopSlice& slice =
+        what == ir::SliceOf::step ? *steps_[*index] : drawn_.function.slices()[*index];
+    return AreaRays{*index, ir::MarchSlice(slice, all, all.textures, surface)};
+}
+
+ir::ValueRanges ranges_of(const DrawnPass& drawn, double seconds) {
+    InputRanges inputs(drawn);
+    const auto [width, height] = drawn.renderer.extent();
+    inputs.set_place({0.5, width - 0.5}, {0.5, height - 0.5});
+    inputs.set_time({0, seconds});
+    inputs.turn_knobs();
+    const ir::TextureSet textures = textures_of(drawn.renderer, drawn.pass);
+    return ir::value_ranges(drawn.function.function(), inputs.memory(),
+                            [&](const ir::Lookup& lookup, std::span<const ir::Interval> operands) {
+                                const auto any = changing(drawn, lookup.sampler);
+                                return any ? *any
+                                           : ir::look_up(textures, lookup, operands, ir::UnnamedLevel::any);
+                            });
+}
+
+namespace {
+
+constexpr Extent k_areas{16, 9};
+/// Length of the pieces: the first is this share of the ray's length, the others are this share of the way so
+/// far. They grow with the area's width.
+constexpr double k_first_piece = 1.0 / 128;
+constexpr double k_longer = 0.1;
+/// A piece without a bound is cut into this many.
+constexpr int k_cuts = 4;
+/// Steeper bounds do not limit steps.
+constexpr double k_steepest = 100;
+
+class AreaLook {
+public:
+    AreaLook(ir::MarchSlice& slice, double end, AreaSlopes& slopes)
+        : slice_(slice), end_(end), unit_(slice.unit()), slopes_(slopes) {}
+
+    void run() {
+        const double start = slice_.start(), first = (end_ - start) * k_first_piece;
+        for (double at = start; at < end_;) {
+            const double high = std::min(at + std::max(first, k_longer * (at - start)), end_);
+            if (!look_at({at, high}, k_cuts))
+                return;
+            at = high;
+        }
+    }
+
+private:
+    /// Adds the bounds of a piece. Returns whether the space before the surface continues after it.
+    bool look_at(const ir::Interval& piece, int cuts) {
+        const auto tangent = slice_.tangent(piece);
+        if (tangent && !(tangent->value.high > 0))
+            return false;
+        const auto beside = tangent ? std::optional(tangent->slope) : slice_.slope_beside_jumps(piece);
+        if (beside && -beside->low <= k_steepest * unit_) {
+            const double way = piece.width() * unit_;
+            slopes_.bounded.push_back({std::max(0.0, -beside->low / unit_), way});
+            slopes_.may_jump += tangent ? 0 : way;
+            return true;
+        }
+        if (cuts == 1) {
+            const auto distance = slice_.distance(piece, ir::Care::quick);
+            if (distance && !distance->partial && !(distance->high > 0))
+                return false;
+            (distance && distance->partial ? slopes_.not_finite : slopes_.unbounded) += piece.width() * unit_;
+            return true;
+        }
+        bool more = true;
+        for (int i = 0; i < cuts && more; ++i)
+            more = look_at({piece.low + piece.width() * i / cuts, piece.low + piece.width() * (i + 1) / cuts},
+                           1);
+        return more;
+    }
+
+    ir::MarchSlice& slice_;
+    double end_;
+    double unit_;
+    AreaSlopes& slopes_;
+};
+
+} // namespace
+
+double AreaSlopes::bounded_way() const {
+    double sum = 0;
+    for (const Bound& each : bounded)
+        sum += each.way;
+    return sum;
+}
+
+double AreaSlopes::falls_on(double part) const {
+    std::vector<Bound> sorted = bounded;
+    std::ranges::sort(sorted, {}, &Bound::falls);
+    double left = part * bounded_way();
+    for (const Bound& each : sorted)
+        if ((left -= each.way) <= 0)
+            return each.falls;
+    return sorted.empty() ? 0 : sorted.back().falls;
+}
+
+void AreaSlopes::add(const AreaSlopes& more) {
+    bounded.insert(bounded.end(), more.bounded.begin(), more.bounded.end());
+    may_jump += more.may_jump;
+    unbounded += more.unbounded;
+    not_finite += more.not_finite;
+}
+
+AreaSlopes area_slopes(const MarchRays& rays, uint64_t most_evaluations) {
+    AreaSlopes slopes;
+    const Extent whole = rays.extent();
+    const double width = double(whole.width) / k_areas.width, height = double(whole.height) / k_areas.height;
+    uint64_t left = most_evaluations;
+    for (int y = 0; y < k_areas.height; ++y)
+        for (int x = 0; x < k_areas.width; ++x) {
+            const auto one = rays.enter({int((x + 0.5) * width), int((y + 0.5) * height)}, ir::Surface::zero);
+            if (!one || !one->slice || one->march.turns.empty() || left == 0)
+                continue;
+            auto all = rays.enter_all({{x * width, (x + 1) * width}, {y * height, (y + 1) * height}},
+                                      ir::SliceOf::distance, ir::Surface::zero);
+            const double end = one->slice->end(one->march);
+            const double way = (end - one->slice->start()) * one->slice->unit();
+            if (!std::isfinite(way) || !(way > 0))
+                continue;
+            if (!all || all->loop != one->loop) { // the code before the march may differ
+                slopes.unbounded += way;
+                continue;
+            }
+            AreaLook(all->slice, end, slopes).run();
+            left -= std::min(left, all->slice.evaluations());
+        }
+    return slopes;
+}
+
+} // namespace tidemark::lab

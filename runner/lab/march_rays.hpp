@@ -1,0 +1,127 @@
+// The inputs of a pass as an interval for each memory cell: the frame's own value unless it is set to a
+// range.
+#pragma once
+
+#include "lab/pass_function.hpp"
+#include "proof/interval.hpp"
+#include "proof/texels.hpp"
+#include "proof/value_ranges.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tidemark::lab {
+
+class InputRanges {
+public:
+    explicit InputRanges(const DrawnPass& drawn);
+
+    /// Sets a variable's components; no effect if the pass does not read it.
+    void set(std::string_view name, std::span<const ir::Interval> ranges);
+    void set(std::string_view name, const ir::Interval& range);
+    /// In pixels from the lower left corner.
+    void set_place(const ir::Interval& x, const ir::Interval& y);
+    /// In seconds. Also sets the ranges of the uniforms that follow the time.
+    void set_time(const ir::Interval& time);
+    /// Sets all knobs that have a range to the whole of it.
+    void turn_knobs();
+
+    const std::vector<ir::Interval>& memory() const { return memory_; }
+
+private:
+    const DrawnPass* drawn_;
+    std::vector<ir::Interval> memory_;
+};
+
+/// Returns the range of a sampler whose values change over time; nullopt if it keeps those of the last frame.
+std::optional<ir::Interval> changing(const DrawnPass& drawn, const std::string& sampler);
+
+// Sets up a picture's rays at the entry of their marching loop: in float, as in the text, and in double, from
+// which proofs start.
+
+/// The rays of an area of the picture, in pixels from the lower left corner, over a time span.
+struct RayArea {
+    ir::Interval x, y;
+    std::optional<ir::Interval> time{}; ///< in seconds; nullopt: the frame's time
+};
+
+/// All rays of an area at once, at the entry of the loop that each of them enters.
+struct AreaRays {
+    size_t loop = 0;
+    ir::MarchSlice slice;
+};
+
+/// A ray at the entry of its marching loop.
+struct MarchRay {
+    size_t loop = 0; ///< index in PassFunction::loops
+    ir::March march; ///< in float
+    /// Not set if the loop carries more than the place on the ray, or if the ray enters another loop in
+    /// double.
+    std::optional<ir::MarchSlice> slice;
+    /// The distance in float, as in the text; not set under the same conditions.
+    std::optional<ir::FloatField> in_float;
+};
+
+class MarchRays {
+public:
+    explicit MarchRays(DrawnPass drawn);
+    MarchRays(const MarchRays&) = delete;
+    MarchRays& operator=(const MarchRays&) = delete;
+
+    Extent extent() const { return drawn_.renderer.extent(); }
+    const PassFunction& function() const { return drawn_.function; }
+
+    /// Returns nullopt if the ray enters no loop. Thread-safe.
+    std::optional<MarchRay> enter(glm::ivec2 pixel, ir::Surface surface) const;
+
+    /// Returns nullopt if the rays may enter different loops, or if their loop has no slice of that kind.
+    /// Thread-safe.
+    std::optional<AreaRays> enter_all(const RayArea& area, ir::SliceOf what, ir::Surface surface) const;
+
+private:
+    ir::Textures<ir::Interval> textures_of_all(bool at_any_time) const;
+
+    DrawnPass drawn_;
+    std::vector<std::optional<ir::LoopSlice>> steps_; ///< by loop
+    InputRanges ranges_;
+    ir::TextureSet textures_;
+    ir::FloatEvaluator floats_;
+    ir::PointEvaluator<double> doubles_;
+};
+
+// Bounds the values of a pass over all pixels of a frame and a time span at once.
+
+/// The time runs from 0 to `seconds`; each knob takes its whole range; the mouse is that of the drawn frame.
+/// Other passes' pictures may be any finite number; keys, sound and videos are from 0 to 1.
+ir::ValueRanges ranges_of(const DrawnPass& drawn, double seconds);
+
+// Bounds how fast the field of a march falls along its rays, over the whole picture, including between the
+// rays.
+
+/// Bounds for the space before the surface that a picture's rays cross, divided into pieces of some pixels
+/// each and some length along them. Lengths are those of the picture's rays through the pieces.
+struct AreaSlopes {
+    struct Bound {
+        double falls; ///< most the field falls per unit of length, outside of jumps
+        double way;
+    };
+    std::vector<Bound> bounded{};
+    double may_jump = 0;   ///< the part of the bounded length in which it may jump
+    double unbounded = 0;  ///< length in which no bound of the slope is known
+    double not_finite = 0; ///< length in which it may be NaN or infinite
+
+    double bounded_way() const;
+    double way() const { return bounded_way() + unbounded + not_finite; }
+    /// Returns the least bound of the slope that holds for the share `part` of the bounded length.
+    double falls_on(double part) const;
+
+    void add(const AreaSlopes& more);
+};
+
+/// Computes the bounds for the frame's time. They are empty if no ray enters a march.
+AreaSlopes area_slopes(const MarchRays& rays, uint64_t most_evaluations);
+
+} // namespace tidemark::lab

@@ -1,0 +1,197 @@
+#include "lab/probed_pictures.hpp"
+
+#include "base/error.hpp"
+#include "base/measurement.hpp"
+#include "media/comparison.hpp"
+#include "media/image.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace tidemark::lab {
+
+namespace {
+
+/// Returns the largest sample difference of each pixel.
+std::vector<double> largest_differences(const image::Image& left, const image::Image& right) {
+    std::vector<double> largest(left.extent.pixels());
+    const auto channels = size_t(left.channels);
+    for (size_t i = 0; i < left.samples(); ++i) {
+        const double difference = std::abs(double(left.f32()[i]) - double(right.f32()[i]));
+        // A sample that is finite in one picture only gets the largest difference.
+        const bool same =
+            left.f32()[i] == right.f32()[i] || (std::isnan(left.f32()[i]) && std::isnan(right.f32()[i]));
+        double& most = largest[i / channels];
+        most = std::max(most, same ? 0.0 : std::isfinite(difference) ? difference : 1.0);
+    }
+    return largest;
+}
+
+bool is_number(const image::Image& image, size_t pixel) {
+    const auto samples = image.f32().subspan(pixel * size_t(image.channels), size_t(image.channels));
+    return std::ranges::all_of(samples, [](float sample) { return std::isfinite(sample); });
+}
+
+std::string decibels(double mean_square) {
+    return mean_square == 0 ? "the same" : fmt::format("{:.1f} dB", -10 * std::log10(mean_square));
+}
+
+} // namespace
+
+double p99_difference(const image::Image& left, const image::Image& right) {
+    return quantile(largest_differences(left, right), 0.99);
+}
+
+double visibly_different_percent(const image::Image& left, const image::Image& right) {
+    const std::vector<double> largest = largest_differences(left, right);
+    const auto visible = std::ranges::count_if(largest, [](double gap) { return gap > k_visible_gap; });
+    return 100 * double(visible) / double(largest.size());
+}
+
+std::string alikeness(const image::Image& before, const image::Image& after) {
+    if (const auto difference = image::compare(before, after); difference && !std::isnan(difference->psnr))
+        return decibels(difference->rmse * difference->rmse);
+    const auto channels = size_t(before.channels);
+    size_t none_before = 0, none_after = 0, numbers = 0;
+    double squares = 0;
+    for (size_t pixel = 0; pixel < before.extent.pixels(); ++pixel) {
+        const bool first = is_number(before, pixel), second = is_number(after, pixel);
+        none_before += !first;
+        none_after += !second;
+        if (!first || !second)
+            continue;
+        ++numbers;
+        for (size_t i = pixel * channels; i < (pixel + 1) * channels; ++i)
+            squares += std::pow(double(before.f32()[i]) - double(after.f32()[i]), 2);
+    }
+    const std::string counted =
+        fmt::format("{} pixels with NaN or infinity become {}", none_before, none_after);
+    return numbers == 0
+               ? counted + ", and no pixel is finite in both"
+               : fmt::format("{}, {} over the rest", counted, decibels(squares / double(numbers * channels)));
+}
+
+size_t different_pixels(const image::Image& left, const image::Image& right) {
+    const auto pixel = std::ptrdiff_t(left.row_bytes()) / left.extent.width;
+    size_t count = 0;
+    for (auto a = left.bytes.begin(), b = right.bytes.begin(); a != left.bytes.end(); a += pixel, b += pixel)
+        count += !std::equal(a, a + pixel, b);
+    return count;
+}
+
+namespace {
+
+/// A picture in grey with non-finite pixels in magenta, and the number of these.
+struct Marked {
+    image::Image map;
+    size_t bad = 0; ///< pixels
+};
+Marked marked(const image::Image& picture) {
+    Marked result{image::Image(picture.extent, 3, image::SampleType::f32)};
+    const auto channels = size_t(picture.channels);
+    for (size_t i = 0; i < picture.extent.pixels(); ++i) {
+        const auto samples = picture.f32().subspan(i * channels, channels);
+        const bool bad = std::ranges::any_of(samples, [](float v) { return !std::isfinite(v); });
+        const float grey = bad ? 0.0f : std::clamp((samples[0] + samples[1] + samples[2]) / 3, 0.0f, 1.0f);
+        const float shown[] = {bad ? 1.0f : grey, grey, bad ? 1.0f : grey};
+        std::ranges::copy(shown, result.map.f32().begin() + std::ptrdiff_t(3 * i));
+        result.bad += bad;
+    }
+    return result;
+}
+
+std::string kinds(const image::FiniteCensus& census) {
+    std::string text;
+    const std::pair<size_t, const char*> kinds[] = {
+        {census.nan, "NaN"}, {census.positive_infinity, "+Inf"}, {census.negative_infinity, "-Inf"}};
+    for (const auto& [count, name] : kinds)
+        if (count > 0)
+            text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
+    return text;
+}
+
+/// Returns nothing if the plain state is finite; otherwise the answer that refers to `times`, which reports
+/// it.
+Result<std::optional<Answer>> known_before(ProbeBench& bench) {
+    const auto passes = TRY(bench.passes(plain_state()));
+    if (not_finite(bench, plain_state(), passes))
+        return Answer{Verdict::not_applicable, "NaN or infinity in the scene as it stands: see times"};
+    return std::optional<Answer>{};
+}
+
+} // namespace
+
+std::optional<Answer> not_finite(const ProbeBench& bench, const FrameState& state,
+                                 const std::vector<PassPicture>& passes) {
+    for (const PassPicture& pass : passes) {
+        const image::FiniteCensus census = image::census(pass.picture);
+        if (census.non_finite() == 0)
+            continue;
+        Marked shown = marked(pass.picture);
+        Answer answer{Verdict::fail,
+                      fmt::format("{} in {} of {} pixels of {}, first at pixel {},{}", kinds(census),
+                                  shown.bad, pass.picture.extent.pixels(), pass.pass,
+                                  census.first_non_finite->x, census.first_non_finite->y),
+                      state, std::move(shown.map), true};
+        answer.where->pass = pass.pass == bench.scene().image().name ? "" : pass.pass;
+        return answer;
+    }
+    return std::nullopt;
+}
+
+Result<Answer> look(ProbeBench& bench, const std::vector<FrameState>& states) {
+    Answer answer;
+    size_t bad = 0, subnormal = 0, beyond_half = 0;
+    for (const FrameState& state : states) {
+        const auto passes = TRY(bench.passes(state));
+        for (const PassPicture& pass : passes) {
+            const image::FiniteCensus census = image::census(pass.picture);
+            subnormal += census.subnormal > 0;
+            beyond_half += census.beyond_half > 0;
+        }
+        auto fault = not_finite(bench, state, passes);
+        bad += fault.has_value();
+        if (fault && !answer.where)
+            answer = *std::move(fault);
+    }
+    answer.sentence += bad > 0 ? fmt::format("; in {} of {} situations", bad, states.size())
+                               : fmt::format("no NaN or infinity in {} situations", states.size());
+    if (subnormal > 0)
+        answer.sentence += fmt::format("; subnormal numbers in {}", subnormal);
+    if (beyond_half > 0)
+        answer.sentence += fmt::format("; numbers too large for half floats in {}", beyond_half);
+    return answer;
+}
+
+Result<Answer> look_anew(ProbeBench& bench, const std::vector<FrameState>& states) {
+    auto known = TRY(known_before(bench));
+    return known ? *std::move(known) : look(bench, states);
+}
+
+namespace {
+
+/// A third of a second.
+constexpr double k_third = 1.0 / 3;
+
+} // namespace
+
+Result<Horizon> find_horizon(ProbeBench& bench) {
+    Horizon horizon;
+    for (const double time : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
+        const FrameState state = state_at(time + k_third);
+        auto as_is = TRY(bench.picture(state));
+        const auto truth = TRY(bench.picture(state, glsl::Precision::promoted));
+        const double difference = p99_difference(as_is, truth);
+        if (difference > k_visible_gap) {
+            horizon.mismatch = Mismatch{time, state, std::move(as_is), difference};
+            break;
+        }
+        horizon.good = time;
+    }
+    return horizon;
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,66 @@
+// Measures of the difference between two pictures, by the value that 99 % of the pixels stay below. They
+// define when probes call two pictures the same.
+#pragma once
+
+#include "lab/probe_bench.hpp"
+#include "lab/probes.hpp"
+#include "media/image.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tidemark::lab {
+
+/// Two pictures look the same if 99 % of their pixels differ by no more than this: one step of 8 bits.
+inline constexpr double k_visible_gap = 1.0 / 255;
+
+/// Returns the 99th percentile, over the pixels, of each pixel's largest sample difference. A sample that is
+/// NaN or infinite in one picture only counts as 1. Pictures of floats, of one size.
+double p99_difference(const image::Image& left, const image::Image& right);
+
+/// Returns the percentage of the pixels that differ by more than k_visible_gap, counted in the same way.
+double visibly_different_percent(const image::Image& left, const image::Image& right);
+
+/// Returns the PSNR, such as `35.1 dB`, of two float pictures of one size. If pixels hold a NaN or an
+/// infinity in only one picture, or different ones in both, the text counts them and gives the PSNR of the
+/// other pixels.
+std::string alikeness(const image::Image& before, const image::Image& after);
+
+/// Returns the number of pixels whose bytes differ; both pictures have the same size and format.
+size_t different_pixels(const image::Image& left, const image::Image& right);
+
+// Checks whether all numbers of a scene are finite in given situations. Counts by bits on the CPU.
+
+/// Returns the fault of the first pass that has a NaN or an infinity, with the number of such pixels and a
+/// picture that marks them; nothing if all passes are finite.
+std::optional<Answer> not_finite(const ProbeBench& bench, const FrameState& state,
+                                 const std::vector<PassPicture>& passes);
+
+/// Checks every situation; the answer reports the first that fails, and how many do.
+Result<Answer> look(ProbeBench& bench, const std::vector<FrameState>& states);
+
+/// Like `look`, but not applicable if the scene is not finite in the plain state already.
+Result<Answer> look_anew(ProbeBench& bench, const std::vector<FrameState>& states);
+
+// Finds the time up to which a scene looks the same in float and in double.
+
+/// A moment at which more than 1 % of the pixels differ visibly between float and double.
+struct Mismatch {
+    /// A power of ten. The picture is a third of a second later: a typical moment, which binary32 cannot
+    /// represent.
+    double seconds = 0;
+    FrameState state;
+    image::Image floats;
+    double difference = 0; ///< 99th percentile over the pixels
+};
+
+struct Horizon {
+    double good = 0; ///< seconds: the last power of ten up to which both look the same; 0: they differ at 1 s
+    std::optional<Mismatch> mismatch{};
+};
+
+/// Compares at 1, 10, … 10^6 s (each plus a third). Fails if the scene cannot be drawn, or not in double.
+Result<Horizon> find_horizon(ProbeBench& bench);
+
+} // namespace tidemark::lab

@@ -1,0 +1,234 @@
+#include "lab/probed_rays.hpp"
+
+#include "base/error.hpp"
+#include "base/measurement.hpp"
+#include "lab/pass_function.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tidemark::lab {
+namespace {
+
+bool parts(double here, double there, Extent extent) {
+    if (std::isnan(here) || std::isnan(there))
+        return std::isnan(here) != std::isnan(there);
+    if (here < 0 || there < 0)
+        return (here < 0) != (there < 0);
+    return std::abs(here - there) > std::max(here, there) / extent.height;
+}
+
+} // namespace
+
+std::vector<FrameState> usual_views() {
+    const FrameState untouched = state_at(10, k_ray_extent);
+    std::vector<FrameState> views{untouched};
+    for (const glm::dvec2 at : {glm::dvec2(0.5, 0.5), glm::dvec2(0.75, 0.4), glm::dvec2(0.3, 0.47)})
+        views.push_back(with_mouse(
+            render::Mouse::clicked(at * glm::dvec2(k_ray_extent.width, k_ray_extent.height), false),
+            untouched));
+    return views;
+}
+
+FrameState typical_view() {
+    return usual_views()[2];
+}
+
+double percent(const Hits& hits, const std::function<bool(size_t)>& counts) {
+    size_t count = 0;
+    for (size_t i = 0; i < hits.size(); ++i)
+        count += counts(i);
+    return 100.0 * double(count) / double(std::max<size_t>(hits.size(), 1));
+}
+
+double flagged(const Hits& hits, glsl::HitFlag flag) {
+    return percent(hits, [&](size_t i) { return (hits.flags[i] & flag) != 0; });
+}
+
+double unanswered(const Hits& hits) {
+    return percent(hits, [&](size_t i) { return std::isnan(hits.distance[i]); });
+}
+
+double mean_evaluations(const Hits& hits) {
+    return std::accumulate(hits.evaluations.begin(), hits.evaluations.end(), 0.0) /
+           double(std::max<size_t>(hits.size(), 1));
+}
+
+image::Image ray_map(const Hits& hits, Extent extent, const std::function<bool(size_t)>& marks) {
+    double nearest = 1e30;
+    for (const double distance : hits.distance)
+        if (distance > 0)
+            nearest = std::min(nearest, distance);
+    image::Image map(extent, 3, image::SampleType::f32);
+    for (size_t i = 0; i < hits.size(); ++i) {
+        const double distance = hits.distance[i];
+        const bool marked = std::isnan(distance) || marks(i);
+        const float grey = marked || !(distance > 0) ? 0.0f : float(std::sqrt(nearest / distance));
+        const float shown[] = {marked ? 1.0f : grey, grey, marked ? 1.0f : grey};
+        std::ranges::copy(shown, map.f32().begin() + std::ptrdiff_t(3 * i));
+    }
+    return map;
+}
+
+Answer without_hits(const ProbeBench& bench, bool warns) {
+    if (!bench.has_main_hit())
+        return {Verdict::not_applicable, "no mainHit, and the march is not recorded: " + bench.hit_problem()};
+    return warns ? Answer{Verdict::warn, "mainHit does not compile: " + bench.hit_problem()}
+                 : Answer{Verdict::not_applicable, "mainHit does not compile: see overstep"};
+}
+
+Answer without_sign() {
+    return {Verdict::not_applicable,
+            "the march goes in fixed steps or waits for a sample below the surface: none proves anything"};
+}
+
+Verdict fault(const ProbeBench& bench) {
+    return bench.has_main_hit() ? Verdict::fail : Verdict::warn;
+}
+
+Result<FloatMismatch> float_mismatch(ProbeBench& bench, const FrameState& state) {
+    auto in_float = TRY(bench.hits(state));
+    auto in_double = TRY(bench.hits(state, glsl::Precision::promoted));
+    FloatMismatch both{std::move(in_float), std::move(in_double), {}, 0, {}};
+    for (size_t i = 0; i < both.in_float.size(); ++i)
+        both.mismatched.push_back(parts(both.in_float.distance[i], both.in_double.distance[i], state.extent));
+    const auto marks = [&](size_t i) { return both.mismatched[i]; };
+    both.mismatched_percent = percent(both.in_float, marks);
+    both.map = ray_map(both.in_float, state.extent, marks);
+    return both;
+}
+
+Result<FlaggedRays> most_flagged(ProbeBench& bench, glsl::HitFlag flag) {
+    FlaggedRays most{.percent = -1};
+    for (const FrameState& view : usual_views()) {
+        const auto hits = TRY(bench.hits(view));
+        if (const double share = flagged(hits, flag); share > most.percent)
+            most = {share, view,
+                    ray_map(hits, view.extent, [&](size_t i) { return (hits.flags[i] & flag) != 0; })};
+    }
+    return most;
+}
+
+namespace {
+
+constexpr Extent k_rays{16, 9};
+/// Most field evaluations for all rays of a moment; a field with seven octaves takes some seconds for them.
+constexpr uint64_t k_most_of_all = 50'000;
+
+/// Returns the pixel of the i-th ray. The first rays are evenly spread over the picture, however many are
+/// used.
+glm::ivec2 pixel_of(size_t i, Extent whole) {
+    const auto at = int(spread(i, k_rays.pixels()));
+    const int x = at % k_rays.width, y = at / k_rays.width;
+    return {(2 * x + 1) * whole.width / (2 * k_rays.width), (2 * y + 1) * whole.height / (2 * k_rays.height)};
+}
+
+} // namespace
+
+void look_at_rays(Extent whole, const std::function<uint64_t(glm::ivec2 pixel)>& look) {
+    uint64_t left = k_most_of_all;
+    for (size_t i = 0; i < k_rays.pixels() && left > 0; ++i)
+        left -= std::min<uint64_t>(left, look(pixel_of(i, whole)));
+}
+
+Result<std::optional<MarchingPass>> marching_pass(ProbeBench& bench) {
+    std::vector<size_t> passes{bench.scene().image_index()};
+    for (const render::PlannedPass& planned : TRY(bench.compiled())->plan().passes)
+        passes.push_back(planned.pass);
+    for (const size_t pass : passes) {
+        const auto& function = bench.function_of(pass);
+        if (function && !function->loops().empty())
+            return MarchingPass{pass, &*function};
+    }
+    return std::nullopt;
+}
+
+Answer without_march(ProbeBench& bench) {
+    const auto& image = bench.image_function();
+    return {Verdict::not_applicable, image ? "no loop of a pass is found to march along a ray"
+                                           : "the text cannot be followed: " + image.error().message};
+}
+
+Result<RayCounts> count_proved(ProbeBench& bench, const MarchingPass& pass) {
+    const PassFunction& function = *pass.function;
+    RayCounts counts;
+    for (const double moment : k_ray_moments) {
+        const FrameState state = state_at(moment);
+        const render::Renderer& renderer = *TRY(bench.drawn(state));
+        const ir::TextureSet textures = textures_of(renderer, pass.index);
+        ir::FloatEvaluator pixel = function.frame(renderer, pass.index, render::inputs_of(state));
+        look_at_rays(renderer.extent(), [&](glm::ivec2 at) -> uint64_t {
+            function.move_to(pixel, at);
+            const auto ray = prove_ray(function, pixel, textures, at, k_most_of_a_ray);
+            if (!ray)
+                return 0;
+            counts.add(*ray);
+            return ray->evaluations;
+        });
+    }
+    return counts;
+}
+
+double wrong_percent(const RayCounts& counts) {
+    const size_t wrong = counts.step_over + counts.miss;
+    return wrong == 0 ? 0 : 100.0 * double(wrong) / double(counts.decided());
+}
+
+namespace {
+
+constexpr Extent k_grid{16, 9};
+constexpr double k_narrow = 1e-6;
+
+double parameter(const ir::MarchSlice& slice, double units) {
+    return slice.start() + units / slice.unit();
+}
+
+} // namespace
+
+Result<FieldOnRays> FieldOnRays::create(ProbeBench& bench, const FrameState& state) {
+    const auto& function = bench.image_function();
+    if (!function)
+        return fail(function.error());
+    const render::Renderer& renderer = *TRY(bench.drawn(state));
+    FieldOnRays field({*function, renderer, bench.scene().image_index(), inputs_of(state)});
+    for (int y = 0; y < k_grid.height; ++y)
+        for (int x = 0; x < k_grid.width; ++x) {
+            const glm::ivec2 pixel{(2 * x + 1) * renderer.extent().width / (2 * k_grid.width),
+                                   (2 * y + 1) * renderer.extent().height / (2 * k_grid.height)};
+            auto ray = field.source_->enter(pixel, ir::Surface::zero);
+            if (ray && ray->slice && !ray->march.turns.empty() && std::isfinite(ray->slice->start()))
+                field.rays_.push_back(*std::move(ray));
+        }
+    return field;
+}
+
+std::optional<double> FieldOnRays::hit(size_t ray) const {
+    const auto& [loop, march, slice, in_float] = rays_[ray];
+    return march.hit ? std::optional((slice->parameter(march.turns.back()) - slice->start()) * slice->unit())
+                     : std::nullopt;
+}
+
+double FieldOnRays::longest(size_t ray) const {
+    double longest = 0;
+    for (const ir::Turn& turn : rays_[ray].march.turns)
+        if (std::isfinite(turn.distance()))
+            longest = std::max(longest, std::abs(double(turn.distance())));
+    return longest;
+}
+
+std::optional<double> FieldOnRays::in_float(size_t ray, double units) {
+    return rays_[ray].in_float->distance(parameter(*rays_[ray].slice, units));
+}
+
+std::optional<double> FieldOnRays::exact(size_t ray, double units) {
+    ir::MarchSlice& slice = *rays_[ray].slice;
+    const auto found = slice.distance(ir::place_at(parameter(slice, units)), ir::Care::close);
+    if (!found || found->partial)
+        return std::nullopt;
+    const double middle = found->low + found->width() / 2;
+    return found->width() <= k_narrow * std::max(1.0, std::abs(middle)) ? std::optional(middle)
+                                                                        : std::nullopt;
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,274 @@
+// Looks for NaN and infinity by drawing the scene in many situations and counting bits on the CPU.
+
+#include "base/error.hpp"
+#include "lab/exploration.hpp"
+#include "lab/march_rays.hpp"
+#include "lab/probed_pictures.hpp"
+#include "lab/probes.hpp"
+#include "media/image.hpp"
+#include "render/gl_context.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace tidemark::lab {
+namespace {
+
+std::string middle_of(const scene::Knob& knob) {
+    scene::KnobValue value{};
+    for (size_t i = 0; i < value.size(); ++i) {
+        value[i] = (knob.range->low[i] + knob.range->high[i]) / 2;
+        if (scene::info(knob.type).whole)
+            value[i] = std::floor(value[i]);
+    }
+    return scene::to_string(knob, value);
+}
+
+} // namespace
+
+Result<Answer> ask_times(ProbeBench& bench) {
+    return look(bench, usual_moments());
+}
+
+Result<Answer> ask_frames(ProbeBench& bench) {
+    constexpr int k_frames = 600; // ten seconds at 60 frames per second
+    constexpr std::chrono::seconds k_patience(5);
+    const auto feedback = TRY(bench.has_feedback());
+    if (!feedback)
+        return Answer{Verdict::not_applicable, "no frame depends on the one before it"};
+    std::optional<Answer> fault;
+    int seen = 0;
+    const auto start = std::chrono::steady_clock::now();
+    const auto done = bench.step([&](const FrameState& at, const std::vector<PassPicture>& passes) {
+        fault = not_finite(bench, at, passes);
+        return !fault && ++seen < k_frames && std::chrono::steady_clock::now() - start < k_patience;
+    });
+    if (!done)
+        return fail(done.error());
+    if (fault)
+        fault->sentence = fmt::format("from frame {} on: {}", seen, fault->sentence);
+    return fault ? *std::move(fault)
+                 : Answer{Verdict::pass, fmt::format("no NaN or infinity in the first {} frames{}", seen,
+                                                     seen < k_frames ? ": no more were drawn in 5 s" : "")};
+}
+
+Result<Answer> ask_mouse(ProbeBench& bench) {
+    const Extent size = k_probe_extent;
+    const int w = size.width, h = size.height;
+    std::vector<FrameState> states;
+    for (const glm::ivec2 pixel :
+         {glm::ivec2(1, 1), glm::ivec2(w - 1, 1), glm::ivec2(1, h - 1), glm::ivec2(w - 1, h - 1),
+          glm::ivec2(w / 2, 0), glm::ivec2(0, h / 2), glm::ivec2(w / 2, h - 1), glm::ivec2(w - 1, h / 2),
+          glm::ivec2(w / 2, h / 2), glm::ivec2(-w, -h), glm::ivec2(2 * w, 2 * h)})
+        for (const bool down : {false, true})
+            states.push_back(with_mouse(render::Mouse::clicked(pixel, down)));
+    const glm::ivec2 low(1, 1), high(w - 1, h - 1), outside(2 * w, -h);
+    for (const auto& [from, to] :
+         {std::pair(low, high), std::pair(high, low), std::pair(low, outside), std::pair(low, low)})
+        for (const bool down : {false, true})
+            states.push_back(with_mouse(render::Mouse::dragged(from, to, down)));
+    return look_anew(bench, states);
+}
+
+Result<Answer> ask_sizes(ProbeBench& bench) {
+    std::vector<FrameState> states;
+    for (const Extent size : {Extent{1, 1}, Extent{1, 64}, Extent{64, 1}, Extent{63, 37},
+                              Extent{gl::query_capabilities().largest_target, 1}})
+        states.push_back(plain_state(size));
+    return look_anew(bench, states);
+}
+
+Result<Answer> ask_knobs(ProbeBench& bench) {
+    std::vector<FrameState> states;
+    for (const scene::Knob& knob : bench.scene().knobs)
+        if (knob.range)
+            for (const std::string& value : {scene::to_string(knob, knob.range->low), middle_of(knob),
+                                             scene::to_string(knob, knob.range->high)}) {
+                states.push_back(plain_state());
+                states.back().knobs = {{knob.name, value}};
+            }
+    if (states.empty())
+        return Answer{Verdict::not_applicable, "the scene has no knob with a range"};
+    return look_anew(bench, states);
+}
+
+Result<Answer> ask_search(ProbeBench& bench) {
+    auto plain = look_anew(bench, {});
+    if (!plain || plain->verdict == Verdict::not_applicable)
+        return plain;
+    const auto explored = TRY(explore(bench));
+    const std::string unread =
+        (explored)->left_out.empty()
+            ? ""
+            : "; at random alone, as the text cannot be followed: " + (explored)->left_out;
+    if ((explored)->not_finite.empty())
+        return Answer{Verdict::pass, "no NaN or infinity; " + (explored)->sentence + unread};
+    const FrameState& where = (explored)->not_finite.front();
+    const auto passes = TRY(bench.passes(where));
+    auto fault = not_finite(bench, where, passes);
+    if (!fault)
+        return Answer{Verdict::warn, "a pixel was NaN or infinite, and finite when it was drawn again",
+                      where};
+    fault->sentence += "; " + (explored)->sentence + unread;
+    return *std::move(fault);
+}
+
+// Looks for NaN and infinity with other pictures in the scene's input channels.
+
+namespace {
+
+/// A channel in which a pass reads a picture from a file or another outside source.
+struct Input {
+    std::string name;    ///< `iChannel0 of Buffer A`
+    std::string setting; ///< `Buffer A:0` as in --channel; without the pass for Image
+};
+
+bool comes_from_outside(const scene::Scene& scene, const scene::ChannelInput& input) {
+    return !source_pass(input) && scene::texture_kind(scene, input) == scene::TextureKind::flat;
+}
+
+/// Returns the inputs of all drawn passes whose channels the text mentions.
+Result<std::vector<Input>> inputs_read(ProbeBench& bench) {
+    const auto renderer = TRY(bench.compiled());
+    const scene::Scene& scene = bench.scene();
+    std::vector<Input> inputs;
+    for (const render::PlannedPass& planned : (renderer)->plan().passes) {
+        const scene::Pass& pass = scene.passes[planned.pass];
+        const bool image = planned.pass == scene.image_index();
+        const std::string text = scene.common.text() + pass.text.text();
+        for (int channel = 0; channel < scene::k_channel_count; ++channel)
+            if (comes_from_outside(scene, pass.channels[size_t(channel)].input) &&
+                (text.find(fmt::format("iChannel{}", channel)) != text.npos ||
+                 text.find(fmt::format("iCh{}", channel)) != text.npos))
+                inputs.push_back(
+                    {fmt::format("iChannel{}{}", channel, image ? "" : " of " + pass.name),
+                     image ? std::to_string(channel) : fmt::format("{}:{}", pass.name, channel)});
+    }
+    return inputs;
+}
+
+/// Returns the percentage of pixels that a NaN in the input spreads to. Passing a NaN on is not a fault, but
+/// useful to report.
+Result<double> spread_of_nan(ProbeBench& bench, const Input& input) {
+    FrameState state = plain_state();
+    state.channels = {input.setting + "=nan"};
+    const auto picture = TRY(bench.picture(state));
+    const auto samples = picture.f32();
+    size_t bad = 0;
+    for (size_t pixel = 0; pixel < picture.extent.pixels(); ++pixel)
+        bad += std::ranges::any_of(samples.subspan(3 * pixel, 3), [](float v) { return std::isnan(v); });
+    return 100.0 * double(bad) / double(picture.extent.pixels());
+}
+
+} // namespace
+
+Result<Answer> ask_inputs(ProbeBench& bench) {
+    const auto inputs = TRY(inputs_read(bench));
+    if (inputs.empty())
+        return Answer{Verdict::not_applicable, "no pass reads a picture"};
+    std::vector<FrameState> states;
+    for (const Input& input : inputs)
+        for (const char* what : {"none", "noise", "black", "white", "texel"}) {
+            states.push_back(plain_state());
+            states.back().channels = {fmt::format("{}={}", input.setting, what)};
+        }
+    auto answer = look_anew(bench, states);
+    if (!answer || answer->verdict != Verdict::pass)
+        return answer;
+    for (const Input& input : inputs) {
+        const auto spread = TRY(spread_of_nan(bench, input));
+        answer->sentence += fmt::format("; NaN in {} spreads to {:.3g} % of the pixels", input.name, spread);
+    }
+    return answer;
+}
+
+// Proves that no NaN can arise, by value ranges of each pass over all pixels, a span of time and the knobs'
+// ranges. Passes may read each other: if no pass makes a NaN from numbers, this holds for all frames.
+
+namespace {
+
+constexpr Extent k_usual_size{640, 360};
+
+std::string range(const ir::Interval& interval) {
+    if (interval.low < -1e30 && interval.high > 1e30)
+        return "any number";
+    return interval.low == interval.high ? fmt::format("{:.4g}", interval.low)
+                                         : fmt::format("[{:.4g}, {:.4g}]", interval.low, interval.high);
+}
+
+/// Describes an operation and its operands.
+std::string operation(const ir::Function& function, const ir::PartialOperation& what) {
+    if (what.value == ir::k_no_value || what.operands.empty())
+        return "a number that is infinite, or an input that may be NaN";
+    const ir::Interval& a = what.operands[0];
+    const ir::Interval& b = what.operands.back();
+    switch (function.instructions[what.value].op) {
+    case ir::Op::sqrt: return "sqrt of " + range(a);
+    case ir::Op::inverse_sqrt: return "normalize or inversesqrt, of a square that is in " + range(a);
+    case ir::Op::divide: return "a division by " + range(b);
+    case ir::Op::modulo: return "mod by " + range(b);
+    case ir::Op::log:
+    case ir::Op::log2: return "log of " + range(a);
+    case ir::Op::pow: return fmt::format("pow of {} to {}", range(a), range(b));
+    case ir::Op::asin:
+    case ir::Op::acos: return "asin or acos of " + range(a);
+    case ir::Op::atan2: return fmt::format("atan of {} and {}", range(a), range(b));
+    case ir::Op::texel: return "a texture that is not followed";
+    default: return "an operation on " + range(a);
+    }
+}
+
+/// Returns why the pass may make a NaN; empty if it cannot.
+Result<std::string> doubt_of(const render::Renderer& renderer, size_t index, const FrameState& state,
+                             double seconds) {
+    const scene::Pass& pass = renderer.scene().passes[index];
+    if (pass.kind == scene::PassKind::cubemap)
+        return pass.name + " is a cubemap, which is not followed";
+    const auto function = PassFunction::create(renderer.scene(), pass);
+    if (!function)
+        return "the text cannot be followed: " + function.error().message;
+    const ir::ValueRanges ranges = ranges_of({*function, renderer, index, render::inputs_of(state)}, seconds);
+    if (!ranges.settled)
+        return pass.name + " has too many loops in each other";
+    for (const ir::Variable& variable : function->function().variables) {
+        if (variable.kind != ir::Variable::Kind::output)
+            continue;
+        for (uint32_t cell = variable.first; cell < variable.first + std::min(variable.size, 4u); ++cell)
+            if (const auto& doubt = ranges.partial[cell]) {
+                const int line =
+                    doubt->value == ir::k_no_value ? 0 : function->function().instructions[doubt->value].line;
+                const SourceLocation where = function->locate(line);
+                return fmt::format("{}:{}: {}", where.file, where.line,
+                                   operation(function->function(), *doubt));
+            }
+    }
+    return std::string();
+}
+
+bool is_finite(const image::Image& picture) {
+    return std::ranges::none_of(picture.f32(), [](float sample) { return std::isnan(sample); });
+}
+
+} // namespace
+
+Result<Answer> ask_no_nan(ProbeBench& bench) {
+    const FrameState state = state_at(1.0 / 3, k_usual_size);
+    const double seconds = bench.promises().time_horizon;
+    const render::Renderer& renderer = *TRY(bench.drawn(state));
+    for (const render::PlannedPass& planned : renderer.plan().passes)
+        if (const std::string doubt = TRY(doubt_of(renderer, planned.pass, state, seconds)); !doubt.empty())
+            return Answer{Verdict::not_applicable, "not excluded: " + doubt};
+    if (!is_finite(renderer.read_back()))
+        return Answer{Verdict::not_applicable, "a picture contradicts its proof: please report this scene"};
+    return Answer{
+        Verdict::pass,
+        fmt::format("no operation can leave its domain, in any pixel of {}x{}, from 0 to {:g} s, with "
+                    "every knob anywhere in its range; only what is too large for a float is not "
+                    "looked at",
+                    k_usual_size.width, k_usual_size.height, seconds)};
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,445 @@
+// Checks the hits of rays for steps that were too long and for step budgets that run out.
+
+#include "base/error.hpp"
+#include "lab/probed_rays.hpp"
+#include "lab/probes.hpp"
+#include "lab/scene_numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace tidemark::lab {
+namespace {
+
+/// Compares the largest percentage of flagged rays over the usual views with the promised limit.
+Result<Answer> most_flagged(ProbeBench& bench, glsl::HitFlag flag, double promised, const char* what) {
+    if (!bench.has_hits())
+        return without_hits(bench);
+    FlaggedRays most = TRY(most_flagged(bench, flag));
+    Answer answer{most.percent > promised ? fault(bench) : Verdict::pass,
+                  fmt::format("{:.3g} % of the rays {} in the worst of four views", most.percent, what),
+                  {},
+                  {}};
+    if (answer.verdict != Verdict::pass) {
+        answer.sentence += fmt::format("; allowed: {:g} % (change it in NAME.check.json)", promised);
+        answer.where = most.where;
+        answer.picture = std::move(most.map);
+    }
+    return answer;
+}
+
+constexpr double k_multiples[] = {0, 0.5, 2, 4};
+
+/// Returns both ends of the knob's range and multiples of its value inside; only multiples if it has no
+/// range.
+std::vector<Setting> ends_and_multiples(const scene::Knob& knob, const Promises& promises) {
+    auto range = knob.range;
+    if (const auto promised = promises.ranges.find(knob.name); promised != promises.ranges.end()) {
+        range.emplace();
+        range->low.fill(promised->second.first);
+        range->high.fill(promised->second.second);
+    }
+    std::set<std::string> values;
+    for (const double factor : k_multiples) {
+        scene::KnobValue value = knob.value;
+        for (size_t i = 0; i < value.size(); ++i) {
+            value[i] *= factor;
+            if (range)
+                value[i] = std::clamp(value[i], range->low[i], range->high[i]);
+            if (scene::info(knob.type).whole)
+                value[i] = std::floor(value[i]);
+        }
+        values.insert(scene::to_string(knob, value));
+    }
+    if (range) {
+        values.insert(scene::to_string(knob, range->low));
+        values.insert(scene::to_string(knob, range->high));
+    }
+    std::vector<Setting> settings;
+    for (const std::string& value : values)
+        settings.push_back({knob.name, value});
+    return settings;
+}
+
+/// Returns multiples of the numbers that the text defines under names of heights or scales. At most four
+/// names, as each value needs a compilation.
+std::vector<Setting> multiples_of_definitions(const ProbeBench& bench) {
+    std::vector<DefinedNumber> numbers =
+        defined_numbers(bench.scene(), {"height", "ampl", "scale", "steep", "chop"});
+    numbers.resize(std::min<size_t>(numbers.size(), 4));
+    std::vector<Setting> settings;
+    for (const DefinedNumber& number : numbers) {
+        const auto promised = bench.promises().ranges.find(number.name);
+        for (const double factor : k_multiples) {
+            double multiple = factor * number.value;
+            if (promised != bench.promises().ranges.end())
+                multiple = std::clamp(multiple, promised->second.first, promised->second.second);
+            settings.push_back({number.name, number.whole ? fmt::format("{:.0f}", std::floor(multiple))
+                                                          : fmt::format("{:#.9g}", multiple)});
+        }
+    }
+    return settings;
+}
+
+std::vector<FrameState> stiff_states(const ProbeBench& bench) {
+    std::vector<FrameState> states;
+    for (const scene::Knob& knob : bench.scene().knobs)
+        for (const Setting& setting : ends_and_multiples(knob, bench.promises())) {
+            states.push_back(typical_view());
+            states.back().knobs = {setting};
+        }
+    for (const Setting& setting : multiples_of_definitions(bench)) {
+        states.push_back(typical_view());
+        states.back().definitions = {setting};
+    }
+    return states;
+}
+
+} // namespace
+
+Result<Answer> ask_overstep(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits(bench, true);
+    if (!bench.sees_below())
+        return without_sign();
+    return most_flagged(bench, glsl::k_hit_negative, bench.promises().most_overstep_percent,
+                        "take a sample below the surface");
+}
+
+Result<Answer> ask_budget(ProbeBench& bench) {
+    return most_flagged(bench, glsl::k_hit_exhausted, bench.promises().most_exhausted_percent,
+                        "run out of steps");
+}
+
+Result<Answer> ask_lipschitz_sweep(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits(bench);
+    if (!bench.sees_below())
+        return without_sign();
+    Answer answer{Verdict::not_applicable, "the scene has no knob, and defines no height or scale", {}, {}};
+    double most = -1;
+    for (const FrameState& state : stiff_states(bench)) {
+        const std::string set = to_string(merged(state.knobs.empty() ? state.definitions : state.knobs));
+        const auto hits = TRY(bench.hits(state));
+        if (const double nothing = unanswered(hits); nothing > 0)
+            return Answer{
+                fault(bench),
+                fmt::format("{}: {:.3g} % of the distances are NaN, infinite or negative", set, nothing),
+                state};
+        const double overstepping = flagged(hits, glsl::k_hit_negative);
+        if (overstepping <= most)
+            continue;
+        most = overstepping;
+        answer = {overstepping > bench.promises().most_overstep_percent ? Verdict::warn : Verdict::pass,
+                  fmt::format("at worst, with {}: {:.3g} % of the rays take a sample below the surface, "
+                              "{:.3g} % run out of steps",
+                              set, overstepping, flagged(hits, glsl::k_hit_exhausted)),
+                  {},
+                  {}};
+        if (answer.verdict == Verdict::warn)
+            answer.where = state;
+    }
+    return answer;
+}
+
+// Compares the rays of scenes with known hits in float and in double: as time goes on, near the surface, with
+// large noise coordinates, and in waves that intersect themselves.
+
+namespace {
+
+Answer without_doubles(const Error& error) {
+    return {Verdict::not_applicable, "cannot be drawn in double: " + to_string(error)};
+}
+
+} // namespace
+
+Result<Answer> ask_rays(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits(bench);
+    double good = 0;
+    for (const double time : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
+        const FrameState state =
+            // A typical moment, which binary32 cannot represent.
+            render::at_time(time + 1.0 / 3, typical_view());
+        const auto both = float_mismatch(bench, state);
+        if (!both)
+            return without_doubles(both.error());
+        if (both->mismatched_percent <= k_same) {
+            good = time;
+            continue;
+        }
+        const bool kept = good >= bench.promises().time_horizon;
+        return Answer{
+            kept        ? Verdict::pass
+            : good == 0 ? Verdict::warn
+                        : fault(bench),
+            fmt::format(
+                "{}; at {:g} s {:.3g} % of the rays hit something else in float, by more than a pixel",
+                good == 0 ? std::string("float and double never agree")
+                          : fmt::format("float and double agree up to {:g} s", good),
+                time, both->mismatched_percent),
+            state, both->map};
+    }
+    return Answer{Verdict::pass, "float and double agree up to 1e6 s, to a pixel's width"};
+}
+
+/// Checks for a hit distance below the rounding error of the field: in float the solver never reaches it, in
+/// double it does.
+Result<Answer> ask_epsilon(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits(bench);
+    Answer answer;
+    double most = -1;
+    for (const FrameState& view : usual_views()) {
+        const auto both = float_mismatch(bench, view);
+        if (!both)
+            return without_doubles(both.error());
+        const double out = flagged(both->in_float, glsl::k_hit_exhausted);
+        const double out_anyway = flagged(both->in_double, glsl::k_hit_exhausted);
+        if (out - out_anyway <= most)
+            continue;
+        most = out - out_anyway;
+        answer.sentence =
+            fmt::format("{:.3g} % of the rays run out of steps in float, {:.3g} % in double; samples "
+                        "a ray: {:.3g} and {:.3g}",
+                        out, out_anyway, mean_evaluations(both->in_float), mean_evaluations(both->in_double));
+        answer.where = view;
+        answer.picture = ray_map(both->in_float, view.extent, [&](size_t i) {
+            return (both->in_float.flags[i] & glsl::k_hit_exhausted) != 0;
+        });
+    }
+    if (most > std::max(bench.promises().most_exhausted_percent, k_same)) {
+        answer.verdict = fault(bench);
+        answer.sentence +=
+            ": the solver waits for a value below the rounding error of its field; raise its hit distance";
+    } else {
+        answer.where.reset();
+        answer.picture.reset();
+    }
+    return answer;
+}
+
+namespace {
+
+/// A number of octaves, from a definition or a knob.
+struct Count {
+    std::string name;
+    double value;
+    bool knob;
+};
+
+std::vector<Count> counts_of_octaves(const scene::Scene& scene) {
+    std::vector<Count> counts;
+    for (const DefinedNumber& number : defined_numbers(scene, {"octave"}))
+        if (number.whole)
+            counts.push_back({number.name, number.value, false});
+    for (const scene::Knob& knob : scene.knobs)
+        if (speaks_of(knob.name, {"octave"}))
+            counts.push_back({knob.name, knob.value[0], true});
+    return counts;
+}
+
+/// Range of a number of octaves: as the scene states it, or from 1 to 1.5 times the current number.
+struct Extremes {
+    double least = 1;
+    double most = 0;
+    bool stated = true; ///< the scene states the range
+};
+Extremes extremes_of(const ProbeBench& bench, const Count& count) {
+    const auto promised = bench.promises().ranges.find(count.name);
+    if (promised != bench.promises().ranges.end())
+        return {promised->second.first, promised->second.second};
+    const auto knob = std::ranges::find(bench.scene().knobs, count.name, &scene::Knob::name);
+    if (count.knob && knob->range)
+        return {knob->range->low[0], knob->range->high[0]};
+    return {1, std::ceil(1.5 * count.value), false};
+}
+
+FrameState with_octaves(const Count& count, double octaves) {
+    FrameState state = typical_view();
+    (count.knob ? state.knobs : state.definitions) =
+        std::vector{scene::Setting{count.name, fmt::format("{:g}", octaves)}};
+    return state;
+}
+
+Result<Answer> ask_count(ProbeBench& bench, const Count& count) {
+    const Extremes extremes = extremes_of(bench, count);
+    for (const double octaves : {extremes.least, extremes.most}) {
+        const FrameState state = with_octaves(count, octaves);
+        const auto hits = bench.hits(state);
+        if (!hits)
+            return Answer{Verdict::warn,
+                          fmt::format("{} = {:g}: {}", count.name, octaves, to_string(hits.error()))};
+        if (const double lost = unanswered(*hits); lost > 0)
+            return Answer{fault(bench),
+                          fmt::format("{} = {:g}: {:.3g} % of the distances are NaN, infinite or negative",
+                                      count.name, octaves, lost),
+                          state};
+    }
+    const FrameState state = with_octaves(count, extremes.most);
+    const auto both = float_mismatch(bench, state);
+    if (!both)
+        return without_doubles(both.error());
+    Answer answer{
+        Verdict::pass,
+        fmt::format("with {} = {:g} {:.3g} % of the rays hit something else in float than in double",
+                    count.name, extremes.most, both->mismatched_percent)};
+    if (both->mismatched_percent > k_same) {
+        answer.verdict = extremes.stated ? fault(bench) : Verdict::warn;
+        answer.sentence += ": the coordinates of the finest octave are beyond what floats hold";
+        answer.where = state;
+        answer.picture = both->map;
+    }
+    return answer;
+}
+
+} // namespace
+
+Result<Answer> ask_octaves(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits(bench);
+    const std::vector<Count> counts = counts_of_octaves(bench.scene());
+    Answer all{Verdict::not_applicable, "no definition and no knob is a number of octaves"};
+    for (const Count& count : counts) {
+        auto answer = ask_count(bench, count);
+        if (!answer || answer->verdict != Verdict::pass)
+            return answer;
+        answer->sentence = (all.verdict == Verdict::pass ? all.sentence + "; " : "") + answer->sentence;
+        all = *std::move(answer);
+    }
+    return all;
+}
+
+/// Checks waves for self-intersection. A trochoidal wave train's steepness is its height times its
+/// wavenumber; where trains add up to 1 or more, the surface is not a function of the horizontal position.
+Result<Answer> ask_self_intersection(ProbeBench& bench) {
+    if (!bench.has_hits())
+        return without_hits(bench);
+    const auto knob = std::ranges::find_if(
+        bench.scene().knobs, [](const scene::Knob& each) { return speaks_of(each.name, {"steepness"}); });
+    double sum = 0;
+    if (knob != bench.scene().knobs.end())
+        for (const double part : knob->value)
+            sum += std::abs(part);
+    // A steepness that moves no ray on its own may belong to something else, such as foam.
+    if (sum == 0)
+        return Answer{Verdict::not_applicable, "no knob is a steepness of waves"};
+    const auto as_is = TRY(bench.hits(typical_view()));
+    bool moves = false;
+    double calm = 0;
+    for (const double steepness : {0.75, 0.99, 1.0, 1.5}) {
+        FrameState state = typical_view();
+        scene::KnobValue value = knob->value;
+        bool inside = true;
+        for (size_t i = 0; i < value.size(); ++i) {
+            value[i] *= steepness / sum;
+            inside &= !knob->range || value[i] <= knob->range->high[i];
+        }
+        state.knobs = {{knob->name, scene::to_string(*knob, value)}};
+        const auto both = float_mismatch(bench, state);
+        if (!both)
+            return without_doubles(both.error());
+        moves |= both->in_float.distance != as_is.distance;
+        const double lost = unanswered(both->in_float);
+        if (lost == 0 && both->mismatched_percent <= k_same) {
+            calm = steepness;
+            continue;
+        }
+        return Answer{
+            inside || steepness < 1 ? fault(bench) : Verdict::warn,
+            fmt::format(
+                "waves whose steepness adds up to {:g}{} intersect themselves: {:.3g} % of the rays hit "
+                "something else in float than in double, {:.3g} % of the distances are NaN, infinite or "
+                "negative",
+                steepness, inside ? "" : " (beyond the knob's range)", both->mismatched_percent, lost),
+            state, both->map};
+    }
+    if (!moves)
+        return Answer{Verdict::not_applicable, fmt::format("{} changes no ray", knob->name)};
+    return Answer{Verdict::pass, fmt::format("no wave intersects itself where {} adds up to {:g} or less",
+                                             knob->name, calm)};
+}
+
+// Checks whether a scene's mainHit still matches its mainImage: compares its hits with those of the march,
+// recorded while mainImage runs.
+
+namespace {
+
+struct Drift {
+    size_t rays = 0, entered = 0; ///< entered: rays that enter the march in the recording
+    size_t differing = 0;         ///< one hits and the other misses, or both hit different places
+    double largest = 0;           ///< difference of the distances if both hit
+    std::vector<bool> marks{};
+};
+
+/// mainHit may interpolate past the last recorded sample. Distances within a pixel's width, or within one
+/// hundredth, are the same hit.
+bool is_same(double written, double recorded, Extent extent) {
+    if (std::isnan(written) || std::isnan(recorded))
+        return std::isnan(written) == std::isnan(recorded);
+    if (written < 0 || recorded < 0)
+        return (written < 0) == (recorded < 0);
+    return std::abs(written - recorded) <= std::max(written, recorded) * std::max(0.01, 1.0 / extent.height);
+}
+
+Drift drift_of(const Hits& written, const Hits& recorded, Extent extent) {
+    Drift drift{.rays = written.size()};
+    for (size_t i = 0; i < written.size(); ++i) {
+        const bool entered = recorded.evaluations[i] > 0;
+        const double one = written.distance[i], other = recorded.distance[i];
+        drift.entered += entered;
+        drift.marks.push_back(entered && !is_same(one, other, extent));
+        drift.differing += drift.marks.back();
+        if (drift.marks.back() && one >= 0 && other >= 0)
+            drift.largest = std::max(drift.largest, std::abs(one - other));
+    }
+    return drift;
+}
+
+} // namespace
+
+Result<Answer> ask_drift(ProbeBench& bench) {
+    if (!bench.has_main_hit())
+        return Answer{Verdict::not_applicable, "the scene has no mainHit to drift"};
+    if (!bench.has_hits())
+        return without_hits(bench);
+    if (const std::string& problem = bench.recording_problem(); !problem.empty())
+        return Answer{Verdict::not_applicable, "the march is not recorded: " + problem};
+    if (bench.fixed_steps())
+        return Answer{
+            Verdict::not_applicable,
+            "the march goes in fixed steps, and what mainHit interpolates between two is not recorded"};
+    Drift all;
+    Answer answer;
+    for (const FrameState& view : usual_views()) {
+        const auto written = TRY(bench.hits(view));
+        const Hits recorded = hits_of(TRY(bench.recorded(view, glsl::RecordAnswer::hit)));
+        const Drift drift = drift_of(written, recorded, view.extent);
+        if (drift.differing > 0 && !answer.where) {
+            answer.where = view;
+            answer.picture = ray_map(recorded, view.extent, [&](size_t i) { return drift.marks[i]; });
+        }
+        all.rays += drift.rays;
+        all.entered += drift.entered;
+        all.differing += drift.differing;
+        all.largest = std::max(all.largest, drift.largest);
+    }
+    if (all.entered == 0)
+        return Answer{Verdict::not_applicable, "no ray comes to the loop that marches"};
+    answer.sentence =
+        fmt::format("mainHit and the march of mainImage part in {} of {} rays", all.differing, all.entered);
+    if (all.largest > 0)
+        answer.sentence += fmt::format(", by up to {:.3g} where both meet something", all.largest);
+    if (100.0 * double(all.differing) > k_same * double(all.entered))
+        answer.verdict = Verdict::warn;
+    else {
+        answer.where.reset();
+        answer.picture.reset();
+    }
+    return answer;
+}
+
+} // namespace tidemark::lab

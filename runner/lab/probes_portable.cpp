@@ -1,0 +1,172 @@
+// Imitates the arithmetic of other GPUs and drivers and compares the pictures.
+
+#include "base/error.hpp"
+#include "lab/instrumented_pass.hpp"
+#include "lab/probed_pictures.hpp"
+#include "lab/probes.hpp"
+#include "lab/text_findings.hpp"
+#include "media/comparison.hpp"
+#include "shader/variation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <span>
+
+namespace tidemark::lab {
+namespace {
+
+/// Late enough for the arguments of sines to be as large as in typical use.
+const FrameState k_state = state_at(10);
+
+struct Mode {
+    int number;
+    const char* name;
+};
+
+/// A way to rewrite a text, with the modes that it offers.
+struct Manner {
+    glsl::Variation (*vary)(const glsl::ParsedText& text, const glsl::TreeFacts& facts);
+    std::vector<Mode> modes;
+};
+
+/// Draws a scene's passes in the modes of rewritten texts and collects the differences.
+class PortabilityProbe {
+public:
+    explicit PortabilityProbe(ProbeBench& bench) : bench_(bench) {}
+
+    /// Fails if a text cannot be rewritten so, or if the driver refuses it.
+    Result<void> add(const Manner& manner) {
+        const auto texts = TRY(read_texts(bench_, false));
+        for (const PassText& pass : texts)
+            if (const auto varied = manner.vary(*pass.text, pass.facts); varied.places > 0)
+                if (auto done = compare(pass.pass, varied, manner.modes); !done)
+                    return done;
+        return {};
+    }
+
+    bool asked() const { return asked_; }
+
+    /// Returns the answer, with the largest difference first; `sound` is its text if none is visible.
+    Answer answer(const std::string& sound) {
+        std::ranges::stable_sort(seen_, std::greater(), &Seen::gap);
+        std::vector<std::string> visible, hardly;
+        for (const Seen& seen : seen_)
+            (seen.gap > k_visible_gap ? visible : hardly).push_back(seen.sentence);
+        if (visible.empty())
+            return {Verdict::pass, sound + ": " + (hardly.empty() ? "the same picture" : listed(hardly))};
+        Answer answer{Verdict::warn, "the picture changes visibly with " + listed(visible), k_state,
+                      std::move(picture_)};
+        answer.where->pass = pass_ == bench_.scene().image_index() ? "" : bench_.scene().passes[pass_].name;
+        return answer;
+    }
+
+private:
+    Result<void> compare(size_t pass, const glsl::Variation& varied, std::span<const Mode> modes) {
+        const auto preview = TRY(bench_.preview(k_state, pass));
+        auto stand_in = TRY(StandIn::link(preview, varied.text, "a variation of the text"));
+        asked_ = true;
+        std::vector<image::Image> others;
+        for (const Mode& mode : modes)
+            others.push_back(drawn(stand_in, preview, varied, mode.number));
+        const image::Image plain =
+            varied.mode_uniform.empty() ? as_drawn(stand_in, preview) : drawn(stand_in, preview, varied, 0);
+        for (size_t i = 0; i < modes.size(); ++i)
+            note(pass, modes[i], plain, others[i]);
+        return {};
+    }
+
+    static image::Image drawn(StandIn& stand_in, const PassPreview& preview, const glsl::Variation& varied,
+                              int mode) {
+        stand_in.set(varied.mode_uniform, mode);
+        stand_in.draw(preview);
+        return stand_in.picture();
+    }
+
+    /// Draws the author's text.
+    static image::Image as_drawn(const StandIn& stand_in, const PassPreview& preview) {
+        stand_in.draw_own(preview);
+        return stand_in.picture();
+    }
+
+    void note(size_t pass, const Mode& mode, const image::Image& plain, const image::Image& other) {
+        const double gap = p99_difference(plain, other);
+        if (image::compare(plain, other)->equal())
+            return;
+        std::string said = fmt::format("{}: {}", mode.name, alikeness(plain, other));
+        if (gap > k_visible_gap)
+            said += fmt::format(", 1 % of the pixels by {:.2g} or more", gap);
+        seen_.push_back({std::move(said), gap});
+        if (gap <= std::max(worst_, k_visible_gap))
+            return;
+        worst_ = gap;
+        pass_ = pass;
+        picture_ = image::difference_picture(plain, other, 1);
+    }
+
+    ProbeBench& bench_;
+    bool asked_ = false;
+    /// A mode that changed the bytes.
+    struct Seen {
+        std::string sentence;
+        double gap;
+    };
+    std::vector<Seen> seen_;
+    double worst_ = 0;
+    size_t pass_ = 0;
+    std::optional<image::Image> picture_;
+};
+
+} // namespace
+
+Result<Answer> ask_sine(ProbeBench& bench) {
+    using glsl::SineMode;
+    PortabilityProbe probe(bench);
+    const Manner sines{glsl::vary_sines,
+                       {{int(SineMode::unit_up), "sines a unit in the last place larger"},
+                        {int(SineMode::unit_down), "sines a unit smaller"},
+                        {int(SineMode::like_nvidia), "a sine like NVIDIA's"}}};
+    if (auto done = probe.add(sines); !done)
+        return Answer{Verdict::not_applicable, to_string(done.error())};
+    if (!probe.asked())
+        return Answer{Verdict::not_applicable, "the scene has no sine"};
+    return probe.answer("no visible difference with other GPUs' sines");
+}
+
+Result<Answer> ask_rounding(ProbeBench& bench) {
+    PortabilityProbe probe(bench);
+    const Manner manners[] = {
+        {glsl::vary_inputs, {{1, "iTime, iResolution and iMouse a unit in the last place larger"}}},
+        {glsl::vary_precision, {{0, "everything `precise`"}}},
+        {glsl::vary_contraction, {{1, "fused multiply-add"}}},
+        {glsl::vary_order, {{0, "sums added up from the other end"}}},
+        {glsl::vary_rounding, {{1, "quotients, roots, powers and logarithms a unit off"}}},
+    };
+    std::vector<std::string> left_out;
+    std::string why;
+    for (const Manner& manner : manners)
+        if (auto done = probe.add(manner); !done) {
+            left_out.emplace_back(manner.modes[0].name);
+            why = to_string(done.error());
+        }
+    if (!probe.asked())
+        return Answer{Verdict::not_applicable, left_out.empty() ? "nothing is computed" : why};
+    Answer answer = probe.answer("no visible difference with other roundings");
+    if (!left_out.empty())
+        answer.sentence += "; not tried, as the driver or the text does not allow it: " + listed(left_out);
+    return answer;
+}
+
+Result<Answer> ask_mediump(ProbeBench& bench) {
+    PortabilityProbe probe(bench);
+    if (auto done = probe.add(
+            {glsl::vary_halves, {{1, "sums and products in half floats, as phones have `mediump`"}}});
+        !done)
+        return Answer{Verdict::not_applicable, to_string(done.error())};
+    if (!probe.asked())
+        return Answer{Verdict::not_applicable, "nothing is `mediump` or `lowp`"};
+    return probe.answer("no visible difference in half floats");
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,395 @@
+// Checks that need no mainHit: they prove facts about a scene's rays from its text alone.
+
+#include "base/error.hpp"
+#include "base/measurement.hpp"
+#include "lab/march_rays.hpp"
+#include "lab/probed_rays.hpp"
+#include "lab/probes.hpp"
+#include "proof/ray_proofs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tidemark::lab {
+namespace {
+
+double percent(size_t part, size_t all) {
+    return all == 0 ? 0 : 100.0 * double(part) / double(all);
+}
+
+Answer none(std::string why) {
+    return {Verdict::not_applicable, std::move(why)};
+}
+
+std::string sentence_of(const PassFunction& function, const RayCounts& counts) {
+    std::string text = fmt::format(
+        "{:.3g} % of {} rays are decided: {:.3g} % of these step over their first hit, {:.3g} % miss it",
+        percent(counts.decided(), counts.rays), counts.rays, percent(counts.step_over, counts.decided()),
+        percent(counts.miss, counts.decided()));
+    if (counts.undecided > 0)
+        text += fmt::format("; of {:.3g} % it is not known ({})", percent(counts.undecided, counts.rays),
+                            to_string(counts.commonest()));
+    if (counts.at_base_level > 0)
+        text +=
+            fmt::format("; {:.3g} % of the rays are looked at with the base level of textures whose mipmap "
+                        "the device chooses",
+                        percent(counts.at_base_level, counts.rays));
+    if (counts.wrong_loop) {
+        const SourceLocation where = function.locate(function.loops()[*counts.wrong_loop].line);
+        text += fmt::format("; {}:{} tests the distance: {} there", where.file, where.line,
+                            counts.step_over > 0 ? "take shorter steps" : "take more steps");
+    }
+    return text;
+}
+
+} // namespace
+
+Result<Answer> ask_first_hit(ProbeBench& bench) {
+    const auto pass = TRY(marching_pass(bench));
+    if (!pass)
+        return without_march(bench);
+    const RayCounts counts = TRY(count_proved(bench, *pass));
+    if (counts.rays == 0)
+        return none("no ray comes to the loop that marches");
+    if (counts.unknown_texture == counts.rays)
+        return none("the march reads the frame before, which is gone, or a texture that is too large");
+    if (counts.unfaithful == counts.rays)
+        return none("the march remembers more than its place on the ray");
+    if (counts.decided() == 0)
+        return none(
+            fmt::format("none of {} rays is decided: {}", counts.rays, to_string(counts.commonest())));
+    if (counts.contradicted > 0)
+        return none(
+            fmt::format("{} rays contradict their proof: please report this scene", counts.contradicted));
+    const bool wrong = wrong_percent(counts) > k_most_wrong_percent;
+    return Answer{wrong ? Verdict::warn : Verdict::pass, sentence_of(*pass->function, counts)};
+}
+
+namespace {
+
+/// Most evaluations for the scale of one ray, in addition to those for its first hit.
+constexpr uint64_t k_most_for_scale = 400;
+/// Most evaluations for all areas of a picture.
+constexpr uint64_t k_most_of_areas = 20'000;
+/// Factor that allows for rounding in steps as long as the distance.
+constexpr double k_rounded = 1.001;
+
+/// Appends the march's steps as multiples of the distances for which they were taken.
+void add_own(ir::MarchSlice& slice, const ir::March& march, std::vector<double>& scales) {
+    for (size_t i = 0; i + 1 < march.turns.size(); ++i) {
+        const double at = slice.parameter(march.turns[i]);
+        const auto distance = slice.distance(ir::place_at(at), ir::Care::close);
+        if (distance && distance->low > 0)
+            scales.push_back((slice.parameter(march.turns[i + 1]) - at) * slice.unit() / distance->low);
+    }
+}
+
+struct Scales {
+    size_t hits = 0;            ///< rays whose first hit is proved
+    std::vector<double> safe{}; ///< of those rays with a known scale
+    std::vector<double> own{};  ///< of all steps on those rays
+    /// The scale with the smallest unsafe multiple, and the ray it was found on.
+    ir::StepScale least{.safe = ir::k_longest_scale};
+    size_t loop = 0;
+    glm::ivec2 pixel{0};
+    FrameState state{};
+    AreaSlopes areas{}; ///< over the whole picture, between the rays too
+
+    bool bounded() const { return 2 * safe.size() > hits; } ///< known on most of the rays
+};
+
+/// Adds one ray; returns the evaluations it took.
+uint64_t add(MarchRay& ray, glm::ivec2 pixel, const FrameState& state, Scales& scales) {
+    ir::MarchSlice& slice = *ray.slice;
+    const double last = slice.end(ray.march);
+    if (last < slice.start())
+        return 0;
+    const ir::FirstHit hit = ir::first_hit(slice, last, k_most_of_a_ray);
+    if (hit.verdict != ir::FirstHit::Verdict::hit)
+        return slice.evaluations();
+    ++scales.hits;
+    add_own(slice, ray.march, scales.own);
+    const ir::StepScale scale = ir::step_scale(slice, hit.where, k_most_for_scale);
+    if (scale.safe > 0)
+        scales.safe.push_back(scale.safe);
+    if (scale.unsafe < scales.least.unsafe) {
+        scales.least = scale;
+        scales.loop = ray.loop;
+        scales.pixel = pixel;
+        scales.state = state;
+    }
+    return slice.evaluations();
+}
+
+Result<Scales> scales_of(ProbeBench& bench, const MarchingPass& pass) {
+    Scales scales;
+    for (const double moment : k_ray_moments) {
+        const FrameState state = state_at(moment);
+        const render::Renderer& renderer = *TRY(bench.drawn(state));
+        const MarchRays rays({*pass.function, renderer, pass.index, render::inputs_of(state)});
+        look_at_rays(renderer.extent(), [&](glm::ivec2 pixel) -> uint64_t {
+            auto ray = rays.enter(pixel, ir::Surface::zero);
+            const bool marches = ray && ray->slice && !ray->march.turns.empty();
+            return marches ? add(*ray, pixel, state, scales) : 0;
+        });
+        scales.areas.add(area_slopes(rays, k_most_of_areas));
+    }
+    return scales;
+}
+
+/// Describes the slopes over all rays of a picture, not only the sampled ones.
+std::string areas_sentence(const AreaSlopes& areas) {
+    const double way = areas.way(), bounded = areas.bounded_way();
+    if (!(way > 0))
+        return {};
+    std::string text = fmt::format(
+        "; between the rays the slope is bounded on {:.3g} % of the way to the surface", 100 * bounded / way);
+    if (bounded > 0)
+        text += fmt::format(": the distance falls by {:.3g} a unit at most, by {:.3g} on 95 % of it",
+                            areas.falls_on(1), areas.falls_on(0.95));
+    if (areas.may_jump > 0)
+        text += fmt::format(", beside jumps that are not excluded on {:.3g} %", 100 * areas.may_jump / way);
+    if (areas.not_finite > 0)
+        text += fmt::format("; on {:.3g} % it may be NaN or infinite", 100 * areas.not_finite / way);
+    return text;
+}
+
+std::string scales_sentence(const Scales& scales) {
+    const size_t unknown = scales.hits - scales.safe.size();
+    std::string text;
+    if (scales.bounded())
+        text = fmt::format(
+            "steps of {:.2g} x the distance are safe on {} rays that hit, {:.2g} x on 95 % of them",
+            std::ranges::min(scales.safe), scales.safe.size(), quantile(scales.safe, 0.05));
+    if (unknown > 0)
+        text += fmt::format("{}on {} of {} rays the field cannot be bounded", text.empty() ? "" : "; ",
+                            unknown, scales.hits);
+    if (scales.least.unsafe < ir::k_longest_scale)
+        text += fmt::format("; {:.2g} x steps over the hit from {:.4g} on the ray of pixel {},{} at {:g} s",
+                            scales.least.unsafe, scales.least.at, scales.pixel.x, scales.pixel.y,
+                            scales.state.seconds());
+    return text + fmt::format("; its own steps are {:.2g} x in the median", median(scales.own)) +
+           areas_sentence(scales.areas);
+}
+
+} // namespace
+
+Result<Answer> ask_step_scale(ProbeBench& bench) {
+    const auto pass = TRY(marching_pass(bench));
+    if (!pass)
+        return without_march(bench);
+    const std::vector<ir::MarchingLoop>& loops = pass->function->loops();
+    const auto fixed = [](const ir::MarchingLoop& loop) {
+        return loop.kind == ir::MarchingLoop::Kind::fixed_step;
+    };
+    if (std::ranges::all_of(loops, fixed))
+        return none("the march goes in steps that the distance does not choose");
+    const Scales scales = TRY(scales_of(bench, *pass));
+    if (scales.hits == 0)
+        return none("no ray is proved to come to a zero of the distance");
+    // A march that waits for a sample below the surface returns from it, so its steps are never too long.
+    const bool too_long =
+        loops[scales.loop].stops_before && median(scales.own) > scales.least.unsafe * k_rounded;
+    if (!scales.bounded() && !too_long)
+        return none(scales_sentence(scales));
+    Answer answer{too_long ? Verdict::warn : Verdict::pass, scales_sentence(scales)};
+    if (too_long)
+        answer.where = scales.state;
+    return answer;
+}
+
+// Checks whether rays run out of their march's iterations: in float, and by proved bounds from the least
+// length of each step.
+
+namespace {
+
+/// Most evaluations for the bound of one ray, or of one ray over a span of time.
+constexpr uint64_t k_most_of_a_bound = 500;
+/// The checked span in seconds, and the shortest part that it is divided into.
+constexpr ir::Interval k_span{0, 10};
+constexpr double k_shortest_span = 10.0 / 16;
+/// One in so many rays is checked over the span.
+constexpr size_t k_every = 4;
+/// A march without a limit is ended by a wall; it is looked for up to this multiple of the way to the last
+/// iteration.
+constexpr double k_behind = 2;
+
+struct TurnCounts {
+    size_t rays = 0, out = 0;
+    size_t looked_at = 0, proved = 0, contradicted = 0; ///< of the rays to bound
+    size_t unfollowed = 0; ///< their step is not one value that each iteration adds
+    size_t needed = 0;     ///< most iterations of a march that does not run out
+    uint32_t turns = 0;
+    size_t rays_over_time = 0;
+    double proved_seconds = 0; ///< sum over those rays
+    glm::ivec2 pixel{0};       ///< of the first ray that runs out
+    FrameState state{};
+    int line = 0;
+};
+
+double share(double some, double all) {
+    return all == 0 ? 0 : 100 * some / all;
+}
+
+class TurnLook {
+public:
+    TurnLook(const MarchRays& rays, const FrameState& state, TurnCounts& counts)
+        : rays_(rays), state_(state), counts_(counts) {}
+
+    /// Follows a ray in float and counts it.
+    void follow(glm::ivec2 pixel) {
+        const auto ray = enter(pixel);
+        if (!ray)
+            return;
+        const ir::MarchingLoop& loop = loop_of(*ray);
+        ++counts_.rays;
+        counts_.turns = std::max(counts_.turns, *loop.turns);
+        if (runs_out(*ray, loop))
+            remember(pixel, loop);
+        else
+            counts_.needed = std::max(counts_.needed, ray->march.turns.size());
+    }
+
+    /// Bounds the iterations of a ray and counts the result; returns the evaluations it took.
+    uint64_t bound(glm::ivec2 pixel) {
+        const auto ray = enter(pixel);
+        if (!ray)
+            return 0;
+        const ir::MarchingLoop& loop = loop_of(*ray);
+        const bool out = runs_out(*ray, loop);
+        ++counts_.looked_at;
+        counts_.unfollowed += !out && (!ray->slice || loop.advance == ir::k_no_value);
+        if (!ray->slice)
+            return 1;
+        used_ = 0;
+        const ir::March& march = ray->march;
+        const double end = march.far ? *march.far : behind(*ray->slice, march);
+        const auto most = bound({at(pixel.x), at(pixel.y)}, ray->loop, end);
+        counts_.proved += most.has_value();
+        counts_.contradicted += most && (out || *most < march.turns.size());
+        if (!out && number_++ % k_every == 0) {
+            ++counts_.rays_over_time;
+            counts_.proved_seconds += most ? proved_of(pixel, k_span, ray->loop, end) : 0;
+        }
+        return used_;
+    }
+
+private:
+    const ir::MarchingLoop& loop_of(const MarchRay& ray) const { return rays_.function().loops()[ray.loop]; }
+
+    /// Returns the ray if its loop steps by a distance and counts its iterations.
+    std::optional<MarchRay> enter(glm::ivec2 pixel) const {
+        auto ray = rays_.enter(pixel, ir::Surface::threshold);
+        if (!ray || ray->march.turns.empty() || !loop_of(*ray).turns ||
+            loop_of(*ray).kind == ir::MarchingLoop::Kind::fixed_step)
+            return std::nullopt;
+        return ray;
+    }
+
+    static ir::Interval at(int pixel) { return {pixel + 0.5, pixel + 0.5}; }
+
+    static double behind(const ir::MarchSlice& slice, const ir::March& march) {
+        return slice.start() + k_behind * (slice.parameter(march.turns.back()) - slice.start());
+    }
+
+    static bool runs_out(const MarchRay& ray, const ir::MarchingLoop& loop) {
+        const ir::March& march = ray.march;
+        const bool beyond = march.far && march.turns.back().carried[0] > *march.far;
+        return !march.hit && !beyond && march.turns.size() >= *loop.turns;
+    }
+
+    void remember(glm::ivec2 pixel, const ir::MarchingLoop& loop) {
+        if (counts_.out++ > 0)
+            return;
+        counts_.pixel = pixel;
+        counts_.state = state_;
+        counts_.line = loop.line;
+    }
+
+    std::optional<uint32_t> bound(const RayArea& area, size_t loop, double end) {
+        auto all = rays_.enter_all(area, ir::SliceOf::step, ir::Surface::threshold);
+        ++used_;
+        if (!all || all->loop != loop)
+            return std::nullopt;
+        const auto most = ir::most_turns(all->slice, all->slice.far().value_or(end),
+                                         *rays_.function().loops()[loop].turns, k_most_of_a_bound);
+        used_ += all->slice.evaluations();
+        return most;
+    }
+
+    /// Returns for how many seconds of the span the bound holds, by bisection.
+    double proved_of(glm::ivec2 pixel, const ir::Interval& span, size_t loop, double end) {
+        if (bound({at(pixel.x), at(pixel.y), span}, loop, end))
+            return span.width();
+        if (span.width() <= k_shortest_span)
+            return 0;
+        const double middle = span.low + span.width() / 2;
+        return proved_of(pixel, {span.low, middle}, loop, end) +
+               proved_of(pixel, {middle, span.high}, loop, end);
+    }
+
+    const MarchRays& rays_;
+    const FrameState& state_;
+    TurnCounts& counts_;
+    size_t number_ = 0;
+    uint64_t used_ = 0;
+};
+
+std::string turns_sentence(const PassFunction& function, const TurnCounts& counts) {
+    std::string text = fmt::format("{:.3g} % of {} rays run out of the loop's {} turns",
+                                   share(double(counts.out), double(counts.rays)), counts.rays, counts.turns);
+    if (counts.out > 0) {
+        const SourceLocation where = function.locate(counts.line);
+        text += fmt::format(", as pixel {},{} at {:g} s: {}:{} tests the distance", counts.pixel.x,
+                            counts.pixel.y, counts.state.seconds(), where.file, where.line);
+    }
+    text += fmt::format("; the others need {} at most; of {} rays {:.3g} % are proved not to", counts.needed,
+                        counts.looked_at, share(double(counts.proved), double(counts.looked_at)));
+    if (counts.unfollowed > 0)
+        text += fmt::format(" (what {:.3g} % add to their way is not followed)",
+                            share(double(counts.unfollowed), double(counts.looked_at)));
+    if (counts.proved > 0 && counts.rays_over_time > 0)
+        text +=
+            fmt::format(", of {} rays at {:.3g} % of all times from {:g} to {:g} s", counts.rays_over_time,
+                        share(counts.proved_seconds, double(counts.rays_over_time) * k_span.width()),
+                        k_span.low, k_span.high);
+    return text;
+}
+
+} // namespace
+
+Result<Answer> ask_turns(ProbeBench& bench) {
+    const auto pass = TRY(marching_pass(bench));
+    if (!pass)
+        return without_march(bench);
+    TurnCounts counts;
+    for (const double moment : k_ray_moments) {
+        const FrameState state = state_at(moment);
+        const render::Renderer& renderer = *TRY(bench.drawn(state));
+        const MarchRays rays({*pass->function, renderer, pass->index, render::inputs_of(state)});
+        TurnLook look(rays, state, counts);
+        look_at_rays(renderer.extent(), [&](glm::ivec2 pixel) {
+            look.follow(pixel);
+            return 0;
+        });
+        look_at_rays(renderer.extent(), [&](glm::ivec2 pixel) { return look.bound(pixel); });
+    }
+    if (counts.rays == 0)
+        return Answer{Verdict::not_applicable,
+                      "no ray comes to a loop that steps by a distance, and counts its turns up to a number"};
+    if (counts.contradicted > 0)
+        return Answer{
+            Verdict::not_applicable,
+            fmt::format("{} rays contradict their proof: please report this scene", counts.contradicted)};
+    Answer answer{Verdict::pass, turns_sentence(*pass->function, counts)};
+    if (share(double(counts.out), double(counts.rays)) > bench.promises().most_exhausted_percent) {
+        answer.verdict = Verdict::warn;
+        answer.sentence += "; take more steps, or longer ones";
+        answer.where = counts.state;
+    }
+    return answer;
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,403 @@
+#include "lab/simplify.hpp"
+
+#include "base/error.hpp"
+#include "lab/conduct.hpp"
+#include "lab/pass_function.hpp"
+#include "lab/scene_numbers.hpp"
+#include "lab/work_precision.hpp"
+#include "render/frame_stepper.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tidemark::lab {
+namespace {
+
+constexpr size_t k_fewest_trials = 3, k_most_trials = 25;
+constexpr double k_enough_milliseconds = 120; ///< for the timing rounds
+/// A picture is divided into this many parts; the RMSE of each may be this many times the allowed error.
+constexpr int k_part_columns = 16, k_part_rows = 9;
+constexpr double k_most_in_a_part = 3;
+
+/// Small differences that the measure rounds to zero count as more than zero.
+double error_of(Measure measure, const Outcome& outcome) {
+    if (outcome.picture.samples.equal())
+        return 0;
+    return std::max(error_by(measure, outcome), std::numeric_limits<double>::min());
+}
+
+/// Returns the CPU time if the CPU draws, else the wall time.
+double clocked(const Elapsed& elapsed, bool by_cpu) {
+    return by_cpu ? elapsed.cpu : elapsed.wall;
+}
+
+/// Returns the RMSE of a part as displayed; pixels that are NaN or infinite in the own picture do not count.
+double rmse_of_part(const image::Image& own, const image::Image& cut, int part) {
+    const auto [width, height] = own.extent;
+    const int column = part % k_part_columns, row = part / k_part_columns;
+    const auto channels = size_t(own.channels);
+    double squares = 0;
+    size_t samples = 0;
+    for (int y = height * row / k_part_rows; y < height * (row + 1) / k_part_rows; ++y)
+        for (int x = width * column / k_part_columns; x < width * (column + 1) / k_part_columns; ++x)
+            for (size_t k = 0; k < channels; ++k) {
+                const size_t i = (size_t(y) * size_t(width) + size_t(x)) * channels + k;
+                if (!std::isfinite(own.f32()[i]))
+                    continue;
+                const double gap =
+                    std::clamp(double(cut.f32()[i]), 0.0, 1.0) - std::clamp(double(own.f32()[i]), 0.0, 1.0);
+                squares += gap * gap;
+                ++samples;
+            }
+    return std::sqrt(squares / double(std::max<size_t>(1, samples)));
+}
+
+} // namespace
+
+bool keeps_parts(const Goal& goal, const image::Image& own, const image::Image& cut) {
+    for (int part = 0; part < k_part_columns * k_part_rows; ++part)
+        if (rmse_of_part(own, cut, part) > k_most_in_a_part * *goal.most_error)
+            return false;
+    return true;
+}
+
+Result<CutBench> CutBench::create(const scene::Scene& scene, Extent extent, std::vector<View> views) {
+    auto own = TRY(Specimen::create(scene, {}, extent));
+    CutBench bench(scene, extent, std::move(views), std::move(own));
+    bench.truth_ = TRY(truth_of(bench.own_.pictures(bench.views_)));
+    return bench;
+}
+
+std::optional<CutTrial> CutBench::try_cuts(std::span<const glsl::Cure> cuts, Specimen& other,
+                                           const Goal& goal) {
+    const auto scene = changed(*scene_, cuts);
+    auto specimen = scene ? Specimen::create(*scene, {}, extent_) : fail(ErrorCode::load, "");
+    if (!specimen)
+        return std::nullopt;
+    CutTrial trial{*std::move(specimen)};
+    const Sight sight{trial.specimen.pictures(views_), {}};
+    for (size_t view = 0; view < views_.size(); ++view) {
+        const double error = error_of(goal.measure, outcome_of(sight, truth_, view));
+        if (!(error <= *goal.most_error) || !keeps_parts(goal, truth_.pictures[view], sight.pictures[view]))
+            return std::nullopt;
+        trial.error = std::max(trial.error, error);
+    }
+    trial.time = relative_time(trial.specimen, other);
+    return trial;
+}
+
+double CutBench::milliseconds() {
+    std::vector<double> rounds;
+    for (size_t round = 0; round < k_fewest_trials; ++round) {
+        double sum = 0;
+        for (const View& view : views_)
+            sum += own_.time(view, false).elapsed.wall;
+        rounds.push_back(sum / double(views_.size()));
+    }
+    return median(rounds);
+}
+
+double CutBench::seconds_of_trial() {
+    const auto drawn = double(views_.size() * (1 + 2 * k_fewest_trials));
+    return milliseconds() * 1e-3 * drawn;
+}
+
+/// Returns the median ratio of the times, over rounds that draw both alternately.
+double CutBench::relative_time(Specimen& one, Specimen& other) const {
+    std::vector<Elapsed> ones, others;
+    const Stopwatch clock;
+    for (size_t round = 0; round < k_most_trials; ++round) {
+        if (round >= k_fewest_trials && clock.elapsed().wall > k_enough_milliseconds)
+            break;
+        Elapsed sums[2]{};
+        for (const View& view : views_)
+            for (Specimen* const each : {&one, &other}) {
+                const Elapsed elapsed = each->time(view, false).elapsed;
+                sums[each == &other].wall += elapsed.wall;
+                sums[each == &other].cpu += elapsed.cpu;
+            }
+        ones.push_back(sums[0]);
+        others.push_back(sums[1]);
+    }
+    double wall = 0, cpu = 0;
+    for (const Elapsed& elapsed : others) {
+        wall += elapsed.wall;
+        cpu += elapsed.cpu;
+    }
+    const bool by_cpu = cpu > 0.5 * wall;
+    std::vector<double> ratios;
+    for (size_t i = 0; i < ones.size(); ++i)
+        ratios.push_back(clocked(ones[i], by_cpu) / clocked(others[i], by_cpu));
+    return median(ratios);
+}
+
+namespace {
+
+/// Longer side of the search pictures; for cuts that depend on the size, of finer ones.
+constexpr int k_small = 128, k_fine = 512;
+/// The finer pictures are used if one trial takes at most this share of the time budget.
+constexpr double k_fine_trial = 0.1;
+/// Shares of the time budget: `k_looking`, `k_alone` and `k_together` end the search for places and the
+/// trials of cuts alone and together; `k_timing` is for the verdict.
+constexpr double k_looking = 0.15, k_alone = 0.45, k_together = 0.7, k_timing = 0.25;
+/// A cut is considered if a frame takes at most this share of its former time.
+constexpr double k_pays = 0.985;
+/// Savings of single cuts that differ by less than this count as equal.
+constexpr double k_alike = 0.05;
+/// Share of the allowed error that the search may use: moments it did not see rarely have as little error as
+/// those it did.
+constexpr double k_margin = 0.8;
+/// Limit of the combinations that are judged at full size, and the least number of rounds for each.
+constexpr size_t k_most_steps = 6, k_fewest_rounds = 9;
+/// Moments that the search does not use: seconds after its last moment, as a share of that moment's time, but
+/// at least of one second.
+constexpr double k_later[] = {0.087, 0.423, 1.53};
+
+std::vector<glsl::Cure> changes_of(const std::vector<ChosenCut>& cuts) {
+    std::vector<glsl::Cure> changes;
+    for (const ChosenCut& cut : cuts)
+        changes.push_back(cut.change);
+    return changes;
+}
+
+class Simplifier {
+public:
+    Simplifier(const scene::Scene& scene, const SimplifyRequest& request, const Watch& watch,
+               const Circumstances& facts)
+        : scene_(scene), request_(request), watch_(watch), facts_(facts), searched_(request.goal) {
+        *searched_.most_error *= k_margin;
+    }
+
+    Result<Simplified> run() {
+        const Extent small = small_of(request_.extent, k_small);
+        CutPlaces places = TRY(find_cuts(scene_, request_.views, small, [&] { return goes_on(k_looking); }));
+        std::erase_if(places.cuts,
+                      [&](const glsl::Cut& cut) { return !request_.can_be_written(cut.change); });
+        auto bench = TRY(CutBench::create(scene_, small, request_.views));
+        auto fine = fine_bench(bench, places.cuts);
+        CutBench& finer = fine ? *fine : bench;
+        try_alone(bench, finer, places.cuts);
+        combine(std::ranges::any_of(good_, &ChosenCut::hangs_on_size) ? finer : bench);
+        Simplified found{{TRY(judge(bench)), {}}, {}};
+        choose(found, std::move(places.left));
+        return found;
+    }
+
+private:
+    bool goes_on(double part) const {
+        return watch_.keep_going() && clock_.elapsed().wall * 1e-3 < part * request_.seconds;
+    }
+
+    bool keeps(double error) const { return error <= *request_.goal.most_error; }
+
+    /// Returns a bench for the finer pictures; nullopt if no cut needs it, or if it is too slow.
+    std::optional<CutBench> fine_bench(CutBench& bench, const std::vector<glsl::Cut>& cuts) const {
+        const Extent fine = small_of(request_.extent, k_fine);
+        const double trial = bench.seconds_of_trial() * larger(fine);
+        if (std::ranges::none_of(cuts, &glsl::Cut::hangs_on_size) || trial > k_fine_trial * request_.seconds)
+            return std::nullopt;
+        auto made = CutBench::create(scene_, fine, request_.views);
+        return made ? std::optional(*std::move(made)) : std::nullopt;
+    }
+
+    /// Returns the ratio of pixels to those of the search pictures.
+    double larger(Extent extent) const {
+        return double(extent.pixels()) / double(small_of(request_.extent, k_small).pixels());
+    }
+
+    void try_alone(CutBench& bench, CutBench& finer, const std::vector<glsl::Cut>& cuts) {
+        watch_.begin("cuts tried", cuts.size());
+        for (const glsl::Cut& cut : cuts) {
+            if (!goes_on(k_alone))
+                break;
+            ++tried_;
+            watch_.advance();
+            CutBench& own = cut.hangs_on_size ? finer : bench;
+            const auto trial = own.try_cuts(std::span(&cut.change, 1), own.own(), searched_);
+            if (trial && trial->time <= k_pays)
+                good_.push_back({cut.change, trial->error, trial->time, cut.hangs_on_size});
+        }
+        known_ = cuts.size();
+        // Cuts without any visible error come first; among those that save as much, the one with more work.
+        // Then come those that save the most for their error.
+        std::ranges::stable_sort(good_, std::greater<>(), [](const ChosenCut& cut) {
+            const double saved = 1 - cut.time;
+            return cut.error == 0 ? std::pair(true, std::round(saved / k_alike))
+                                  : std::pair(false, saved / cut.error);
+        });
+    }
+
+    /// Adds one cut after another, as long as the error stays within the goal.
+    void combine(CutBench& bench) {
+        watch_.begin("cuts combined", good_.size());
+        std::optional<CutTrial> last;
+        for (const ChosenCut& cut : good_) {
+            watch_.advance();
+            if (!goes_on(k_together))
+                break;
+            std::vector<ChosenCut> next = way_.empty() ? std::vector<ChosenCut>{} : way_.back();
+            const bool gone = std::ranges::any_of(next, [&](const ChosenCut& other) {
+                return !is_inside(other.change, cut.change) && is_inside(cut.change, other.change);
+            });
+            if (gone)
+                continue;
+            std::erase_if(next, [&](const ChosenCut& other) { return is_inside(other.change, cut.change); });
+            next.push_back(cut);
+            auto trial = bench.try_cuts(changes_of(next), last ? last->specimen : bench.own(), searched_);
+            if (!trial || trial->time > k_pays)
+                continue;
+            last = std::move(trial);
+            way_.push_back(std::move(next));
+        }
+    }
+
+    /// Estimates the time of one round for one point at full size from a small picture.
+    double seconds_a_round(CutBench& bench) const {
+        return bench.milliseconds() * 1e-3 * larger(request_.extent) *
+               double(request_.views.size() + std::size(k_later));
+    }
+
+    /// Returns the last step and others evenly spaced before it, as many as the time allows.
+    std::vector<size_t> judged_steps(double seconds_a_round) const {
+        std::vector<size_t> steps;
+        const double points = k_timing * request_.seconds / (double(k_fewest_rounds) * seconds_a_round);
+        const auto affordable = size_t(std::clamp(points - 1, 1.0, double(k_most_steps)));
+        const size_t count = std::min(way_.size(), affordable);
+        for (size_t i = 1; i <= count; ++i)
+            steps.push_back(way_.size() * i / count - 1);
+        return steps;
+    }
+
+    Result<Findings> judge(CutBench& bench) {
+        const double round = seconds_a_round(bench);
+        steps_ = judged_steps(round);
+        std::vector<std::pair<std::string, scene::Scene>> scenes;
+        for (const size_t step : steps_)
+            if (auto scene = changed(scene_, changes_of(way_[step])))
+                scenes.emplace_back(fmt::format("step {}: {} cut{}", step + 1, way_[step].size(),
+                                                way_[step].size() == 1 ? "" : "s"),
+                                    *std::move(scene));
+        Study study;
+        study.about = "What can be left out of the scene, held against the scene as it is.";
+        study.extent = request_.extent;
+        study.views = request_.views;
+        const View& last = request_.views.back();
+        for (const double later : k_later)
+            study.views.push_back(unseen(last, later * std::max(last.state.seconds(), 1.0)));
+        const double needed = double(k_fewest_rounds * (steps_.size() + 1)) * round;
+        const Timing timing{2, 30, std::max(needed, k_timing * request_.seconds)};
+        Watch watch = watch_;
+        if (!watch_.keep_going()) // a cancelled search still judges its results
+            watch.keep_going = [] { return true; };
+        return compare_scenes(scene_, scenes, study, timing, watch, facts_);
+    }
+
+    bool keeps_parts(const Findings& findings, size_t point) const {
+        const Evidence& seen = findings.evidence;
+        for (size_t view = 0; view < seen.reference.size(); ++view)
+            if (!lab::keeps_parts(request_.goal, seen.reference[view], seen.pictures[point][view]))
+                return false;
+        return true;
+    }
+
+    /// Returns the largest error of all views: a better view does not compensate for a worse one.
+    double worst(const WorkPrecision& point) const {
+        double worst = 0;
+        for (const Outcome& view : point.views) {
+            const double error = error_by(request_.goal.measure, view);
+            worst = std::isnan(error) ? error : std::max(worst, error);
+            if (std::isnan(worst))
+                break;
+        }
+        return worst;
+    }
+
+    std::string cost_and_error(const WorkPrecision& point) const {
+        return fmt::format("{}, {} {}", cost_of(point), to_string(Goal{request_.goal.measure}),
+                           figure(worst(point)));
+    }
+
+    void choose(Simplified& found, std::vector<std::string> left) const {
+        const auto& points = found.findings.set.points;
+        auto& say = found.sentences;
+        say = std::move(left);
+        say.push_back(fmt::format("{} of {} cuts were tried alone: {} pay and keep {}", tried_, known_,
+                                  good_.size(), to_string(request_.goal)));
+        say.push_back("as it is: " + cost_and_error(points.front()));
+        const WorkPrecision* best = nullptr;
+        for (size_t i = 1; i < points.size(); ++i) {
+            const WorkPrecision& point = points[i];
+            say.push_back(fmt::format("{}: {}", point.point.label,
+                                      point.measured() ? cost_and_error(point) : point.failure));
+            const auto gain = speedup(points.front(), point);
+            const bool may = point.timed() && keeps(worst(point)) && keeps_parts(found.findings, i) && gain &&
+                             gain->confidence.low > 1;
+            if (!may || (best && best->all.time().median <= point.all.time().median))
+                continue;
+            best = &point;
+            found.chosen = way_[steps_[i - 1]];
+        }
+        if (!best) {
+            say.push_back("nothing that was found is faster beyond noise and keeps " +
+                          to_string(request_.goal) + " in every view");
+            return;
+        }
+        const auto gain = speedup(points.front(), *best);
+        say.push_back(
+            fmt::format("chosen: {}: {:.2f} x [{:.2f}, {:.2f}] as fast as it is, {} {} in the worst view",
+                        best->point.label, gain->ratio, gain->confidence.low, gain->confidence.high,
+                        to_string(Goal{request_.goal.measure}), figure(worst(*best))));
+        say.push_back(work_sentence(found.chosen));
+    }
+
+    /// Reports the operation counts, which do not depend on the machine.
+    std::string work_sentence(const std::vector<ChosenCut>& chosen) const {
+        const auto before = work_of(scene_);
+        const auto scene = changed(scene_, changes_of(chosen));
+        const auto after = scene ? work_of(*scene) : fail(ErrorCode::load, "");
+        if (!before || !after)
+            return "its operations are not counted: " + to_string((before ? after : before).error());
+        return fmt::format("{:.0f} operations a pixel instead of {:.0f} (of {}, counted in the text on "
+                           "{} and {} pixels of {})",
+                           after->operations, before->operations,
+                           scene_.passes.size() == 1 ? scene_.image().name : "all passes", after->pixels,
+                           before->pixels, request_.views.front().name);
+    }
+
+    /// Sums one pixel of each pass; `pixels` is that of the pass with the fewest counted.
+    Result<PixelWork> work_of(const scene::Scene& scene) const {
+        auto renderer = TRY(
+            render::Renderer::create(scene, {.extent = request_.extent, .samples = image::SampleType::f32}));
+        const render::FrameState state = state_of(request_.views.front(), request_.extent);
+        render::FrameStepper(renderer, state).draw(state.frame);
+        PixelWork sum{0, std::numeric_limits<size_t>::max()};
+        for (const render::PlannedPass& planned : renderer.plan().passes) {
+            const PixelWork work = TRY(count_work(renderer, planned.pass, inputs_of(state)));
+            sum = {sum.operations + work.operations, std::min(sum.pixels, work.pixels)};
+        }
+        return sum;
+    }
+
+    const scene::Scene& scene_;
+    const SimplifyRequest& request_;
+    const Watch& watch_;
+    const Circumstances& facts_;
+    Goal searched_; ///< goal for the search pictures
+    Stopwatch clock_{};
+    size_t tried_ = 0, known_ = 0;
+    std::vector<ChosenCut> good_{};             ///< cuts that pay alone
+    std::vector<std::vector<ChosenCut>> way_{}; ///< combinations; each keeps the error
+    std::vector<size_t> steps_{};               ///< indices of the combinations to judge
+};
+
+} // namespace
+
+Result<Simplified> simplify(const scene::Scene& scene, const SimplifyRequest& request, const Watch& watch,
+                            const Circumstances& circumstances) {
+    return Simplifier(scene, request, watch, circumstances).run();
+}
+
+} // namespace tidemark::lab

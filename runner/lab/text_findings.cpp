@@ -1,0 +1,211 @@
+#include "lab/text_findings.hpp"
+
+#include "base/error.hpp"
+#include "lab/instrumented_pass.hpp"
+#include "lab/nan_trace.hpp"
+#include "lab/probes.hpp"
+#include "scene/host_uniforms.hpp"
+#include "shader/undefined_behaviour.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace tidemark::lab {
+
+Result<std::vector<PassText>> read_texts(ProbeBench& bench, bool as_written) {
+    const auto renderer = TRY(bench.compiled());
+    std::vector<PassText> texts;
+    for (const render::PlannedPass& planned : (renderer)->plan().passes) {
+        if (bench.scene().passes[planned.pass].kind == scene::PassKind::cubemap)
+            continue;
+        auto text = TRY(read_text(*renderer, planned.pass, as_written));
+        glsl::TreeFacts facts = glsl::find_facts(*text);
+        texts.push_back({planned.pass, std::move(text), std::move(facts)});
+    }
+    return texts;
+}
+
+std::string place_of(const glsl::ParsedText& text, size_t word) {
+    const SourceLocation where = text.spelled(word);
+    return where.file.empty() ? std::string() : fmt::format("{}:{}", where.file, where.line);
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    constexpr size_t k_most = 4;
+    std::string text;
+    for (size_t i = 0; i < names.size() && i < k_most; ++i)
+        text += fmt::format("{}{}", i > 0 ? ", " : "", names[i]);
+    if (names.size() > k_most)
+        text += fmt::format(" and {} more", names.size() - k_most);
+    return text;
+}
+
+std::string_view words_for(glsl::Unassigned::Why why) {
+    using Why = glsl::Unassigned::Why;
+    return why == Why::never              ? ""
+           : why == Why::on_some_way      ? ", on some path"
+           : why == Why::not_given        ? ", an `out` that is never written"
+           : why == Why::left_on_some_way ? ", an `out` that some path does not write"
+                                          : ", on some path without a `return`";
+}
+
+size_t word_without_value(const glsl::ParsedText& text, const glsl::Unassigned& each) {
+    using Why = glsl::Unassigned::Why;
+    const bool declared = each.why == Why::not_given || each.why == Why::left_on_some_way;
+    return text.tree()[declared ? each.what : each.at].word;
+}
+
+std::string sentence_for(const glsl::ParsedText& text, const glsl::Unassigned& each) {
+    const std::string place = place_of(text, word_without_value(text, each));
+    if (place.empty())
+        return {};
+    return fmt::format("{} ({}{})", text.word_of(each.what), place, words_for(each.why));
+}
+
+std::string words_for(const glsl::ParsedText& text, const glsl::DivergentBranch& branch) {
+    const glsl::Node& at = text.tree()[branch.at];
+    const std::string place = place_of(text, at.begin);
+    const std::string_view called = branch.called ? "called " : "";
+    if (!branch.exit)
+        return fmt::format("{}{} {}", called,
+                           branch.called ? "where neighbours may branch at" : "neighbours may branch at",
+                           place);
+    const bool by_call = at.kind == glsl::NodeKind::call;
+    return fmt::format("{}after the {} at {}", called, by_call ? "discard in a call" : text.word(at.word),
+                       place);
+}
+
+std::string words_for(const glsl::ParsedText& text, const glsl::Divergent& each) {
+    return fmt::format("{} needs neighbouring pixels, which may have taken another branch: {}",
+                       glsl::called_name(text, each.call), words_for(text, each.branch));
+}
+
+std::string words_for(const glsl::FloatCounter& counter) {
+    if (std::isinf(counter.turns))
+        return fmt::format(
+            "{} stands still after some turns, for a step is less than its rounding: the loop has "
+            "no end",
+            counter.name);
+    return fmt::format("{} counts {} turns, where its numbers make {}: each step is rounded", counter.name,
+                       counter.turns, counter.exact_turns);
+}
+
+std::function<bool(std::string_view)> which_have_mipmaps(const scene::Pass& pass) {
+    return [&channels = pass.channels](std::string_view sampler) {
+        const auto name = std::ranges::find(scene::k_channel_names, sampler);
+        return name != scene::k_channel_names.end() &&
+               channels[size_t(name - scene::k_channel_names.begin())].sampling.mipmaps !=
+                   scene::Mipmaps::none;
+    };
+}
+
+using glsl::DomainKind;
+using glsl::DomainReading;
+
+bool is_bound(const glsl::DomainSite& site, const DomainReading& reading) {
+    switch (site.kind) {
+    case DomainKind::function: return false;
+    case DomainKind::quotient: return reading.limit != 0; // 1: of whole numbers, 0: of floats
+    default: return true;
+    }
+}
+
+std::string domain_sentence(const glsl::ParsedText& text, const glsl::DomainSite& site,
+                            const DomainReading& reading) {
+    const std::string_view name = glsl::domain_name(text, site.node);
+    const auto whole = int32_t(reading.argument);
+    const auto number = std::bit_cast<float>(reading.argument);
+    const std::string excerpt = fmt::format("`{}`", shortened(text.excerpt(site.node)));
+    switch (site.kind) {
+    case DomainKind::quotient:
+        if (reading.limit == 0)
+            break;
+        [[fallthrough]];
+    case DomainKind::divisor: return fmt::format("{}: a whole number divided by 0", excerpt);
+    case DomainKind::shift: return fmt::format("{}: a shift by {}, outside of 0 to 31", excerpt, whole);
+    case DomainKind::index:
+        return fmt::format("{}: index {} outside of 0 to {}", excerpt, whole, reading.limit);
+    case DomainKind::fetch:
+        return reading.limit >= 0x10000000u
+                   ? fmt::format("{}: level {}", excerpt, whole)
+                   : fmt::format("{}: texel {} outside of 0 to {}, which is 0 on the site and here", excerpt,
+                                 whole, reading.limit);
+    case DomainKind::conversion:
+        return fmt::format("{} is {}, outside of the range of {}", excerpt, to_shortest(number),
+                           site.to_unsigned ? "uint" : "int");
+    default: break;
+    }
+    return fmt::format("{} {} ({}", name, glsl::domain_fault(name, number), to_shortest(number));
+}
+
+std::string place_of_site(const glsl::ParsedText& text, const glsl::DomainSite& site) {
+    const glsl::Node& node = text.tree()[site.node];
+    const bool has_sign = node.kind == glsl::NodeKind::binary || node.kind == glsl::NodeKind::assign;
+    return place_of(text, has_sign ? node.word : node.begin);
+}
+
+// Probes that only read the text.
+
+Result<Answer> ask_unassigned(ProbeBench& bench) {
+    const auto texts = read_texts(bench, true);
+    if (!texts)
+        return Answer{Verdict::not_applicable, "the text cannot be followed: " + to_string(texts.error())};
+    std::vector<std::string> found;
+    for (const PassText& pass : *texts)
+        for (const glsl::Unassigned& each : glsl::find_unassigned(*pass.text, pass.facts)) {
+            std::string said = sentence_for(*pass.text, each);
+            if (!said.empty() && std::ranges::find(found, said) == found.end())
+                found.push_back(std::move(said));
+        }
+    const std::string_view looked =
+        "every path through the functions that run was followed, whatever the conditions";
+    if (found.empty())
+        return Answer{Verdict::pass, fmt::format("nothing is read without a value: {}", looked)};
+    return Answer{Verdict::warn, fmt::format("without a value, which is 0 on ShaderToy's site and here, and "
+                                             "anything elsewhere: {}; {}",
+                                             listed(found), looked)};
+}
+
+Result<Answer> ask_divergence(ProbeBench& bench) {
+    const auto texts = read_texts(bench, true);
+    if (!texts)
+        return Answer{Verdict::not_applicable, "the text cannot be followed: " + to_string(texts.error())};
+    std::vector<std::string> found;
+    for (const PassText& pass : *texts) {
+        const glsl::ParsedText& text = *pass.text;
+        for (const glsl::Divergent& each :
+             glsl::find_divergent(text, pass.facts, which_have_mipmaps(bench.scene().passes[pass.pass]))) {
+            const std::string place = place_of(text, text.tree()[each.call].begin);
+            if (!place.empty())
+                found.push_back(fmt::format("{} ({}, {})", glsl::called_name(text, each.call), place,
+                                            words_for(text, each.branch)));
+        }
+    }
+    if (found.empty())
+        return Answer{Verdict::pass, "derivatives and mipmaps only in uniform control flow"};
+    return Answer{Verdict::warn,
+                  "needs neighbouring pixels, which may have taken another branch: " + listed(found)};
+}
+
+Result<Answer> ask_counters(ProbeBench& bench) {
+    const auto texts = read_texts(bench, true);
+    if (!texts)
+        return Answer{Verdict::not_applicable, "the text cannot be followed: " + to_string(texts.error())};
+    std::vector<std::string> found;
+    for (const PassText& pass : *texts)
+        for (const glsl::FloatCounter& each : glsl::miscounting_loops(*pass.text, pass.facts)) {
+            const std::string place = place_of(*pass.text, pass.text->tree()[each.loop].begin);
+            std::string said = fmt::format("{}: {}", place, words_for(each));
+            if (!place.empty() && std::ranges::find(found, said) == found.end())
+                found.push_back(std::move(said));
+        }
+    if (found.empty())
+        return Answer{Verdict::pass,
+                      "no loop counts in floats to another number of turns than its numbers make"};
+    return Answer{Verdict::warn, listed(found)};
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,476 @@
+#include "lab/truth.hpp"
+
+#include "base/error.hpp"
+#include "base/measurement.hpp"
+#include "lab/march_hits.hpp"
+#include "lab/specimen.hpp"
+#include "lab/study.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace tidemark::lab {
+namespace {
+
+/// Returns 1 / (1 - r): the sum of all changes from this one on, divided by this one.
+double sum_over_last(double before, double last) {
+    return 1 / (1 - last / before);
+}
+
+} // namespace
+
+Remainder remainder_of(const std::vector<double>& changes, double rounding) {
+    if (changes.empty())
+        return {{}, "no knob of the study is a number that could go on", false};
+    const double last = changes.back();
+    if (std::isnan(last))
+        return {{}, "what the last step changed is no number", false};
+    if (last <= rounding)
+        return {rounding, fmt::format("the last step changed {:.2g}, which is rounding", last), true};
+    if (changes.size() < 2)
+        return {{}, fmt::format("of one change, {:.2g}, nobody knows what comes after it", last), false};
+    const double before = changes[changes.size() - 2];
+    const double ratio = last / before;
+    if (!(ratio < 1))
+        return {
+            {},
+            fmt::format("it does not converge: the last two steps changed {:.2g} and {:.2g}", before, last),
+            false};
+    const double sum = sum_over_last(before, last);
+    const double first = changes.size() > 2 ? changes[changes.size() - 3] : 0;
+    // These sums grow by this amount from step to step: 0 for a power of the setting, 1/s for its logarithm
+    // to the power of -s.
+    const double growth = before < first ? std::max(0.0, sum - sum_over_last(first, before)) : 0.0;
+    if (!(growth < 0.9))
+        return {{},
+                fmt::format("it does not converge: the changes shrink by ever less ({:.2g}, {:.2g}, {:.2g})",
+                            first, before, last),
+                false};
+    const double factor = sum / (1 - growth) - 1;
+    return {std::max(rounding, last * factor),
+            fmt::format("the last change {:.2g}, {:.2g} of the one before, goes on to {:.2g}", last, ratio,
+                        last * factor),
+            false};
+}
+
+void add_blind(const image::Image& picture, PixelMask& blind) {
+    blind.resize(picture.extent.pixels(), false);
+    const auto samples = picture.f32();
+    const auto channels = size_t(picture.channels);
+    for (size_t i = 0; i < samples.size(); ++i)
+        if (!std::isfinite(samples[i]))
+            blind[i / channels] = true;
+}
+
+std::string too_blind(size_t blind, size_t pixels) {
+    if (double(blind) <= k_most_blind * double(pixels))
+        return {};
+    return fmt::format("{:.3g} % of its pixels are NaN or infinite", 100.0 * double(blind) / double(pixels));
+}
+
+std::vector<double> plain_footprint(Extent extent) {
+    return std::vector<double>(extent.pixels(), 1.0 / extent.height);
+}
+
+double pooled_rmse(const std::vector<image::Image>& left, const std::vector<image::Image>& right,
+                   const std::vector<PixelMask>& blind) {
+    double squares = 0;
+    size_t samples = 0;
+    for (size_t i = 0; i < left.size(); ++i) {
+        const auto a = left[i].f32(), b = right[i].f32();
+        const auto channels = size_t(left[i].channels);
+        for (size_t k = 0; k < a.size(); ++k) {
+            if (i < blind.size() && !blind[i].empty() && blind[i][k / channels])
+                continue;
+            const double change = double(a[k]) - double(b[k]); // NaN stays NaN
+            squares += change * change;
+            ++samples;
+        }
+    }
+    return std::sqrt(squares / double(std::max<size_t>(1, samples)));
+}
+
+namespace {
+
+ProvedHits none(std::string why) {
+    return {.why_not = std::move(why)};
+}
+
+Standard standard_of(const PassFunction& function, const std::vector<Setting>& settings,
+                     const std::vector<TrueHits>& views) {
+    const SourceLocation where = function.locate(function.loops().front().line);
+    Standard standard;
+    standard.method = fmt::format(
+        "{} the distance that {}:{} tests{}, proved from the text by interval "
+        "arithmetic on every piece of a ray, in real arithmetic on rays set up in double",
+        views.front().surface == ir::Surface::zero ? "first zeros of" : "first places below the threshold of",
+        where.file, where.line, settings.empty() ? "" : fmt::format(" with {}", to_string(settings)));
+    double squares = 0;
+    size_t looked_at = 0, unknown = 0;
+    for (const TrueHits& view : views) {
+        squares += view.half_width * view.half_width * double(view.looked_at);
+        looked_at += view.looked_at;
+        unknown += view.unknown;
+    }
+    standard.uncertainty = std::sqrt(squares / double(std::max<size_t>(1, looked_at)));
+    standard.check =
+        fmt::format("{} of {} rays, evenly spread, each hit between two places; {} are not known", looked_at,
+                    views.size() * views.front().hits.size(), unknown);
+    standard.blind = unknown;
+    return standard;
+}
+
+} // namespace
+
+Result<ProvedHits> proved_hits(const scene::Scene& scene, const Study& study, const KeepGoing& keep_going) {
+    const std::vector<Setting> settings = strictest(study, 0);
+    const scene::Scene set = TRY(with(scene, settings));
+    const size_t image = set.image_index();
+    const auto function = PassFunction::create(set, set.passes[image]);
+    if (!function)
+        return none("the text cannot be followed: " + function.error().message);
+    if (function->loops().empty())
+        return ProvedHits{{}, "no loop of Image is found to march along a ray", false};
+    auto renderer =
+        TRY(render::Renderer::create(set, {.extent = study.extent, .samples = image::SampleType::f32}));
+    std::vector<TrueHits> views;
+    HitTruth truth;
+    for (const View& view : study.views) {
+        const render::FrameState state = state_of(view, study.extent);
+        render::FrameStepper(renderer, state).draw(state.frame);
+        auto hits = true_hits({*function, renderer, image, inputs_of(state)},
+                              study.proof_seconds / double(study.views.size()), keep_going);
+        if (!hits)
+            return none("interrupted");
+        if (double(hits->unknown) > k_most_blind * double(hits->looked_at))
+            return none(fmt::format("{} of {} rays are not decided by a proof from the text", hits->unknown,
+                                    hits->looked_at));
+        truth.views.push_back(hits->hits);
+        truth.footprints.push_back(plain_footprint(study.extent));
+        views.push_back(*std::move(hits));
+    }
+    truth.standard = standard_of(*function, settings, views);
+    return ProvedHits{.truth = std::move(truth)};
+}
+
+namespace {
+
+constexpr int k_most_refinements = 6;
+/// With three changes, a ratio that rises can be detected.
+constexpr size_t k_wanted_changes = 3;
+/// A reference is good enough if its own error is this share of the strictest point's.
+constexpr double k_settled = 0.1;
+/// How much longer than the study's limit a step may take while fewer than two changes are known.
+constexpr double k_first_steps = 3;
+/// Noise of float arithmetic at the end of a long sum, and of rounding a double to a float, in half units in
+/// the last place.
+constexpr double k_float_noise = 64, k_double_noise = 2;
+
+/// The pictures and hits of one setting of the scene in all views.
+struct Shown {
+    std::vector<Setting> settings;
+    std::vector<image::Image> pictures;
+    std::vector<Hits> hits;
+    std::vector<std::string> kept_hashes;
+    double seconds = 0; ///< time it took
+};
+
+std::vector<double> plain_footprints(size_t views, Extent extent) {
+    return std::vector<double>(views * extent.pixels(), 1.0 / extent.height);
+}
+
+double rms_of_hits(const std::vector<Hits>& left, const std::vector<Hits>& right, Extent extent) {
+    return hit_errors(joined(left), joined(right), plain_footprints(left.size(), extent)).rms;
+}
+
+double noise_of(const std::vector<image::Image>& pictures, const std::vector<PixelMask>& blind) {
+    std::vector<image::Image> black;
+    for (const image::Image& picture : pictures)
+        black.emplace_back(picture.extent, picture.channels, picture.type);
+    return 0x1p-24 * pooled_rmse(pictures, black, blind);
+}
+
+double noise_of(const std::vector<Hits>& hits) {
+    double squares = 0;
+    size_t count = 0;
+    for (const Hits& view : hits)
+        for (const double distance : view.distance)
+            if (distance >= 0) {
+                squares += distance * distance;
+                ++count;
+            }
+    return 0x1p-24 * std::sqrt(squares / double(std::max<size_t>(1, count)));
+}
+
+/// Draws the scene at ever stricter settings, and estimates the error of the last one.
+class Ladder {
+public:
+    Ladder(const scene::Scene& scene, const Study& study, const KeepGoing& keep_going)
+        : study_(study), keep_going_(keep_going), precision_(study.precision),
+          specimen_(scene, study.extent, study.rays ? HitSource::main_hit : HitSource::none) {}
+
+    Result<PictureTruth> climb() {
+        TRY(begin());
+        while (step_up())
+            ;
+        return truth();
+    }
+
+private:
+    enum class What { pictures, hits };
+
+    double longest_first_step() const { return k_first_steps * study_.longest_step; }
+    bool named() const { return !study_.reference.empty(); }
+    bool has_hits() const { return !first_.hits.empty(); }
+
+    Result<std::optional<Shown>> show(std::vector<Setting> settings) {
+        const Stopwatch watch;
+        Specimen* const specimen = TRY(specimen_.at(settings, precision_));
+        Shown shown{std::move(settings), {}, {}, specimen->kept_hashes()};
+        if (!keep_going_())
+            return std::optional<Shown>{};
+        shown.pictures = specimen->pictures(study_.views);
+        for (const View& view : study_.views) {
+            if (!keep_going_())
+                return std::optional<Shown>{};
+            if (!specimen->has_hits())
+                continue;
+            auto hits = TRY(specimen->hits(view));
+            shown.hits.push_back(std::move(hits));
+        }
+        shown.seconds = watch.elapsed().wall * 1e-3;
+        return std::optional<Shown>(std::move(shown));
+    }
+
+    /// Draws the first rung, in double if possible.
+    Result<void> begin() {
+        const bool to_promote = precision_ == glsl::Precision::single;
+        if (to_promote) {
+            precision_ = glsl::Precision::promoted;
+            auto promoted = show(strictest(study_, 0));
+            if (promoted && *promoted && (*promoted)->seconds <= longest_first_step()) {
+                take_first(**std::move(promoted));
+                return {};
+            }
+            not_promoted_ = !promoted    ? to_string(promoted.error())
+                            : !*promoted ? "interrupted"
+                                         : fmt::format("in double it took {:.0f} s", (*promoted)->seconds);
+            precision_ = glsl::Precision::single;
+        }
+        auto first = TRY(show(strictest(study_, 0)));
+        if (!first)
+            return fail(ErrorCode::check_failed, "interrupted before there was a reference");
+        take_first(*std::move(first));
+        return {};
+    }
+
+    void take_first(Shown shown) {
+        first_ = last_ = std::move(shown);
+        blind_.resize(first_.pictures.size());
+        note_blind(first_);
+    }
+
+    void note_blind(const Shown& shown) {
+        for (size_t view = 0; view < shown.pictures.size(); ++view)
+            add_blind(shown.pictures[view], blind_[view]);
+    }
+
+    double apart(What what, const Shown& a, const Shown& b) const {
+        return what == What::pictures ? pooled_rmse(a.pictures, b.pictures, blind_)
+                                      : rms_of_hits(a.hits, b.hits, study_.extent);
+    }
+
+    double rounding(What what) const {
+        const double noise = precision_ == glsl::Precision::single ? k_float_noise : k_double_noise;
+        return noise * (what == What::pictures ? noise_of(first_.pictures, blind_) : noise_of(first_.hits));
+    }
+
+    std::vector<double>& changes(What what) { return what == What::pictures ? changes_ : hit_changes_; }
+
+    Remainder remainder(What what) { return remainder_of(changes(what), rounding(what)); }
+
+    /// Returns whether further steps would not improve the estimate.
+    bool is_settled(What what) {
+        const Remainder left = remainder(what);
+        if (left.still || !left.error || changes(what).size() < k_wanted_changes)
+            return left.still;
+        if (study_.enough && what == What::pictures)
+            return *left.error <= *study_.enough;
+        return named() || *left.error <= k_settled * apart(what, first_, last_);
+    }
+
+    /// Draws the next rung; returns false if it was the last one.
+    bool step_up() {
+        const double longest = changes_.size() < 2 ? longest_first_step() : study_.longest_step;
+        if (step_ == k_most_refinements)
+            return false;
+        if (last_.seconds > longest) {
+            stopped_ = fmt::format("a step took {:.0f} s", last_.seconds);
+            return false;
+        }
+        std::vector<Setting> settings = strictest(study_, step_ + 1);
+        if (settings == last_.settings)
+            return false;
+        auto next = show(settings);
+        if (!next || !*next) {
+            stopped_ =
+                next ? "interrupted" : fmt::format("the scene does not compile with {}", to_string(settings));
+            return false;
+        }
+        ++step_;
+        note_blind(**next);
+        changes_.push_back(apart(What::pictures, last_, **next));
+        if (has_hits())
+            hit_changes_.push_back(apart(What::hits, last_, **next));
+        last_ = **std::move(next);
+        return !(is_settled(What::pictures) && (!has_hits() || is_settled(What::hits)));
+    }
+
+    /// Returns the pictures of settings off the ladder, drawn once for pictures and hits; nullptr if that
+    /// fails.
+    const Shown* shown_beside(const std::vector<Setting>& settings) {
+        const auto [place, is_new] = beside_.try_emplace(to_string(settings));
+        if (is_new)
+            if (auto shown = show(settings))
+                place->second = *std::move(shown);
+        return place->second ? &*place->second : nullptr;
+    }
+
+    /// If nothing changes any more, settings off the ladder must not change it either; and the last changes
+    /// before show how much a limit inside the scene may hide.
+    Remainder look_around(What what, Remainder still) {
+        for (const bool second : {false, true}) {
+            const std::vector<Setting> settings = beside(study_, step_, second);
+            if (settings == last_.settings)
+                continue;
+            const Shown* const other = shown_beside(settings);
+            if (!other)
+                return {{}, fmt::format("it could not be looked at with {}", to_string(settings)), false};
+            const double change = apart(what, last_, *other);
+            if (!(change <= rounding(what)))
+                return {{},
+                        fmt::format("it does not settle: {} and {} show the same, but {} is {:.2g} from it",
+                                    to_string(strictest(study_, step_ - 1)), to_string(last_.settings),
+                                    to_string(settings), change),
+                        false};
+            still.how += fmt::format("; {} shows the same", to_string(settings));
+        }
+        return look_back(what, std::move(still));
+    }
+
+    /// Returns the last two changes above rounding, the later first: on the ladder, then below it.
+    std::vector<double> last_moves(What what) {
+        std::vector<double> moves;
+        for (size_t i = changes(what).size(); i-- > 0 && moves.size() < 2;)
+            if (changes(what)[i] > rounding(what))
+                moves.push_back(changes(what)[i]);
+        const Shown* stricter = &first_;
+        for (int back = 1; back <= k_most_refinements && moves.size() < 2; ++back) {
+            const std::vector<Setting> settings = strictest(study_, -back);
+            if (settings == stricter->settings)
+                break;
+            const Shown* const coarser = shown_beside(settings);
+            if (!coarser)
+                break;
+            if (const double change = apart(what, *stricter, *coarser); !(change <= rounding(what)))
+                moves.push_back(change);
+            stricter = coarser;
+        }
+        return moves;
+    }
+
+    Remainder look_back(What what, Remainder still) {
+        const std::vector<double> moves = last_moves(what);
+        if (moves.empty())
+            return still;
+        const Remainder trend =
+            moves.size() > 1 ? remainder_of({moves[1], moves[0]}, rounding(what)) : Remainder{};
+        still.error = std::max(*still.error, trend.error.value_or(moves[0]));
+        still.how +=
+            fmt::format("; the change before was {:.2g}, and had it gone on instead of ending there, "
+                        "{:.2g} would be missing",
+                        moves[0], *still.error);
+        return still;
+    }
+
+    /// Returns the estimate of the truth's own error.
+    Standard standard(What what) {
+        Standard standard;
+        const Shown& best = named() ? first_ : last_;
+        standard.method =
+            fmt::format("the scene itself with {}, {}{}", to_string(best.settings),
+                        precision_ == glsl::Precision::single ? "in single precision" : "promoted to double",
+                        best.kept_hashes.empty()
+                            ? ""
+                            : fmt::format(" (hashes kept in floats: {})", fmt::join(best.kept_hashes, ", ")));
+        Remainder left = remainder(what);
+        if (left.still)
+            left = look_around(what, std::move(left));
+        if (!stopped_.empty())
+            left.how += "; " + stopped_;
+        standard.check = changes(what).empty() ? left.how
+                                               : fmt::format("{} to {}: {}", to_string(first_.settings),
+                                                             to_string(last_.settings), left.how);
+        if (left.error)
+            standard.uncertainty = *left.error + (named() ? apart(what, first_, last_) : 0.0);
+        else if (!named())
+            standard.none = left.how;
+        return standard;
+    }
+
+    void refuse_blind(Standard& standard, size_t blind) const {
+        standard.blind = blind;
+        if (std::string why = too_blind(blind, study_.extent.pixels() * study_.views.size()); !why.empty())
+            standard.none = std::move(why);
+    }
+
+    PictureTruth truth() {
+        PictureTruth truth;
+        truth.standard = standard(What::pictures);
+        if (has_hits())
+            truth.hit_standard = standard(What::hits);
+        Shown best = named() ? first_ : last_;
+        size_t blind = 0, blind_hits = 0;
+        for (const PixelMask& view : blind_)
+            blind += size_t(std::ranges::count(view, true));
+        for (const Hits& view : best.hits)
+            blind_hits += size_t(
+                std::ranges::count_if(view.distance, [](double distance) { return std::isnan(distance); }));
+        refuse_blind(truth.standard, blind);
+        refuse_blind(truth.hit_standard, blind_hits);
+        truth.settings = std::move(best.settings);
+        truth.views = std::move(best.pictures);
+        truth.blind = std::move(blind_);
+        truth.hits = std::move(best.hits);
+        truth.precision = precision_;
+        truth.not_promoted = std::move(not_promoted_);
+        return truth;
+    }
+
+    const Study& study_;
+    const KeepGoing& keep_going_;
+    glsl::Precision precision_;
+    TurnedSpecimen specimen_;
+    std::string not_promoted_;
+    std::string stopped_; ///< why the ladder ends although it could continue
+    Shown first_;         ///< the requested settings, or the study's strictest
+    Shown last_;
+    int step_ = 0; ///< step of `last_`
+    std::map<std::string, std::optional<Shown>> beside_;
+    std::vector<double> changes_;
+    std::vector<double> hit_changes_;
+    std::vector<PixelMask> blind_; ///< by view
+};
+
+} // namespace
+
+Result<PictureTruth> converged_pictures(const scene::Scene& scene, const Study& study,
+                                        const KeepGoing& keep_going) {
+    return Ladder(scene, study, keep_going).climb();
+}
+
+} // namespace tidemark::lab

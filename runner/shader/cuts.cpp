@@ -1,0 +1,365 @@
+#include "shader/cuts.hpp"
+
+#include "shader/builtin_functions.hpp"
+#include "shader/fixes.hpp"
+#include "shader/loops.hpp"
+#include "shader/vocabulary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <set>
+
+namespace tidemark::glsl {
+namespace {
+
+constexpr double k_unknown_turns = 16, k_texture = 8, k_costly = 4;
+/// Upper limit of an estimate; recursion or nested loops would make it infinite.
+constexpr double k_most = 1e12;
+
+double turns_of(const ParsedText& text, NodeId loop) {
+    const auto bound = loop_bound(text, loop);
+    return bound && bound->number != k_no_node ? std::max(1.0, bound->turns) : k_unknown_turns;
+}
+
+bool calls_function(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+    return text.tree()[id].kind == NodeKind::call && facts.function(called_name(text, id));
+}
+
+} // namespace
+
+WorkEstimate::WorkEstimate(const ParsedText& text, const TreeFacts& facts)
+    : text_(text), tree_(text.tree()), facts_(facts), once_(tree_.nodes.size()), times_(tree_.nodes.size()) {
+    add_up();
+    add_up(); // functions called before their definition are known now
+    count_times();
+}
+
+double WorkEstimate::own(NodeId id) const {
+    switch (tree_[id].kind) {
+    case NodeKind::prefix:
+    case NodeKind::postfix:
+    case NodeKind::binary:
+    case NodeKind::assign:
+    case NodeKind::conditional: return 1;
+    case NodeKind::call: {
+        const std::string_view name = called_name(text_, id);
+        const auto known = functions_.find(name);
+        if (known != functions_.end())
+            return known->second;
+        const BuiltinFunction* const function = find_builtin(name);
+        if (!function)
+            return 0;
+        return name.starts_with("tex") ? k_texture : function->is(Trait::costly) ? k_costly : 1;
+    }
+    default: return 0;
+    }
+}
+
+/// Sums bottom-up: children come before their parents.
+void WorkEstimate::add_up() {
+    for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+        double sum = own(id);
+        for (NodeId child = tree_[id].first_child; child != k_no_node; child = tree_[child].next)
+            sum += once_[child];
+        once_[id] = std::min(k_most, is_loop(tree_[id].kind) ? sum * turns_of(text_, id) : sum);
+        if (tree_[id].kind == NodeKind::function)
+            functions_[text_.word_of(id)] = std::max(functions_[text_.word_of(id)], once_[id]);
+    }
+}
+
+/// Counts how often each node runs in one call of its function, then how often each function is called.
+void WorkEstimate::count_times() {
+    std::unordered_map<std::string_view, std::vector<NodeId>> sites; // by the name that is called
+    for (NodeId id = NodeId(tree_.nodes.size()) - 1; id > 0; --id) {
+        const NodeId parent = tree_[id].parent;
+        const bool inside = parent != k_no_node && tree_[id].kind != NodeKind::function;
+        times_[id] =
+            !inside ? 1 : times_[parent] * (is_loop(tree_[parent].kind) ? turns_of(text_, parent) : 1);
+        if (calls_function(text_, facts_, id))
+            sites[called_name(text_, id)].push_back(id);
+    }
+    std::unordered_map<std::string_view, double> calls{{"main", 1.0}};
+    const std::function<double(NodeId)> calls_of = [&](NodeId function) {
+        const std::string_view name = function == k_no_node ? "" : text_.word_of(function);
+        const auto [known, fresh] = calls.emplace(name, 0.0); // stays 0 for a recursive call
+        if (!fresh)
+            return known->second;
+        double sum = 0;
+        for (const NodeId site : sites[name])
+            sum += times_[site] * calls_of(tree_.around(site, NodeKind::function));
+        return calls[name] = std::min(k_most, sum);
+    };
+    std::vector<double> in_all(times_.size());
+    for (NodeId id = 1; id < tree_.nodes.size(); ++id)
+        in_all[id] = times_[id] * calls_of(tree_.around(id, NodeKind::function));
+    times_ = std::move(in_all);
+}
+
+namespace {
+
+/// Cheaper operations are not tried: a driver needs no instruction for most of them.
+constexpr double k_least_work = 4;
+/// Shares of a loop's iterations that are tried.
+constexpr std::array k_parts{0.9, 0.75, 0.5, 0.25};
+constexpr double k_fewest_turns = 2;
+/// Coarser levels show in nearly any picture.
+constexpr int k_coarsest_level = 3;
+
+/// Returns the source tokens from one token to another, unless one of them comes from a macro.
+std::optional<WrittenTokens> between(const ParsedText& text, size_t first, size_t last) {
+    const auto& words = text.words();
+    for (size_t i = first; i <= last; ++i)
+        if (words[i].from_macro())
+            return std::nullopt;
+    if (text.spelled(first).file.empty() || text.spelled(first).file != text.spelled(last).file)
+        return std::nullopt;
+    return WrittenTokens{words[first].used, words[last].used};
+}
+
+/// Writes a number with four digits.
+std::string number_text(double value) {
+    return as_float(fmt::format("{:.4g}", value));
+}
+
+bool has_jump(const ParsedText& text, NodeId id) {
+    for (size_t i = text.tree()[id].begin; i < text.tree()[id].end; ++i)
+        for (const std::string_view word : {"return", "discard"})
+            if (text.word(i) == word)
+                return true;
+    return false;
+}
+
+/// Returns whether the call has a result that is needed: an `out` parameter, or an unknown function.
+bool gives_out(const ParsedText& text, const TreeFacts& facts, NodeId call) {
+    const FunctionFacts* const function = facts.function(called_name(text, call));
+    if (!function)
+        return true;
+    for (const NodeId definition : function->definitions)
+        for (const NodeId part : text.tree().children(definition))
+            if (text.tree()[part].kind == NodeKind::parameter &&
+                has_qualifier(text, text.tree().child(part, 0), "out"))
+                return true;
+    return false;
+}
+
+/// Returns whether the statement updates something that exists without it: `x += y`, `f(x)`.
+bool may_be_left_out(const ParsedText& text, const TreeFacts& facts, NodeId expression) {
+    const NodeKind kind = text.tree()[expression].kind;
+    if (kind == NodeKind::assign)
+        return text.word_of(expression) != "=";
+    return kind == NodeKind::call && !gives_out(text, facts, expression);
+}
+
+std::string in_short(std::string words) {
+    constexpr size_t k_most = 60;
+    if (words.size() > k_most)
+        words = words.substr(0, k_most - 3) + "...";
+    return words;
+}
+
+} // namespace
+
+Cutter::Cutter(const ParsedText& text, const TreeFacts& facts)
+    : text_(text), tree_(text.tree()), facts_(facts), work_(text, facts), kept_(tree_.nodes.size()) {
+    find_kept();
+}
+
+/// Repeats until such a loop calls no further function: prototypes let a definition follow its calls.
+void Cutter::find_kept() {
+    for (NodeId id = 1; id < tree_.nodes.size(); ++id)
+        if (is_loop(tree_[id].kind) && !loop_bound(text_, id))
+            endless_.push_back(id);
+    std::set<std::string_view> called;
+    size_t before = 0;
+    do {
+        before = called.size();
+        mark_kept(called);
+    } while (called.size() > before);
+}
+
+/// Goes from parents to children, which have smaller numbers.
+void Cutter::mark_kept(std::set<std::string_view>& called) {
+    for (NodeId id = NodeId(tree_.nodes.size()) - 1; id > 0; --id) {
+        const NodeKind kind = tree_[id].kind;
+        const NodeId parent = tree_[id].parent;
+        // A loop's bound is not cut as an expression: add_turns changes it.
+        const bool in_head =
+            parent != k_no_node && is_loop(tree_[parent].kind) && loop_condition(text_, parent) == id;
+        kept_[id] = kept_[id] || in_head || (parent != k_no_node && kept_[parent]) ||
+                    (kind == NodeKind::function && called.contains(text_.word_of(id))) ||
+                    std::ranges::binary_search(endless_, id);
+        if (kept_[id] && kind == NodeKind::call)
+            called.insert(called_name(text_, id));
+    }
+}
+
+bool Cutter::is_kept(NodeId id) const {
+    return kept_[id] || tree_.around(id, NodeKind::function) == k_no_node || must_stay_constant(text_, id);
+}
+
+bool Cutter::is_cheap(NodeId id) const {
+    return work_.once(id) < k_least_work;
+}
+
+std::string Cutter::place_of(NodeId id) const {
+    const SourceLocation written = text_.spelled(tree_[id].begin);
+    const SourceLocation where = written.file.empty() ? text_.used(tree_[id].begin) : written;
+    return fmt::format("{}:{}", where.file, where.line);
+}
+
+void Cutter::add(std::optional<WrittenTokens> tokens, std::string instead, std::string reason, double work,
+                 std::vector<Cut>& cuts) const {
+    if (!tokens)
+        return;
+    cuts.push_back({{{in_place_of(text_, *tokens, std::move(instead))}, std::move(reason)}, work});
+}
+
+/// Adds `a + b` without b and without a; likewise for `-` and `*`. Each operand of a chain is added once.
+void Cutter::add_operands(NodeId id, std::vector<Cut>& cuts) const {
+    const std::string_view op = text_.word_of(id);
+    const bool product = op == "*";
+    if (op != "+" && op != "-" && !product)
+        return;
+    const NodeId left = tree_.child(id, 0), right = tree_.child(id, 1);
+    const char* const what = product ? "factor" : "term";
+    if (!is_cheap(right))
+        add(between(text_, tree_[id].word, tree_[right].end - 1), "",
+            fmt::format("{}: leaves out the {} `{}`", place_of(right), what, in_short(text_.excerpt(right))),
+            work_.of(right), cuts);
+    const bool chain = tree_[left].kind == NodeKind::binary && text_.word_of(left) == op;
+    if (!is_cheap(left) && !chain)
+        add(between(text_, tree_[left].begin, tree_[id].word), op == "-" ? "-" : "",
+            fmt::format("{}: leaves out the {} `{}`", place_of(left), what, in_short(text_.excerpt(left))),
+            work_.of(left), cuts);
+}
+
+void Cutter::add_statement(NodeId id, std::vector<Cut>& cuts) const {
+    const NodeKind kind = tree_[id].kind;
+    if (is_cheap(id) || has_jump(text_, id))
+        return;
+    const bool whole = (kind == NodeKind::if_else && tree_.child_count(id) == 2) || is_loop(kind);
+    if (!whole && (kind != NodeKind::expression || !may_be_left_out(text_, facts_, tree_.child(id, 0))))
+        return;
+    const Node& node = tree_[id];
+    const bool in_block = tree_[node.parent].kind == NodeKind::block;
+    add(between(text_, node.begin, node.end - 1), in_block ? "" : ";",
+        fmt::format("{}: leaves out `{}`", place_of(id), in_short(text_.excerpt(id))), work_.of(id), cuts);
+}
+
+void Cutter::add_turns(NodeId loop, std::vector<Cut>& cuts) const {
+    const auto bound = loop_bound(text_, loop);
+    if (!bound || kept_[loop])
+        return;
+    double before = bound->turns;
+    for (const double part : k_parts) {
+        const double turns = std::max(k_fewest_turns, std::floor(part * bound->turns));
+        if (!(turns < before))
+            continue;
+        before = turns;
+        if (auto wrap = with_turns(text_, *bound, turns))
+            cuts.push_back({{{*std::move(wrap)},
+                             fmt::format("{}: {:g} turns of the loop instead of {:g}", place_of(loop), turns,
+                                         bound->turns)},
+                            work_.of(loop) * (1 - turns / bound->turns)});
+    }
+}
+
+std::vector<Cut> Cutter::cuts() const {
+    std::vector<Cut> cuts;
+    for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+        const NodeKind kind = tree_[id].kind;
+        if (is_loop(kind))
+            add_turns(id, cuts);
+        if (is_kept(id) || work_.of(id) == 0)
+            continue;
+        if (kind == NodeKind::binary)
+            add_operands(id, cuts);
+        else if (!is_expression(kind))
+            add_statement(id, cuts);
+    }
+    std::ranges::stable_sort(cuts, std::greater<>(), &Cut::work);
+    return cuts;
+}
+
+/// Returns the work of a look-up itself, without that of its coordinates.
+double Cutter::work_of_call(NodeId id) const {
+    double once = work_.once(id);
+    for (const NodeId part : tree_.children(id))
+        once -= work_.once(part);
+    return work_.of(id) * once / work_.once(id);
+}
+
+/// With an implicit level the driver computes the level and mixes the two nearest, which is about half of the
+/// work. A bias only adds to that level, so it saves nothing.
+std::vector<Cut> Cutter::levels(const std::function<bool(std::string_view)>& has_mipmaps) const {
+    std::vector<Cut> cuts;
+    for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+        const auto call =
+            tree_.child_count(id) == 3 ? look_up_by_neighbours(text_, facts_, id) : std::nullopt;
+        if (!call || is_kept(id) || work_.of(id) == 0 || !has_mipmaps(text_.word_of(tree_.child(id, 1))))
+            continue;
+        for (int level = 0; level <= k_coarsest_level; ++level)
+            cuts.push_back({{{in_place_of(text_, {call->first, call->first}, "textureLod"),
+                              wrapped(text_, {call->last, call->last}, fmt::format(", {}.0", level), "")},
+                             fmt::format("{}: level {} alone in `{}`", place_of(id), level,
+                                         in_short(text_.excerpt(id)))},
+                            work_of_call(id) / 2});
+    }
+    return cuts;
+}
+
+/// Returns the float type of an expression if the text states it: a call of one of the author's functions, a
+/// texture look-up, or the value in a variable's declaration.
+std::optional<ValueType> Cutter::type_of(NodeId id) const {
+    std::string_view name;
+    if (tree_[tree_[id].parent].kind == NodeKind::declarator)
+        name = tree_.child_count(tree_[id].parent) == 1
+                   ? type_name(text_, tree_.child(tree_[tree_[id].parent].parent, 0))
+                   : "";
+    else if (tree_[id].kind == NodeKind::call) {
+        const FunctionFacts* const function = facts_.function(called_name(text_, id));
+        for (const NodeId definition : function ? function->definitions : std::vector<NodeId>{}) {
+            const std::string_view type = type_name(text_, tree_.child(definition, 0));
+            if (!name.empty() && type != name)
+                return std::nullopt;
+            name = type;
+        }
+        if (!function && called_name(text_, id).starts_with("texture"))
+            name = called_name(text_, id).starts_with("textureSize") ? "" : "vec4";
+    }
+    const auto type = value_type(name);
+    return type && type->base == 'f' && !type->matrix() ? type : std::nullopt;
+}
+
+std::vector<Replaceable> Cutter::replaceables() const {
+    std::vector<Replaceable> found;
+    for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+        if (!is_expression(tree_[id].kind) || is_cheap(id) || is_kept(id) || work_.of(id) == 0)
+            continue;
+        const auto type = type_of(id);
+        if (type && written_for(text_, id, id) && text_.excerpt(id).find("++") == std::string::npos)
+            found.push_back({id, *type, work_.of(id)});
+    }
+    std::ranges::stable_sort(found, std::greater<>(), &Replaceable::work);
+    return found;
+}
+
+Cut Cutter::replaced(const Replaceable& expression, std::span<const double> numbers) const {
+    std::string words;
+    for (const double number : numbers)
+        words += (words.empty() ? "" : ", ") + number_text(number);
+    if (!expression.type.scalar())
+        words = fmt::format("{}({})", to_string(expression.type), words);
+    std::vector<Cut> cuts;
+    add(written_for(text_, expression.node, expression.node), words,
+        fmt::format("{}: {} stands for `{}`", place_of(expression.node), words,
+                    in_short(text_.excerpt(expression.node))),
+        expression.work, cuts);
+    return cuts.front();
+}
+
+} // namespace tidemark::glsl

@@ -1,0 +1,98 @@
+// Estimates the operations per pixel of each part of a text, from the text alone: every branch is taken, and
+// loops without a literal bound count sixteen iterations. Good enough to order what to try first, and for
+// nothing else.
+#pragma once
+
+#include "shader/parsed_text.hpp"
+#include "shader/source_edits.hpp"
+#include "shader/tree_facts.hpp"
+#include "shader/vocabulary.hpp"
+
+#include <functional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace tidemark::glsl {
+
+class WorkEstimate {
+public:
+    WorkEstimate(const ParsedText& text, const TreeFacts& facts);
+
+    /// Returns the operations of one evaluation, calls and loops included.
+    double once(NodeId id) const { return once_[id]; }
+    /// Returns the operations per pixel: `once` times the number of evaluations.
+    double of(NodeId id) const { return once_[id] * times_[id]; }
+
+private:
+    double own(NodeId id) const;
+    void add_up();
+    void count_times();
+
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
+    const TreeFacts& facts_;
+    std::vector<double> once_, times_;
+    std::unordered_map<std::string_view, double> functions_; ///< operations of one call
+};
+
+// Proposes what could be left out of a text: terms, factors, statements, iterations of loops, the choice of a
+// texture's level, and values that a number could replace. Returns edits only; the caller measures what a cut
+// saves and what it does to the picture.
+
+struct Cut {
+    Cure change;
+    double work = 0;            ///< estimated operations per pixel that it may save
+    bool hangs_on_size = false; ///< the more pixels the picture has, the less the cut changes it
+};
+
+/// A float expression that a number could replace.
+struct Replaceable {
+    NodeId node = k_no_node;
+    ValueType type{};
+    double work = 0;
+};
+
+class Cutter {
+public:
+    Cutter(const ParsedText& text, const TreeFacts& facts);
+
+    /// Returns the cuts, those that save the most work first.
+    std::vector<Cut> cuts() const;
+    /// Returns cuts that give a look-up one fixed mipmap level, for samplers that have mipmaps.
+    std::vector<Cut> levels(const std::function<bool(std::string_view sampler)>& has_mipmaps) const;
+    std::vector<Replaceable> replaceables() const;
+    /// Returns the cut that replaces the expression; `numbers` has one value per component of its type.
+    Cut replaced(const Replaceable& expression, std::span<const double> numbers) const;
+
+    /// Loops without a bound in their heads. Everything in their bodies, and in the functions called there,
+    /// is kept, because without it they may never end.
+    const std::vector<NodeId>& endless() const { return endless_; }
+    const WorkEstimate& work() const { return work_; }
+
+private:
+    void find_kept();
+    void mark_kept(std::set<std::string_view>& called);
+    bool is_kept(NodeId id) const;
+    bool is_cheap(NodeId id) const;
+    void add_operands(NodeId id, std::vector<Cut>& cuts) const;
+    void add_statement(NodeId id, std::vector<Cut>& cuts) const;
+    void add_turns(NodeId loop, std::vector<Cut>& cuts) const;
+    void add(std::optional<WrittenTokens> tokens, std::string instead, std::string reason, double work,
+             std::vector<Cut>& cuts) const;
+    double work_of_call(NodeId id) const;
+    std::optional<ValueType> type_of(NodeId id) const;
+    std::string place_of(NodeId id) const;
+
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
+    const TreeFacts& facts_;
+    WorkEstimate work_;
+    std::vector<NodeId> endless_;
+    std::vector<bool> kept_; ///< per node
+};
+
+} // namespace tidemark::glsl

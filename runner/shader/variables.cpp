@@ -1,0 +1,378 @@
+#include "shader/variables.hpp"
+
+#include "shader/tree_facts.hpp"
+#include "shader/vocabulary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace tidemark::glsl {
+namespace {
+
+/// Larger than any array in real texts, and than any constructor that Tidemark writes.
+constexpr size_t k_most_numbers = 1u << 20;
+/// Largest array whose elements are tracked separately.
+constexpr long k_most_elements = 16;
+/// Nested structures can double the number of statements at each level; texts longer than this are not
+/// written.
+constexpr size_t k_most_statements = 512;
+
+size_t times(size_t a, size_t b) {
+    return a == 0 || b == 0 || a > k_most_numbers / b ? 0 : a * b;
+}
+
+} // namespace
+
+Shapes::Shapes(const ParsedText& text) : text_(text), tree_(text.tree()) {
+    for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+        const Node& node = tree_[id];
+        if (node.kind == NodeKind::structure && text_.word(node.begin) == "struct" &&
+            text_.word_of(id) != "struct")
+            structures_by_name_[text_.word_of(id)].push_back(id);
+        if (node.kind != NodeKind::declaration || node.parent != 0)
+            continue;
+        const NodeId type = tree_.child(id, 0);
+        if (!has_qualifier(text_, type, "const") || class_of_type(type_name(text_, type)) != TypeClass::whole)
+            continue;
+        for (NodeId name = tree_[type].next; name != k_no_node; name = tree_[name].next)
+            if (const NodeId value = tree_.child(name, 0); value != k_no_node && !is_bracket(text_, value))
+                if (const auto known = number(tree_[value].begin, tree_[value].end))
+                    constants_[text_.word_of(name)] = *known;
+    }
+}
+
+std::optional<long> Shapes::number(size_t begin, size_t end) const {
+    if (end != begin + 1)
+        return std::nullopt;
+    std::string_view word = text_.word(begin);
+    if (const auto found = constants_.find(word); found != constants_.end())
+        return found->second;
+    if (!word.empty() && (word.back() == 'u' || word.back() == 'U'))
+        word.remove_suffix(1);
+    return whole_number(word);
+}
+
+const Shape& Shapes::unknown(std::string_view type) {
+    Shape shape;
+    shape.type = type;
+    shape.whole = true;
+    return shapes_.emplace_back(std::move(shape));
+}
+
+const Shape& Shapes::plain(std::string_view type) {
+    if (const auto found = plain_.find(type); found != plain_.end())
+        return *found->second;
+    const ValueType known = value_type(type).value_or(ValueType{});
+    Shape shape;
+    shape.type = type;
+    shape.numbers = 1;
+    shape.statements = 1;
+    shape.kind = known.scalar()   ? Shape::Kind::scalar
+                 : known.vector() ? Shape::Kind::vector
+                                  : Shape::Kind::matrix;
+    if (!known.scalar()) {
+        shape.length = size_t(known.matrix() ? known.columns : known.rows);
+        shape.part = &plain(k_float_vectors[known.matrix() ? size_t(known.rows) - 1 : 0]);
+        shape.slots = unsigned(shape.length) * shape.part->slots;
+    }
+    return *(plain_[type] = &shapes_.emplace_back(std::move(shape)));
+}
+
+const Shape& Shapes::structure(NodeId structure) {
+    if (const auto found = structures_.find(structure); found != structures_.end())
+        return *found->second;
+    Shape shape;
+    shape.kind = Shape::Kind::structure;
+    shape.type = text_.word_of(structure) == "struct" ? std::string_view{} : text_.word_of(structure);
+    shape.slots = 0;
+    shape.numbers = shape.type.empty() ? 0 : 1;
+    size_t numbers = 0;
+    bool can_be_zero = true;
+    for (const NodeId declaration : tree_.children(structure)) {
+        const NodeId type = tree_.child(declaration, 0);
+        for (NodeId name = tree_[type].next; name != k_no_node; name = tree_[name].next) {
+            const Shape& member = of(type, name);
+            shape.members.push_back({text_.word_of(name), &member, shape.slots});
+            shape.slots += member.slots;
+            shape.numbers = member.numbers == 0 ? 0 : shape.numbers;
+            numbers = std::min(numbers + member.numbers, k_most_numbers);
+            shape.statements = std::min(shape.statements + member.statements, k_most_statements + 1);
+            can_be_zero = can_be_zero && member.can_be_zero();
+        }
+    }
+    shape.numbers = shape.numbers == 0 ? 0 : numbers;
+    if (!can_be_zero || shape.statements > k_most_statements)
+        shape.statements = 0;
+    if (shape.slots > k_most_slots || shape.slots == 0) {
+        shape.slots = 1;
+        shape.whole = true;
+    }
+    return *(structures_[structure] = &shapes_.emplace_back(std::move(shape)));
+}
+
+const Shape& Shapes::array_of(const Shape& element, std::optional<long> length) {
+    Shape shape;
+    shape.kind = Shape::Kind::array;
+    shape.type = element.type;
+    shape.part = &element;
+    shape.statements = element.statements;
+    shape.length = length && *length > 0 ? size_t(*length) : 0;
+    shape.numbers = times(shape.length, element.numbers);
+    shape.slots = shape.length > 0 && shape.length <= k_most_elements && !element.whole
+                      ? unsigned(shape.length) * element.slots
+                      : k_most_slots + 1;
+    if (shape.slots > k_most_slots) {
+        shape.slots = 1;
+        shape.whole = true;
+    }
+    return shapes_.emplace_back(std::move(shape));
+}
+
+/// Returns the structure defined in the type itself, or the last visible one of that name declared before it.
+const Shape& Shapes::named(NodeId type) {
+    if (const NodeId own = tree_.child(type, 0); own != k_no_node)
+        return structure(own);
+    const std::string_view name = type_name(text_, type);
+    if (const TypeClass kind = class_of_type(name); kind == TypeClass::floating || kind == TypeClass::whole)
+        return plain(name);
+    NodeId best = k_no_node;
+    if (const auto found = structures_by_name_.find(name); found != structures_by_name_.end())
+        for (const NodeId id : found->second) {
+            const NodeId inside = tree_.around(id, NodeKind::function);
+            if (tree_[id].end <= tree_[type].begin &&
+                (inside == k_no_node || inside == tree_.around(type, NodeKind::function)))
+                best = id;
+        }
+    return best == k_no_node ? unknown(name) : structure(best);
+}
+
+/// Returns the array lengths, outermost first: `float[3] a[2]` is two arrays of three.
+std::vector<std::optional<long>> Shapes::lengths(NodeId type, NodeId declared) const {
+    std::vector<std::optional<long>> result;
+    if (declared != k_no_node)
+        for (const NodeId part : tree_.children(declared))
+            if (is_bracket(text_, part)) {
+                const Node& length = tree_[tree_.child(part, 0)];
+                result.push_back(number(length.begin, length.end));
+            }
+    const NodeId own = tree_.child(type, 0);
+    size_t open = 0;
+    int depth = 0;
+    for (size_t i = own != k_no_node ? tree_[own].end : tree_[type].word + 1; i < tree_[type].end; ++i) {
+        if (text_.word(i) == "[" && depth++ == 0)
+            open = i;
+        if (text_.word(i) == "]" && --depth == 0)
+            result.push_back(number(open + 1, i));
+    }
+    return result;
+}
+
+const Shape& Shapes::of(NodeId type, NodeId declared) {
+    const Shape* shape = &named(type);
+    auto all = lengths(type, declared);
+    std::ranges::reverse(all);
+    for (const auto& length : all)
+        shape = &array_of(*shape, length);
+    return *shape;
+}
+
+Part Shapes::member(const Part& of, std::string_view name) const {
+    if (!of.shape || of.shape->whole)
+        return {of.slots, nullptr, false};
+    const auto first = unsigned(std::countr_zero(of.slots));
+    for (const Shape::Member& member : of.shape->members)
+        if (member.name == name)
+            return {all_slots(member.shape->slots) << (first + member.first_slot), member.shape, of.exact};
+    if (of.shape->kind != Shape::Kind::vector)
+        return {of.slots, nullptr, false};
+    Part part{0, nullptr, of.exact};
+    for (const char c : name)
+        for (const std::string_view set : {"xyzw", "rgba", "stpq"})
+            if (const size_t at = set.find(c); at < of.shape->length)
+                part.slots |= Slots(1) << (first + at);
+    part.shape = name.size() == 1 ? of.shape->part : nullptr;
+    return part;
+}
+
+Part Shapes::element(const Part& of, NodeId index) const {
+    const auto known = number(tree_[index].begin, tree_[index].end);
+    if (!of.shape || of.shape->whole || !of.shape->part || !known || *known < 0 ||
+        size_t(*known) >= of.shape->length)
+        return {of.slots, nullptr, false};
+    const unsigned slots = of.shape->part->slots;
+    const unsigned first = unsigned(std::countr_zero(of.slots)) + unsigned(*known) * slots;
+    return {all_slots(slots) << first, of.shape->part, of.exact};
+}
+
+Part Shapes::part_of(const Shape& shape, NodeId place) const {
+    switch (tree_[place].kind) {
+    case NodeKind::parenthesis: return part_of(shape, tree_.child(place, 0));
+    case NodeKind::member: return member(part_of(shape, tree_.child(place, 0)), text_.word_of(place));
+    case NodeKind::index: return element(part_of(shape, tree_.child(place, 0)), tree_.child(place, 1));
+    default: return {all_slots(shape.slots), &shape, true};
+    }
+}
+
+namespace {
+
+/// Mesa needs 0.4 s more for 64 elements written out than for none, and 20 s for 512.
+constexpr size_t k_most_written_out = 64;
+
+bool is_seen(const Shape& shape, const TreeFacts& facts) {
+    if (shape.kind == Shape::Kind::array)
+        return is_seen(*shape.part, facts);
+    if (shape.kind != Shape::Kind::structure)
+        return true;
+    return !facts.names.contains(shape.type) && !facts.functions.contains(shape.type) &&
+           std::ranges::all_of(shape.members,
+                               [&](const auto& member) { return is_seen(*member.shape, facts); });
+}
+
+std::string plain_zero(std::string_view type) {
+    const auto value = value_type(type);
+    const char* const zero = value->base == 'f'   ? "0.0"
+                             : value->base == 'b' ? "false"
+                             : value->base == 'u' ? "0u"
+                                                  : "0";
+    return value->scalar() ? zero : fmt::format("{}({})", type, zero);
+}
+
+std::string written_out(const Shape& shape) {
+    if (shape.is_plain())
+        return plain_zero(shape.type);
+    std::string text = constructor_of(shape) + "(";
+    const bool array = shape.kind == Shape::Kind::array;
+    for (size_t i = 0; i < (array ? shape.length : shape.members.size()); ++i)
+        text += (i == 0 ? "" : ", ") + written_out(array ? *shape.part : *shape.members[i].shape);
+    return text + ")";
+}
+
+} // namespace
+
+std::string constructor_of(const Shape& shape) {
+    std::string text(shape.type);
+    for (const Shape* each = &shape; each->kind == Shape::Kind::array; each = each->part)
+        text += fmt::format("[{}]", each->length);
+    return text;
+}
+
+std::optional<std::string> zero_value(const Shape& shape, const TreeFacts& facts) {
+    if (shape.numbers == 0 || shape.numbers > k_most_written_out || !is_seen(shape, facts))
+        return std::nullopt;
+    return written_out(shape);
+}
+
+void VariableStates::declare(NodeId type, NodeId declared, bool unset) {
+    size_t place = k_untracked;
+    if (unset) {
+        const Shape& shape = shapes_.of(type, declared);
+        if (shape.can_be_zero()) {
+            place = live_.size();
+            live_.push_back(variables_.size());
+            variables_.push_back({.type = type, .declared = declared, .shape = &shape, .runs = runs_});
+            state_.set.push_back(state_.reached ? 0 : ~Slots(0));
+        }
+    }
+    scopes_.back()[text_.word_of(declared)] = place;
+}
+
+bool VariableStates::has_value(NodeId declared) const {
+    const auto parts = tree_.children(declared);
+    return std::ranges::any_of(parts, [&](NodeId part) { return !is_bracket(text_, part); });
+}
+
+void VariableStates::forget() {
+    for (Scope& scope : scopes_)
+        for (auto& [name, place] : scope)
+            place = k_untracked;
+    live_.clear();
+    state_.set.clear();
+}
+
+size_t VariableStates::place_of(NodeId name) const {
+    for (auto scope = scopes_.rbegin(); scope != scopes_.rend(); ++scope)
+        if (const auto found = scope->find(text_.word_of(name)); found != scope->end())
+            return found->second;
+    return k_untracked;
+}
+
+VariableStates::Found VariableStates::find(NodeId id) {
+    const NodeId base = base_of(tree_, id);
+    Found found;
+    if (tree_[base].kind == NodeKind::name)
+        found.place = place_of(base);
+    if (found.place != k_untracked)
+        found.part = shapes_.part_of(*variable(found.place).shape, id);
+    return found;
+}
+
+void VariableStates::read(NodeId id) {
+    const Found found = find(id);
+    if (found.place != k_untracked)
+        need(found.place, found.part.slots, id);
+}
+
+void VariableStates::need(size_t place, Slots slots, NodeId at) {
+    const Slots missing = slots & ~state_.set[place];
+    if (!state_.reached || missing == 0)
+        return;
+    if (place < globals_) {
+        summary_.reads[place] |= missing;
+        if (summary_.places[place] == k_no_node)
+            summary_.places[place] = at;
+    } else if (variable(place).read == k_no_node) {
+        variable(place).read = at;
+    }
+}
+
+void VariableStates::write(NodeId id, bool doubtful) {
+    const Found found = find(id);
+    if (found.place == k_untracked)
+        return;
+    variable(found.place).written = true;
+    if (doubtful)
+        variable(found.place).doubtful = true;
+    else if (found.part.exact)
+        state_.set[found.place] |= found.part.slots;
+}
+
+void VariableStates::open() {
+    scopes_.emplace_back();
+    depths_.push_back(live_.size());
+}
+
+void VariableStates::close() {
+    scopes_.pop_back();
+    live_.resize(depths_.back());
+    state_.set.resize(depths_.back());
+    depths_.pop_back();
+}
+
+VariableStates::Sight VariableStates::enter() {
+    Sight outer{std::move(live_), {}, std::move(state_), std::move(summary_)};
+    outer.scopes.assign(std::make_move_iterator(scopes_.begin() + 1), std::make_move_iterator(scopes_.end()));
+    scopes_.resize(1);
+    live_.resize(globals_);
+    for (size_t i = 0; i < globals_; ++i)
+        live_[i] = i;
+    state_ = {std::vector<Slots>(globals_, 0), true};
+    summary_ = empty_summary();
+    return outer;
+}
+
+void VariableStates::leave(Sight outer) {
+    live_ = std::move(outer.live);
+    state_ = std::move(outer.state);
+    summary_ = std::move(outer.summary);
+    for (Scope& scope : outer.scopes)
+        scopes_.push_back(std::move(scope));
+}
+
+Summary VariableStates::empty_summary() const {
+    return {std::vector<Slots>(globals_), std::vector<NodeId>(globals_, k_no_node),
+            std::vector<Slots>(globals_)};
+}
+
+} // namespace tidemark::glsl

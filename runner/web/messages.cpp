@@ -1,0 +1,203 @@
+#include "web/messages.hpp"
+
+#include "web/page.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <utility>
+
+namespace tidemark::serve {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+    return value ? Json(*value) : Json();
+}
+
+Json knobs_of(const std::vector<live::KnobField>& fields) {
+    Json knobs = Json::array();
+    for (const live::KnobField& field : fields) {
+        scene::Knob knob = field.knob;
+        knob.value = field.value;
+        knobs.push_back(web::knob_data(knob));
+        knobs.back()["turned"] = field.is_turned();
+    }
+    return knobs;
+}
+
+Json definitions_of(const std::vector<live::DefinitionField>& fields) {
+    Json definitions = Json::array();
+    for (const live::DefinitionField& field : fields)
+        definitions.push_back({{"name", field.name},
+                               {"value", live::text_of(field)},
+                               {"whole", field.whole},
+                               {"held", field.held}});
+    return definitions;
+}
+
+Json names_of(const std::vector<live::PictureField>& fields) {
+    Json names = Json::array();
+    for (const live::PictureField& field : fields)
+        names.push_back(field.name);
+    return names;
+}
+
+Json time_of(const live::TimeField& time) {
+    Json data = {{"paused", time.paused},           {"speed", time.speed},
+                 {"turnsBack", time.turns_back},    {"hasSpeed", time.has_speed},
+                 {"from", or_null(time.loop_from)}, {"to", or_null(time.loop_to)}};
+    if (time.stepping)
+        data["stepping"] = {time.stepping->frame, time.stepping->last};
+    return data;
+}
+
+Json errors_of(const std::vector<live::ErrorField>& fields) {
+    constexpr size_t k_most_errors = 20;
+    constexpr size_t k_longest_line = 100; // characters
+    Json errors = Json::array();
+    for (const live::ErrorField& field : fields) {
+        if (errors.size() == k_most_errors)
+            break;
+        const live::Excerpt excerpt =
+            live::excerpt_of(field.line, field.diagnostic.where.column, k_longest_line);
+        errors.push_back({{"text", to_string(field.diagnostic)},
+                          {"line", excerpt.text},
+                          {"mark", field.line.empty() ? "" : excerpt.mark}});
+    }
+    return errors;
+}
+
+double in_hundredths(double value) {
+    return std::round(value * 100) / 100;
+}
+
+/// Replaces bytes that are not UTF-8, which file names may contain.
+std::string dump(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+} // namespace
+
+std::string state_text(const live::Model& model, Extent extent, bool keyboard) {
+    return dump({{"state",
+                  {{"size", {extent.width, extent.height}},
+                   {"keyboard", keyboard},
+                   {"knobs", knobs_of(model.knobs)},
+                   {"definitions", definitions_of(model.definitions)},
+                   {"pictures", names_of(model.pictures)},
+                   {"large", or_null(model.large)},
+                   {"time", time_of(model.time)},
+                   {"errors", errors_of(model.errors)}}}});
+}
+
+std::string to_text(const PictureHead& head) {
+    Json costs = Json::array();
+    for (const auto& cost : head.costs)
+        costs.push_back(cost ? Json(in_hundredths(*cost)) : Json());
+    return dump({{"number", head.number},
+                 {"seconds", head.seconds},
+                 {"frame", head.frame},
+                 {"costs", std::move(costs)},
+                 {"draw", in_hundredths(head.draw_ms)},
+                 {"encode", in_hundredths(head.encode_ms)},
+                 {"coding", head.coding}});
+}
+
+std::string line_text(const char* name, const std::string& line) {
+    return dump({{name, line}});
+}
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A film picture that stands still this long is sent again as a whole, sharp picture.
+constexpr std::chrono::milliseconds k_still(200);
+
+} // namespace
+
+PictureEncoder::PictureEncoder(Settings settings)
+    : settings_(std::move(settings)), thread_([this] { run(); }) {}
+
+PictureEncoder::~PictureEncoder() {
+    {
+        const std::lock_guard lock(mutex_);
+        ending_ = true;
+        changed_.notify_one();
+    }
+    thread_.join();
+}
+
+void PictureEncoder::push(Job job) {
+    const std::lock_guard lock(mutex_);
+    waiting_ = std::move(job);
+    changed_.notify_one();
+}
+
+bool PictureEncoder::has_room() const {
+    const std::lock_guard lock(mutex_);
+    return !waiting_;
+}
+
+void PictureEncoder::run() {
+    std::unique_lock lock(mutex_);
+    std::optional<Job> soft; // sent only as film so far
+    const auto is_asked = [this] { return ending_ || waiting_; };
+    while (true) {
+        if (soft)
+            changed_.wait_for(lock, k_still, is_asked);
+        else
+            changed_.wait(lock, is_asked);
+        if (ending_)
+            return;
+        const bool stands_still = !waiting_;
+        Job job = *std::exchange(stands_still ? soft : waiting_, std::nullopt);
+        lock.unlock();
+        WantedCodings wanted{.whole = true};
+        if (stands_still)
+            ++job.head.number;
+        else
+            wanted = settings_.wanted();
+        NumberedPicture picture = encoded(job, wanted);
+        soft = !stands_still && picture.film ? std::optional(std::move(job)) : std::nullopt;
+        settings_.done(std::move(picture));
+        lock.lock();
+    }
+}
+
+/// Without a film picture, makes a whole one even if no viewer needs it: a later viewer may.
+NumberedPicture PictureEncoder::encoded(Job& job, const WantedCodings& wanted) {
+    const auto begun = Clock::now();
+    const Extent extent = job.picture.extent;
+    const bool key = wanted.key || film_ == 0 || extent != film_extent_;
+    const std::string film = wanted.film ? settings_.film(job.picture, key) : std::string();
+    const std::string whole = wanted.whole || film.empty() ? settings_.whole(job.picture) : std::string();
+    PictureHead& head = job.head;
+    head.encode_ms = std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
+    NumberedPicture picture{head.number};
+    head.coding = "jpeg";
+    if (!whole.empty())
+        picture.message = picture_message(head, whole);
+    if (film.empty())
+        return picture;
+    head.coding = key ? "key" : "delta";
+    picture.film = picture_message(head, film);
+    picture.film_before = key ? 0 : film_;
+    film_ = head.number;
+    film_extent_ = extent;
+    return picture;
+}
+
+SharedMessage picture_message(const PictureHead& picture, const std::string& file) {
+    const std::string head = to_text(picture);
+    std::string bytes;
+    bytes.reserve(4 + head.size() + file.size());
+    for (int byte = 0; byte < 4; ++byte)
+        bytes += char(head.size() >> (8 * byte) & 0xFF);
+    return std::make_shared<Message>(Message{std::move(bytes) + head + file, true});
+}
+
+} // namespace tidemark::serve

@@ -1,0 +1,537 @@
+// One connection: answers an HTTP request, or becomes a WebSocket that stays open. Uses Boost.Beast, on one
+// thread.
+
+#include "base/extent.hpp"
+#include "web/plugin/server.hpp"
+#include "web/request.hpp"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/host_name.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <fmt/format.h>
+#include <libyuv/convert.h>
+#include <turbojpeg.h>
+#include <vpx/vp8cx.h>
+#include <vpx/vpx_encoder.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace tidemark::serve {
+
+/// The server as its connections see it; used on its thread only.
+class House {
+public:
+    virtual ~House() = default;
+
+    virtual const ServerSettings& settings() const = 0;
+    virtual bool is_loopback() const = 0;
+    virtual Guests& guests() = 0;
+};
+
+/// Lives as long as one of its operations is pending.
+class Connection : public std::enable_shared_from_this<Connection> {
+public:
+    Connection(boost::asio::ip::tcp::socket socket, ViewerId id, House& house);
+    /// Reports that the viewer has left.
+    ~Connection();
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
+
+    void start();
+    void send(SharedMessage message);
+    void close();
+    /// Returns whether it has shown the token and is a viewer.
+    bool is_guest() const { return is_guest_; }
+    /// The server is stopping: leaving is not reported any more.
+    void part() { is_guest_ = false; }
+
+private:
+    using Error = boost::beast::error_code;
+
+    void answer();
+    void respond(boost::beast::http::status status, std::string text, const char* type = "text/plain");
+    void accept();
+    void welcome();
+    void listen();
+    void hear(const std::string& message);
+    void write_next();
+    void drop(const boost::beast::websocket::close_reason& why);
+
+    boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
+    ViewerId id_;
+    House& house_;
+    bool is_guest_ = false;
+    bool closing_ = false;
+    boost::beast::flat_buffer buffer_;
+    std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> request_;
+    std::deque<SharedMessage> waiting_; ///< the first is being written
+    size_t waiting_bytes_ = 0;
+};
+
+// Encodes JPEG files with libturbojpeg.
+
+/// Implements ServePlugIn::encode.
+std::string encode_jpeg(Extent extent, std::span<const std::byte> rgba, int quality);
+
+// Encodes VP8 films with libvpx: each picture as its changes since the one before.
+
+/// Implements ServePlugIn::open_film.
+std::unique_ptr<Film> open_vp8(int quality);
+
+namespace {
+
+/// From this quality on, colour has full resolution.
+constexpr int k_fine_quality = 90;
+
+struct Destroy {
+    void operator()(void* compressor) const { tjDestroy(compressor); }
+};
+
+} // namespace
+
+std::string encode_jpeg(Extent extent, std::span<const std::byte> rgba, int quality) {
+    static const std::unique_ptr<void, Destroy> compressor(tjInitCompress());
+    const int sampling = quality >= k_fine_quality ? TJSAMP_444 : TJSAMP_420;
+    std::string file(tjBufSize(extent.width, extent.height, sampling), '\0');
+    auto* begin = reinterpret_cast<unsigned char*>(file.data());
+    unsigned long size = file.size();
+    const int failed = tjCompress2(compressor.get(), reinterpret_cast<const unsigned char*>(rgba.data()),
+                                   extent.width, 0, extent.height, TJPF_RGBX, &begin, &size, sampling,
+                                   quality, TJFLAG_BOTTOMUP | TJFLAG_NOREALLOC | TJFLAG_FASTDCT);
+    file.resize(failed == 0 ? size : 0);
+    return file;
+}
+
+namespace {
+
+/// libvpx's speed level for real-time encoding, close to the fastest: faster ones lose more than they save.
+constexpr int k_speed = -12;
+constexpr int k_coarsest = 63; ///< quantizer
+constexpr int k_thousand = 1000;
+
+struct DestroyImage {
+    void operator()(vpx_image_t* image) const { vpx_img_free(image); }
+};
+
+/// An encoder of one size.
+class Encoder {
+public:
+    Encoder() = default;
+    Encoder(const Encoder&) = delete;
+    Encoder& operator=(const Encoder&) = delete;
+    ~Encoder() { close(); }
+
+    Extent extent() const { return extent_; }
+
+    bool open(Extent extent, int quality) {
+        close();
+        vpx_codec_enc_cfg_t settings{};
+        if (vpx_codec_enc_config_default(vpx_codec_vp8_cx(), &settings, 0) != VPX_CODEC_OK)
+            return false;
+        settings.g_w = unsigned(extent.width);
+        settings.g_h = unsigned(extent.height);
+        settings.g_timebase = {1, k_thousand};
+        settings.g_lag_in_frames = 0;
+        settings.g_threads = std::clamp(std::thread::hardware_concurrency() / 2, 1U, 4U);
+        settings.kf_mode = VPX_KF_DISABLED; // key pictures come only on request
+        // A fixed quantizer sets the quality: with a target rate, moving pictures would be late or worse
+        // because of earlier ones.
+        settings.rc_end_usage = VPX_VBR;
+        settings.rc_target_bitrate = 1 << 20;
+        settings.rc_min_quantizer = settings.rc_max_quantizer = unsigned((100 - quality) * k_coarsest / 100);
+        image_.reset(vpx_img_alloc(nullptr, VPX_IMG_FMT_I420, settings.g_w, settings.g_h, 16));
+        is_open_ = image_ && vpx_codec_enc_init(&codec_, vpx_codec_vp8_cx(), &settings, 0) == VPX_CODEC_OK;
+        if (is_open_)
+            vpx_codec_control(&codec_, VP8E_SET_CPUUSED, k_speed);
+        extent_ = is_open_ ? extent : Extent{};
+        return is_open_;
+    }
+
+    std::string encode(std::span<const std::byte> rgba, bool key) {
+        const auto* pixels = reinterpret_cast<const uint8_t*>(rgba.data());
+        // BT.601 colours, which browsers assume for VP8; the height is negative because the bottom row is
+        // first.
+        libyuv::ABGRToI420(pixels, 4 * extent_.width, image_->planes[0], image_->stride[0], image_->planes[1],
+                           image_->stride[1], image_->planes[2], image_->stride[2], extent_.width,
+                           -extent_.height);
+        const vpx_enc_frame_flags_t flags = key ? VPX_EFLAG_FORCE_KF : 0;
+        std::string film;
+        if (vpx_codec_encode(&codec_, image_.get(), time_++, 1, flags, VPX_DL_REALTIME) != VPX_CODEC_OK)
+            return film;
+        vpx_codec_iter_t place = nullptr;
+        while (const vpx_codec_cx_pkt_t* const packet = vpx_codec_get_cx_data(&codec_, &place))
+            if (packet->kind == VPX_CODEC_CX_FRAME_PKT)
+                film.append(static_cast<const char*>(packet->data.frame.buf), packet->data.frame.sz);
+        return film;
+    }
+
+private:
+    void close() {
+        if (is_open_)
+            vpx_codec_destroy(&codec_);
+        is_open_ = false;
+    }
+
+    Extent extent_{};
+    bool is_open_ = false;
+    vpx_codec_ctx_t codec_{};
+    vpx_codec_pts_t time_ = 0;
+    std::unique_ptr<vpx_image_t, DestroyImage> image_{};
+};
+
+class Vp8 : public Film {
+public:
+    explicit Vp8(int quality) : quality_(quality) {}
+
+    std::string encode(Extent extent, std::span<const std::byte> rgba, bool key) override {
+        if (extent != encoder_.extent() && !encoder_.open(extent, quality_))
+            return {};
+        return encoder_.encode(rgba, key);
+    }
+
+private:
+    int quality_;
+    Encoder encoder_;
+};
+
+} // namespace
+
+std::unique_ptr<Film> open_vp8(int quality) {
+    return std::make_unique<Vp8>(quality);
+}
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+namespace {
+
+constexpr std::chrono::seconds k_patience{10};
+/// Limit for clients that have not shown the token yet.
+constexpr std::chrono::seconds k_patience_with_strangers{1};
+constexpr size_t k_longest_header = 16384;
+/// Number of messages; a client that reads never has so many waiting.
+constexpr size_t k_most_waiting = 256;
+/// Two 4K pictures of the best quality take less.
+constexpr size_t k_most_bytes_waiting = 64 << 20;
+/// Bytes; RFC 6455 allows 123.
+constexpr size_t k_longest_reason = 120;
+
+std::string_view view_of(beast::string_view text) {
+    return {text.data(), text.size()};
+}
+
+/// Keeps the page private: its address contains the token, and other sites must not embed or read it.
+void shut_in(http::response<http::string_body>& response) {
+    response.set(http::field::cache_control, "no-store");
+    response.set("Content-Security-Policy",
+                 "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; "
+                 "img-src blob:; connect-src 'self'; frame-ancestors 'none'; base-uri 'none'; "
+                 "form-action 'none'");
+    response.set("Referrer-Policy", "no-referrer");
+    response.set("X-Content-Type-Options", "nosniff");
+}
+
+} // namespace
+
+Connection::Connection(asio::ip::tcp::socket socket, ViewerId id, House& house)
+    : socket_(std::move(socket)), id_(id), house_(house) {}
+
+Connection::~Connection() {
+    if (is_guest_)
+        house_.guests().left(id_);
+}
+
+void Connection::start() {
+    boost::system::error_code ignored;
+    beast::get_lowest_layer(socket_).socket().set_option(asio::ip::tcp::no_delay(true), ignored);
+    beast::get_lowest_layer(socket_).expires_after(k_patience_with_strangers);
+    request_.emplace();
+    request_->header_limit(k_longest_header);
+    request_->body_limit(0);
+    http::async_read(socket_.next_layer(), buffer_, *request_,
+                     [self = shared_from_this()](Error error, size_t) {
+                         if (!error)
+                             self->answer();
+                     });
+}
+
+void Connection::answer() {
+    const auto& request = request_->get();
+    if (request.method() != http::verb::get)
+        return respond(http::status::method_not_allowed, "only GET is answered\n");
+    const Knock knock{.target = view_of(request.target()),
+                      .host = view_of(request[http::field::host]),
+                      .origin = view_of(request[http::field::origin]),
+                      .upgrade = websocket::is_upgrade(request),
+                      .through_loopback = house_.is_loopback()};
+    switch (answer_to(knock, house_.settings().token)) {
+    case Answer::page: return respond(http::status::ok, house_.settings().page, "text/html; charset=utf-8");
+    case Answer::socket: return accept();
+    case Answer::not_found: return respond(http::status::not_found, "there is nothing here\n");
+    case Answer::forbidden: break;
+    }
+    respond(http::status::forbidden,
+            "not for you: open the whole address that `tidemark serve` printed, with its token\n");
+}
+
+void Connection::respond(http::status status, std::string text, const char* type) {
+    beast::get_lowest_layer(socket_).expires_after(k_patience); // time to read the response
+    auto response = std::make_shared<http::response<http::string_body>>(status, request_->get().version());
+    response->set(http::field::content_type, type);
+    shut_in(*response);
+    response->keep_alive(false);
+    response->body() = std::move(text);
+    response->prepare_payload();
+    http::async_write(socket_.next_layer(), *response,
+                      [self = shared_from_this(), response](Error, size_t) { self->close(); });
+}
+
+void Connection::accept() {
+    beast::get_lowest_layer(socket_).expires_never(); // a WebSocket has timeouts of its own
+    auto times = websocket::stream_base::timeout::suggested(beast::role_type::server);
+    times.idle_timeout = 2 * k_patience;
+    times.keep_alive_pings = true;
+    socket_.set_option(times);
+    socket_.read_message_max(k_longest_request);
+    socket_.auto_fragment(false);
+    socket_.async_accept(request_->get(), [self = shared_from_this()](Error error) {
+        if (!error)
+            self->welcome();
+    });
+}
+
+void Connection::welcome() {
+    request_.reset();
+    is_guest_ = house_.guests().came(id_);
+    if (!is_guest_)
+        return drop({websocket::close_code::try_again_later, "too many look already"});
+    listen();
+}
+
+void Connection::listen() {
+    socket_.async_read(buffer_, [self = shared_from_this()](Error error, size_t) {
+        if (error)
+            return self->close();
+        self->hear(beast::buffers_to_string(self->buffer_.data()));
+        self->buffer_.clear();
+        if (!self->closing_)
+            self->listen();
+    });
+}
+
+void Connection::hear(const std::string& message) {
+    if (!socket_.got_text())
+        return drop({websocket::close_code::unknown_data, "a message is a text"});
+    if (auto taken = house_.guests().said(id_, message); !taken)
+        drop({websocket::close_code::policy_error, taken.error().message.substr(0, k_longest_reason)});
+}
+
+void Connection::send(SharedMessage message) {
+    if (closing_)
+        return;
+    if (waiting_.size() >= k_most_waiting ||
+        (!waiting_.empty() && waiting_bytes_ + message->bytes.size() > k_most_bytes_waiting))
+        return close();
+    waiting_bytes_ += message->bytes.size();
+    waiting_.push_back(std::move(message));
+    if (waiting_.size() == 1)
+        write_next();
+}
+
+void Connection::write_next() {
+    const Message& message = *waiting_.front();
+    socket_.binary(message.binary);
+    socket_.async_write(asio::buffer(message.bytes), [self = shared_from_this()](Error error, size_t) {
+        if (error)
+            return self->close();
+        self->waiting_bytes_ -= self->waiting_.front()->bytes.size();
+        self->waiting_.pop_front();
+        if (!self->waiting_.empty() && !self->closing_)
+            self->write_next();
+    });
+}
+
+void Connection::drop(const websocket::close_reason& why) {
+    if (!std::exchange(closing_, true))
+        socket_.async_close(why, [self = shared_from_this()](Error) { self->close(); });
+}
+
+/// Closes the socket, which also ends pending operations.
+void Connection::close() {
+    closing_ = true;
+    boost::system::error_code ignored;
+    beast::get_lowest_layer(socket_).socket().shutdown(asio::ip::tcp::socket::shutdown_both, ignored);
+    beast::get_lowest_layer(socket_).close();
+}
+
+// Implements the plug-in's Server: a thread that accepts connections and passes messages.
+
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using ErrorWord = boost::system::error_code;
+
+/// Viewers and clients without a token yet; more than there can be viewers.
+constexpr size_t k_most_connections = 64;
+
+tl::unexpected<Error> cannot_listen(const ServerSettings& settings, const std::string& why) {
+    return fail(ErrorCode::usage,
+                fmt::format("cannot listen at --host {} --port {}: {}", settings.host, settings.port, why));
+}
+
+class WebServer : public Server, public House {
+public:
+    explicit WebServer(ServerSettings settings) : settings_(std::move(settings)), acceptor_(context_) {}
+    WebServer(const WebServer&) = delete;
+    WebServer& operator=(const WebServer&) = delete;
+    ~WebServer() override { end(); }
+
+    ErrorWord open() {
+        ErrorWord error;
+        const auto found = tcp::resolver(context_).resolve(settings_.host, std::to_string(settings_.port),
+                                                           tcp::resolver::passive, error);
+        if (error)
+            return error;
+        const tcp::endpoint place = found.begin()->endpoint();
+        for (const auto step : {&WebServer::make, &WebServer::bind})
+            if (error = (this->*step)(place); error)
+                return error;
+        return {};
+    }
+
+    void start(Guests& guests) override {
+        guests_ = &guests;
+        accept();
+        thread_ = std::thread([this] { run(); });
+    }
+
+    void stop() override { end(); }
+
+    void send(ViewerId viewer, SharedMessage message) override {
+        asio::post(context_, [this, viewer, message = std::move(message)]() mutable {
+            const auto known = connections_.find(viewer);
+            if (const auto connection = known != connections_.end() ? known->second.lock() : nullptr)
+                connection->send(std::move(message));
+        });
+    }
+
+    std::string place() const override {
+        const tcp::endpoint at = acceptor_.local_endpoint();
+        ErrorWord ignored;
+        const std::string name = at.address().is_unspecified() ? asio::ip::host_name(ignored)
+                                 : at.address().is_v6()        ? "[" + at.address().to_string() + "]"
+                                                               : at.address().to_string();
+        return fmt::format("{}:{}", name, at.port());
+    }
+
+    bool is_loopback() const override { return acceptor_.local_endpoint().address().is_loopback(); }
+    const ServerSettings& settings() const override { return settings_; }
+    Guests& guests() override { return *guests_; }
+
+private:
+    void end() {
+        context_.stop();
+        if (thread_.joinable())
+            thread_.join();
+        for (const auto& [id, known] : connections_)
+            if (const auto connection = known.lock())
+                connection->part();
+    }
+
+    /// Boost throws if memory runs out: that ends the operation, but not the others.
+    void run() {
+        while (!context_.stopped())
+            try {
+                context_.run();
+            } catch (const std::exception&) {
+            }
+    }
+
+    ErrorWord make(const tcp::endpoint& place) {
+        ErrorWord error;
+        acceptor_.open(place.protocol(), error);
+        if (!error)
+            acceptor_.set_option(asio::socket_base::reuse_address(true), error);
+        return error;
+    }
+
+    ErrorWord bind(const tcp::endpoint& place) {
+        ErrorWord error;
+        acceptor_.bind(place, error);
+        if (!error)
+            acceptor_.listen(asio::socket_base::max_listen_connections, error);
+        return error;
+    }
+
+    void accept() {
+        acceptor_.async_accept([this](ErrorWord error, tcp::socket socket) {
+            if (error == asio::error::operation_aborted)
+                return;
+            std::erase_if(connections_, [](const auto& known) { return known.second.expired(); });
+            if (connections_.size() >= k_most_connections)
+                close_oldest_stranger();
+            if (!error) {
+                const auto connection = std::make_shared<Connection>(std::move(socket), ++last_id_, *this);
+                connections_[last_id_] = connection;
+                connection->start();
+            }
+            accept();
+        });
+    }
+
+    /// Closes the oldest connection without a token, so that silent clients cannot block others.
+    void close_oldest_stranger() {
+        for (const auto& [id, known] : connections_) // in the order of arrival
+            if (const auto connection = known.lock(); connection && !connection->is_guest()) {
+                connection->close();
+                connections_.erase(id);
+                return;
+            }
+    }
+
+    ServerSettings settings_;
+    Guests* guests_ = nullptr; ///< set by start()
+    std::map<ViewerId, std::weak_ptr<Connection>> connections_;
+    ViewerId last_id_ = 0;
+    asio::io_context context_{1}; ///< destroyed before the members that its handlers use
+    tcp::acceptor acceptor_;
+    std::thread thread_;
+};
+
+/// Boost throws if memory or descriptors run out.
+Result<std::unique_ptr<Server>> open_server(const ServerSettings& settings) {
+    try {
+        auto server = std::make_unique<WebServer>(settings);
+        if (const ErrorWord error = server->open())
+            return cannot_listen(settings, error.message());
+        return server;
+    } catch (const std::exception& error) {
+        return cannot_listen(settings, error.what());
+    }
+}
+
+const ServePlugIn k_plug_in{k_serve_version, open_server, encode_jpeg, open_vp8};
+
+} // namespace
+} // namespace tidemark::serve
+
+extern "C" __attribute__((visibility("default"))) const void* tidemark_serve() {
+    return &tidemark::serve::k_plug_in;
+}

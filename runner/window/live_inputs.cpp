@@ -1,0 +1,206 @@
+#include "window/live_inputs.hpp"
+
+#include "base/error.hpp"
+#include "host/console.hpp"
+#include "window/midi.hpp"
+#include "window/osc.hpp"
+#include "window/viewer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <variant>
+
+namespace tidemark::cli {
+
+void SaidOnce::say(std::string_view line) {
+    line = line.substr(0, k_longest);
+    if (said_.size() >= k_most_lines || !said_.emplace(line).second)
+        return;
+    cli::say(line);
+    if (said_.size() == k_most_lines)
+        cli::say("live inputs: what else is wrong with them is not said");
+}
+
+namespace {
+
+/// Adds a command and removes an earlier one that sets the same thing: only the last value between two frames
+/// counts.
+void add(live::Commands& commands, live::Command command) {
+    std::erase_if(commands, [&](const live::Command& earlier) {
+        const auto* turned = std::get_if<live::TurnKnob>(&command);
+        return earlier.index() == command.index() &&
+               (!turned || turned->name == std::get<live::TurnKnob>(earlier).name);
+    });
+    commands.push_back(std::move(command));
+}
+
+/// Updates the knobs, so that later messages of the same call start from the new value.
+void note(const live::Command& command, std::vector<scene::Knob>& knobs) {
+    const auto* turned = std::get_if<live::TurnKnob>(&command);
+    if (!turned)
+        return;
+    const auto knob = std::ranges::find(knobs, turned->name, &scene::Knob::name);
+    if (knob != knobs.end())
+        knob->value = turned->value;
+}
+
+} // namespace
+
+LiveInputs::LiveInputs(const std::function<void()>& wake) : osc_(wake), midi_(wake) {}
+
+Result<std::unique_ptr<LiveInputs>> LiveInputs::open(const LiveInputRequest& request,
+                                                     const std::function<void()>& wake) {
+    std::unique_ptr<LiveInputs> inputs(new LiveInputs(wake));
+    if (request.osc)
+        TRY(inputs->open_osc(*request.osc));
+    if (request.midi)
+        TRY(inputs->open_midi(*request.midi));
+    if (request.microphone)
+        inputs->microphone_ = TRY(sound::Microphone::open(*request.microphone));
+    if (request.webcam)
+        inputs->webcam_ = TRY(image::Camera::open(*request.webcam));
+    return inputs;
+}
+
+Result<void> LiveInputs::open_osc(const std::string& where) {
+    const auto socket = TRY(live::parse_osc_address(where).and_then(live::open_osc_socket));
+    osc_receiver_ = std::make_unique<live::Receiver>(socket.descriptor, osc_);
+    say(fmt::format("OSC: listening at {}", socket.address));
+    return {};
+}
+
+/// Opens a port, or a file if the name contains a slash.
+Result<void> LiveInputs::open_midi(const std::string& what) {
+    if (what.find('/') == what.npos)
+        midi_port_ = TRY(live::MidiPort::open(what, midi_));
+    else
+        midi_receiver_ = std::make_unique<live::Receiver>(TRY(live::open_midi_device(what)), midi_);
+    return {};
+}
+
+void LiveInputs::hear() {
+    render::LiveMedia media;
+    if (microphone_)
+        media.microphone = microphone_->hear();
+    if (webcam_)
+        media.webcam = webcam_->newest();
+    media_ = std::make_shared<render::LiveMedia>(std::move(media));
+}
+
+void say_what_is_not_recorded(const LiveInputRequest& request) {
+    if (request.microphone)
+        say("the recording has nothing of what the microphone hears: a replay has the signal of a silent "
+            "input");
+    if (request.webcam)
+        say("the recording has nothing of what the webcam sees: a replay has a stand-in");
+}
+
+live::Commands LiveInputs::take(std::vector<scene::Knob> knobs, live::ControllerMap& controllers) {
+    live::Commands commands;
+    take_osc(commands, knobs);
+    take_midi(commands, knobs, controllers);
+    return commands;
+}
+
+void LiveInputs::take_osc(live::Commands& commands, std::vector<scene::Knob>& knobs) {
+    for (const std::string& packet : osc_.take()) {
+        const auto messages = live::parse_osc(packet);
+        if (!messages) {
+            words_.say("OSC: ignored: " + messages.error().message);
+            continue;
+        }
+        for (const live::OscMessage& message : *messages) {
+            auto command = osc_command(message, knobs);
+            if (!command) {
+                words_.say(command.error().message);
+                continue;
+            }
+            note(*command, knobs);
+            add(commands, *std::move(command));
+        }
+    }
+}
+
+void LiveInputs::take_midi(live::Commands& commands, std::vector<scene::Knob>& knobs,
+                           live::ControllerMap& controllers) {
+    for (const std::string& bytes : midi_.take())
+        for (const live::ControlChange& change : midi_parser_.parse(bytes)) {
+            const bool learned = controllers.learning().has_value();
+            auto turned = controllers.turn(change, knobs);
+            if (!turned) {
+                words_.say(
+                    fmt::format("MIDI: {} turns nothing: click with the right button on a knob's name in the "
+                                "controls (Tab), and move it",
+                                to_string(change.controller)));
+                continue;
+            }
+            if (learned)
+                say(fmt::format("MIDI: {} turns {}", to_string(change.controller), turned->name));
+            note(*turned, knobs);
+            add(commands, *std::move(turned));
+        }
+}
+
+// Live inputs: messages, carried out like commands of the overlay so that they are recorded, too; and sound.
+
+Result<void> Viewer::open_inputs() {
+    if (settings_.inputs && recording())
+        say_what_is_not_recorded(*settings_.inputs);
+    if (settings_.inputs)
+        inputs_ = TRY(LiveInputs::open(*settings_.inputs, [&on = *screen_] { on.wake(); }));
+    return {};
+}
+
+void Viewer::take_inputs() {
+    if (!inputs_ || !stage_ || !inputs_->any())
+        return;
+    for (const live::Command& command : inputs_->take(turned_knobs(), controllers_))
+        std::visit([this](const auto& wanted) { carry_out(wanted); }, command);
+}
+
+/// Returns the inputs of the frame to draw now, with fresh sound and webcam data.
+render::FrameInputs Viewer::heard_inputs(const render::FrameState& state) {
+    if (inputs_)
+        inputs_->hear();
+    return inputs_at(state);
+}
+
+/// Returns the inputs of a frame, with the last sound and webcam data.
+render::FrameInputs Viewer::inputs_at(const render::FrameState& state) const {
+    render::FrameInputs inputs = inputs_of(state);
+    if (inputs_)
+        inputs.live = inputs_->media();
+    return inputs;
+}
+
+render::FrameInputs Viewer::inputs_on_show() const {
+    return inputs_at(shown_);
+}
+
+/// Returns the knobs with their latest values, which may not be in a frame yet.
+std::vector<scene::Knob> Viewer::turned_knobs() const {
+    render::FrameState state;
+    controls_.fill(state);
+    std::vector<scene::Knob> knobs = stage_->renderer().scene().knobs;
+    for (scene::Knob& knob : knobs)
+        knob.value = value_after(knob, state.knobs);
+    return knobs;
+}
+
+void Viewer::carry_out(const live::SetPlaying& command) {
+    if (command.on == clock_.paused())
+        carry_out(live::TogglePause{});
+}
+
+void Viewer::carry_out(const live::LearnController& command) {
+    controllers_.learn({command.knob, command.component});
+    stale_overlay_ = true;
+}
+
+void Viewer::carry_out(const live::ForgetController& command) {
+    controllers_.forget({command.knob, command.component});
+    stale_overlay_ = true;
+}
+
+} // namespace tidemark::cli

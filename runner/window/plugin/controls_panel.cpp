@@ -1,0 +1,454 @@
+// Fields for the numbers that a scene defines.
+
+#include "host/overlay_fields.hpp"
+#include "host/overlay_model.hpp"
+#include "window/plugin/imgui_drawing.hpp"
+#include "window/plugin/panels.hpp"
+
+#include <GL/gl.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace tidemark::live {
+
+void draw_definitions(std::vector<DefinitionField>& fields, Commands& commands);
+
+namespace {
+
+/// Draws one field. A value is sent only when editing it ends, because each one is compiled.
+void draw_row(DefinitionField& field, Commands& commands) {
+    constexpr double k_share = 0.005;
+    constexpr float k_whole_speed = 0.1F;
+    const float speed = field.whole ? k_whole_speed : float(k_share * std::max(std::abs(field.value), 1.0));
+    ImGui::PushID(field.name.c_str());
+    if (ImGui::DragScalar("##value", ImGuiDataType_Double, &field.value, speed, nullptr, nullptr,
+                          field.whole ? "%.0f" : "%.4g"))
+        field.changing = true;
+    if (field.changing && !ImGui::IsItemActive()) {
+        field.changing = false;
+        if (std::isfinite(field.value))
+            commands.emplace_back(Define{field.name, text_of(field)});
+    }
+    ImGui::SameLine();
+    draw_text(field.name);
+    if (field.held) {
+        ImGui::SameLine();
+        if (ImGui::SmallButton("reset"))
+            commands.emplace_back(Undefine{field.name});
+    }
+    ImGui::PopID();
+}
+
+} // namespace
+
+void draw_definitions(std::vector<DefinitionField>& fields, Commands& commands) {
+    constexpr float k_widget_share = 0.6F;
+    if (fields.empty() || !ImGui::CollapsingHeader("Definitions"))
+        return;
+    ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * k_widget_share);
+    for (DefinitionField& field : fields)
+        draw_row(field, commands);
+    ImGui::PopItemWidth();
+}
+
+// Widgets for the knobs of a scene.
+
+void draw_knobs(std::vector<KnobField>& fields, Commands& commands);
+
+namespace {
+
+/// Four digits: as precise as dragging by hand, and short in the file that values are written into.
+constexpr const char* k_number = "%.4g";
+constexpr const char* k_whole_number = "%.0f";
+
+/// The widgets' share of a row's width; the name gets the rest.
+constexpr float k_widget_share = 0.6F;
+
+bool draw_check_box(KnobField& field) {
+    const auto& [low, high] = *field.knob.range;
+    bool on = field.value[0] == high[0];
+    if (!ImGui::Checkbox("##value", &on))
+        return false;
+    field.value[0] = on ? high[0] : low[0];
+    return true;
+}
+
+bool draw_colour(KnobField& field) {
+    std::array<float, 3> colour{};
+    std::copy_n(field.value.begin(), colour.size(), colour.begin());
+    if (!ImGui::ColorEdit3("##value", colour.data(), ImGuiColorEditFlags_Float) ||
+        !std::ranges::all_of(colour, [&](float part) { return takes(field.knob, part); }))
+        return false;
+    constexpr double k_steps = 1000; // as many digits as the widget shows
+    std::ranges::transform(colour, field.value.begin(),
+                           [](float part) { return std::round(double(part) * k_steps) / k_steps; });
+    return true;
+}
+
+bool draw_component(KnobField& field, size_t i) {
+    const char* format = info(field.knob.type).whole ? k_whole_number : k_number;
+    double& value = field.value[i];
+    const double before = value;
+    const bool changed =
+        widget_of(field.knob) == Widget::slider
+            ? ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &field.knob.range->low[i],
+                                  &field.knob.range->high[i], format)
+            : ImGui::DragScalar("##value", ImGuiDataType_Double, &value, float(drag_speed(field.knob, i)),
+                                nullptr, nullptr, format);
+    if (changed)
+        value = takes(field.knob, value) ? in_steps(field.knob, i, value) : before;
+    return changed;
+}
+
+bool draw_components(KnobField& field) {
+    const int count = info(field.knob.type).components;
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    const float width = (ImGui::CalcItemWidth() - gap * float(count - 1)) / float(count);
+    bool changed = false;
+    for (int i = 0; i < count; ++i) {
+        if (i > 0)
+            ImGui::SameLine(0, gap);
+        ImGui::PushID(i);
+        ImGui::SetNextItemWidth(width);
+        changed |= draw_component(field, size_t(i));
+        ImGui::PopID();
+    }
+    return changed;
+}
+
+bool draw_widget(KnobField& field) {
+    switch (widget_of(field.knob)) {
+    case Widget::check_box: return draw_check_box(field);
+    case Widget::colour: return draw_colour(field);
+    default: return draw_components(field);
+    }
+}
+
+/// Draws the menu that a right click on the name opens.
+void draw_controllers(const KnobField& field, Commands& commands) {
+    if (field.controllers.empty() || !ImGui::BeginPopupContextItem("controllers"))
+        return;
+    for (size_t i = 0; i < field.controllers.size(); ++i) {
+        const ControllerField& part = field.controllers[i];
+        if (ImGui::MenuItem((shown(part.part) + ": move a controller").c_str(), nullptr, part.learning))
+            commands.emplace_back(LearnController{field.knob.name, i});
+        if (!part.controller.empty() &&
+            ImGui::MenuItem(shown(part.part + ": forget " + part.controller).c_str()))
+            commands.emplace_back(ForgetController{field.knob.name, i});
+    }
+    ImGui::EndPopup();
+}
+
+/// Draws the name, highlighted while one of its components waits for a controller.
+void draw_name(const KnobField& field) {
+    const ImVec4 bright{1, 0.8F, 0.2F, 1};
+    if (std::ranges::any_of(field.controllers, &ControllerField::learning))
+        draw_coloured(bright, field.knob.name);
+    else
+        draw_text(field.knob.name);
+}
+
+void draw_row(KnobField& field, Commands& commands) {
+    ImGui::PushID(field.knob.name.c_str());
+    if (draw_widget(field))
+        commands.emplace_back(TurnKnob{field.knob.name, field.value});
+    ImGui::SameLine();
+    draw_name(field);
+    draw_controllers(field, commands);
+    if (field.is_turned()) {
+        ImGui::SameLine();
+        if (ImGui::SmallButton("reset")) {
+            field.value = field.knob.initial;
+            commands.emplace_back(ResetKnob{field.knob.name});
+        }
+    }
+    ImGui::PopID();
+}
+
+} // namespace
+
+void draw_knobs(std::vector<KnobField>& fields, Commands& commands) {
+    if (fields.empty())
+        return draw_wrapped("The scene has no knobs: it declares one with a line like\n"
+                            "#iUniform float height = 0.5 in { 0.0, 2.0 }");
+    if (ImGui::Button("Reset all"))
+        commands.emplace_back(ResetKnobs{});
+    ImGui::SameLine();
+    if (ImGui::Button("Copy as --set"))
+        commands.emplace_back(CopyKnobs{});
+    ImGui::SameLine();
+    if (ImGui::Button("Write to file"))
+        commands.emplace_back(WriteKnobs{});
+    ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * k_widget_share);
+    for (KnobField& field : fields)
+        draw_row(field, commands);
+    ImGui::PopItemWidth();
+}
+
+// The list of views that the user kept.
+
+void draw_views(const std::vector<std::string>& views, Commands& commands);
+
+void draw_views(const std::vector<std::string>& views, Commands& commands) {
+    if (!ImGui::CollapsingHeader("Views"))
+        return;
+    if (ImGui::Button("Keep this moment"))
+        commands.emplace_back(KeepView{});
+    for (size_t i = 0; i < views.size(); ++i) {
+        ImGui::PushID(int(i));
+        if (ImGui::Button("x"))
+            commands.emplace_back(ForgetView{i});
+        ImGui::SameLine();
+        if (ImGui::Button(shown(views[i]).c_str()))
+            commands.emplace_back(GoToView{i});
+        ImGui::PopID();
+    }
+}
+
+// Fields below the thumbnails: how the large picture is viewed.
+
+/// Draws nothing if no picture is large.
+void draw_look(const Model& model, Commands& commands);
+
+namespace {
+
+bool draw_channels(LookField& look) {
+    bool changed = false;
+    if (!ImGui::BeginCombo("channels", k_channel_choices[look.channels].name.data()))
+        return changed;
+    for (size_t i = 0; i < k_channel_choices.size(); ++i)
+        if (ImGui::Selectable(k_channel_choices[i].name.data(), i == look.channels)) {
+            look.channels = i;
+            changed = true;
+        }
+    ImGui::EndCombo();
+    return changed;
+}
+
+/// Draws the exposure slider. Moving it turns automatic exposure off.
+bool draw_exposure(LookField& look) {
+    auto stops = float(look.stops);
+    const bool turned = ImGui::SliderFloat("exposure", &stops, -float(k_most_stops), float(k_most_stops),
+                                           look.automatic ? "auto: %+.2f stops" : "%+.2f stops");
+    if (turned) {
+        look.stops = stops;
+        look.automatic = false;
+    }
+    return ImGui::Checkbox("auto", &look.automatic) || turned;
+}
+
+bool draw_slice(LookField& look, int slices) {
+    if (slices <= 1)
+        return false;
+    int slice = std::clamp(look.slice.value_or(slices / 2), 0, slices - 1);
+    const bool turned = ImGui::SliderInt("slice", &slice, 0, slices - 1);
+    if (turned)
+        look.slice = slice;
+    return turned;
+}
+
+} // namespace
+
+void draw_look(const Model& model, Commands& commands) {
+    if (!model.large)
+        return;
+    LookField look = model.look;
+    bool changed = draw_channels(look);
+    changed = draw_exposure(look) || changed;
+    ImGui::SameLine();
+    if (ImGui::Button("as it is")) {
+        look = {.slice = look.slice};
+        changed = true;
+    }
+    changed = draw_slice(look, model.pictures[*model.large].slices) || changed;
+    if (changed)
+        commands.emplace_back(LookAtPicture{look});
+}
+
+namespace {
+
+ImTextureID texture_of(const PictureField& picture) {
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): Dear ImGui has names travel as pointers.
+    return reinterpret_cast<ImTextureID>(uintptr_t(picture.texture));
+}
+
+/// Draws without blending, since a buffer's alpha is not transparency.
+void draw_opaque(ImDrawList& list, const PictureField& picture, ImVec2 from, ImVec2 to) {
+    list.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
+    list.AddImage(texture_of(picture), from, to, {0, 1}, {1, 0}); // OpenGL's rows begin at the bottom
+    list.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
+}
+
+float shape_of(const PictureField& picture) {
+    return float(std::max(picture.extent.width, 1)) / float(std::max(picture.extent.height, 1));
+}
+
+void draw_thumbnail(const Model& model, size_t i, float width, Commands& commands) {
+    const PictureField& picture = model.pictures[i];
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    const ImVec2 size(width, std::clamp(width / shape_of(picture), width / 4, width));
+    ImGui::PushID(int(i));
+    if (ImGui::InvisibleButton("picture", size))
+        commands.emplace_back(ShowPicture{model.large == i ? std::nullopt : std::optional(i)});
+    ImGui::PopID();
+    draw_opaque(*ImGui::GetWindowDrawList(), picture, from, {from.x + size.x, from.y + size.y});
+    ImGui::SameLine();
+    draw_text(fmt::format("{} {}\n{}", i + 1, picture.name, picture.size));
+}
+
+} // namespace
+
+void draw_thumbnails(const Model& model, const Surface& surface, Commands& commands) {
+    constexpr double k_width = 120;
+    if (model.pictures.empty() || !ImGui::CollapsingHeader("Passes and inputs"))
+        return;
+    for (size_t i = 0; i < model.pictures.size(); ++i)
+        draw_thumbnail(model, i, float(k_width * surface.scale), commands);
+    draw_look(model, commands);
+}
+
+void draw_large(const PictureField& picture, const Surface& surface) {
+    const ImVec2 all(float(surface.extent.width), float(surface.extent.height));
+    const float width = std::min(all.x, all.y * shape_of(picture));
+    const ImVec2 size(width, width / shape_of(picture));
+    const ImVec2 from((all.x - size.x) / 2, (all.y - size.y) / 2);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRectFilled({0, 0}, all, IM_COL32_BLACK);
+    draw_opaque(list, picture, from, {from.x + size.x, from.y + size.y});
+}
+
+void draw_controls(Model& model, const Surface& surface, Commands& commands) {
+    constexpr double k_margin = 8;
+    constexpr double k_width = 320;
+    const auto pixels = [&](double size) { return float(size * surface.scale); };
+    ImGui::SetNextWindowPos({pixels(k_margin), pixels(k_margin)}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSizeConstraints(
+        {pixels(k_width), 0}, {pixels(k_width), float(surface.extent.height) - 2 * pixels(k_margin)});
+    if (ImGui::Begin("Controls", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
+        draw_knobs(model.knobs, commands);
+        draw_definitions(model.definitions, commands);
+        draw_thumbnails(model, surface, commands);
+        draw_views(model.views, commands);
+    }
+    ImGui::End();
+}
+
+namespace {
+
+void draw_stepping(const Stepping& stepping, Commands& commands) {
+    const std::string text = fmt::format("frame {} of {}", stepping.frame, stepping.last);
+    if (ImGui::Button("Give up"))
+        commands.emplace_back(GiveUpSeek{});
+    ImGui::SameLine();
+    ImGui::ProgressBar(float(stepping.frame) / float(std::max(stepping.last, 1)), {-1, 0}, text.c_str());
+}
+
+void draw_loop(TimeField& time, Commands& commands) {
+    const auto set = [&](std::optional<double> from, std::optional<double> to) {
+        time.loop_from = from;
+        time.loop_to = to;
+        commands.emplace_back(SetLoop{from, to});
+    };
+    if (ImGui::Button("A"))
+        set(time.seconds, time.loop_to);
+    ImGui::SameLine();
+    if (ImGui::Button("B"))
+        set(time.loop_from, time.seconds);
+    if (!time.loop_from && !time.loop_to)
+        return;
+    ImGui::SameLine();
+    const auto text = [](const std::optional<double>& end) {
+        return end ? fmt::format("{:.2f}", *end) : "?";
+    };
+    if (ImGui::Button(fmt::format("{} - {} x", text(time.loop_from), text(time.loop_to)).c_str()))
+        set(std::nullopt, std::nullopt);
+}
+
+void draw_speed(TimeField& time, Commands& commands) {
+    constexpr double k_fastest = 4;
+    const double slowest = time.turns_back ? -k_fastest : 0;
+    ImGui::SetNextItemWidth(ImGui::CalcTextSize("x -0.00").x * 2);
+    if (ImGui::SliderScalar("##speed", ImGuiDataType_Double, &time.speed, &slowest, &k_fastest, "x %.2f"))
+        commands.emplace_back(SetSpeed{time.speed});
+}
+
+/// Draws the time slider. A typed number takes effect when the field is left, because seeking at its first
+/// digit would replace the bar; Escape discards it. Dragging seeks at once. After the Ctrl-click that opens
+/// the field the button is still down for a while and the time changes, which must not count as a drag.
+void draw_scrubber(TimeField& time, Commands& commands) {
+    constexpr double k_begin = 0;
+    constexpr float k_nothing = -1;
+    const double end = bar_end(time);
+    ImGuiStorage& kept = *ImGui::GetStateStorage();
+    const ImGuiID typed = ImGui::GetID("typed time");
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &time.seconds, &k_begin, &end, "%.2f s")) {
+        const double wanted = std::max(time.seconds, 0.0);
+        if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !ImGui::GetIO().WantTextInput)
+            commands.emplace_back(Seek{wanted});
+        else
+            kept.SetFloat(typed, float(wanted));
+    }
+    if (!ImGui::IsItemDeactivated())
+        return;
+    const bool taken_back = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    if (const float wanted = kept.GetFloat(typed, k_nothing); wanted >= 0 && !taken_back)
+        commands.emplace_back(Seek{wanted});
+    kept.SetFloat(typed, k_nothing);
+}
+
+void draw_clock(TimeField& time, Commands& commands) {
+    if (ImGui::Button("|<"))
+        commands.emplace_back(Restart{});
+    ImGui::SameLine();
+    if (ImGui::Button(time.paused ? "Play###pause" : "Pause###pause"))
+        commands.emplace_back(TogglePause{});
+    ImGui::SameLine();
+    draw_loop(time, commands);
+    ImGui::SameLine();
+    if (time.has_speed) {
+        draw_speed(time, commands);
+        ImGui::SameLine();
+    }
+    draw_scrubber(time, commands);
+}
+
+void draw_status(const Model& model) {
+    std::string text = fmt::format("{:.3f} s  frame {}  {}x{}", model.time.seconds, model.time.frame,
+                                   model.extent.width, model.extent.height);
+    double total = 0;
+    for (const PictureField& picture : model.pictures)
+        if (picture.milliseconds) {
+            text += fmt::format("  {} {:.2f} ms", picture.name, *picture.milliseconds);
+            total += *picture.milliseconds;
+        }
+    text += fmt::format("  all {:.2f} ms", total);
+    draw_text(text);
+}
+
+} // namespace
+
+float draw_time_bar(Model& model, const Surface& surface, Commands& commands) {
+    const auto width = float(surface.extent.width);
+    ImGui::SetNextWindowPos({0, float(surface.extent.height)}, ImGuiCond_Always, {0, 1});
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, float(surface.extent.height)});
+    constexpr auto k_plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                             ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
+    ImGui::Begin("Time", nullptr, k_plain);
+    if (model.time.stepping)
+        draw_stepping(*model.time.stepping, commands);
+    else
+        draw_clock(model.time, commands);
+    draw_status(model);
+    const float height = ImGui::GetWindowHeight();
+    ImGui::End();
+    return height;
+}
+
+} // namespace tidemark::live

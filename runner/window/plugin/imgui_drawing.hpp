@@ -1,0 +1,83 @@
+// Draws text from users or their files, cut to a length that any screen can show. Dear ImGui aborts the
+// program at more than 16,384 characters in one call.
+#pragma once
+
+#include "base/encoding.hpp"
+#include "window/plugin/panels.hpp"
+
+#include <imgui.h>
+
+#include <string>
+#include <string_view>
+
+namespace tidemark::live {
+
+/// Returns at most 2,000 bytes of a text, for a label or a line.
+inline std::string shown(std::string_view text) {
+    constexpr size_t k_most_bytes = 2000;
+    return cut_text(text, k_most_bytes);
+}
+
+inline void draw_text(std::string_view text) {
+    ImGui::TextUnformatted(shown(text).c_str());
+}
+
+/// Draws a text wrapped to the panel's width.
+inline void draw_wrapped(std::string_view text) {
+    ImGui::PushTextWrapPos(0);
+    draw_text(text);
+    ImGui::PopTextWrapPos();
+}
+
+inline void draw_coloured(const ImVec4& colour, std::string_view text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    draw_text(text);
+    ImGui::PopStyleColor();
+}
+
+// The panel at the left, with everything that can be set.
+
+/// Draws the panel. Applies edits to the model and adds a command for each.
+void draw_controls(Model& model, const Surface& surface, Commands& commands);
+
+// The pictures that passes draw and read: thumbnails to choose from, and one large picture.
+
+void draw_thumbnails(const Model& model, const Surface& surface, Commands& commands);
+/// Draws a picture below all panels, as large as the window allows.
+void draw_large(const PictureField& picture, const Surface& surface);
+
+// The bar at the bottom: time, and the cost of a frame.
+
+/// Draws the bar and returns its height in pixels.
+float draw_time_bar(Model& model, const Surface& surface, Commands& commands);
+
+} // namespace tidemark::live
+
+// The panel at the bottom, with the errors of the scene.
+
+struct ImFont;
+
+namespace tidemark::live {
+
+struct ErrorLayout {
+    ImFont* large;    ///< for the first error
+    float bottom = 0; ///< pixels at the bottom edge that the time bar takes
+};
+
+void draw_errors(const Model& model, const Surface& surface, const ErrorLayout& layout, Commands& commands);
+
+// The panel in the middle, with the effects of keys and mouse.
+
+void draw_help(const Model& model, const Surface& surface);
+
+// The panel next to the pointer: the surrounding pixels, enlarged, and the values that passes wrote into the
+// one under it.
+
+void draw_magnifier(const MagnifierField& magnifier, const Surface& surface);
+
+// The panel in the upper right corner: how long the current frame has taken, and its progress. Takes no
+// events.
+
+void draw_clock(const std::string& text, const Surface& surface);
+
+} // namespace tidemark::live

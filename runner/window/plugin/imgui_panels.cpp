@@ -1,0 +1,308 @@
+// Passes window events on to Dear ImGui: 1.86, which reads a state, or 1.89 and later, which have a queue.
+
+#include "base/overloaded.hpp"
+#include "host/input_events.hpp"
+#include "host/overlay_model.hpp"
+#include "window/plugin/imgui_drawing.hpp"
+#include "window/plugin/panels.hpp"
+
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+struct ImGuiIO;
+
+namespace tidemark::live {
+
+/// Maps Tidemark's keys to those of Dear ImGui; called once, before the first frame.
+void set_up_input(ImGuiIO& io);
+
+/// Passes one event on. `height` of the framebuffer: Tidemark counts pixels from the bottom, Dear ImGui from
+/// the top.
+void feed(ImGuiIO& io, const platform::InputEvent& event, int height);
+
+/// Releases all keys and buttons and moves the pointer outside.
+void release_all(ImGuiIO& io);
+
+} // namespace tidemark::live
+
+// The panels, drawn by Dear ImGui through its OpenGL 3 back end. Only one object may exist at a time.
+
+struct ImFont;
+
+namespace tidemark::live {
+
+class ImGuiPanels : public Panels {
+public:
+    ImGuiPanels();
+    ~ImGuiPanels() override;
+    ImGuiPanels(const ImGuiPanels&) = delete;
+    ImGuiPanels& operator=(const ImGuiPanels&) = delete;
+
+    void show(Model model, const Surface& surface) override;
+    bool take(const platform::InputEvent& event) override;
+    void draw() override;
+    Commands take_commands() override;
+    void release_all() override;
+
+private:
+    void run();
+    void adopt(double scale);
+
+    Model model_;
+    Surface surface_{{1, 1}, 0};
+    ImFont* large_ = nullptr;
+    Commands commands_;
+    EventOwner owner_;
+    std::chrono::steady_clock::time_point ran_at_ = std::chrono::steady_clock::now();
+};
+
+namespace {
+
+using platform::Key;
+
+// Dear ImGui 1.87 replaced the state that a program fills (KeyMap, KeysDown) by a queue of events. Debian 12
+// has 1.86, Debian 13 has 1.90; the functions below hide the difference.
+#if IMGUI_VERSION_NUM < 18700
+using KeyName = ImGuiKey_;
+
+void set_key_state(ImGuiIO& io, KeyName, Key key, bool down) {
+    io.KeysDown[size_t(key)] = down;
+}
+void set_modifier(ImGuiIO& io, Key key, bool down) {
+    (key == Key::control ? io.KeyCtrl : key == Key::shift ? io.KeyShift : io.KeyAlt) = down;
+}
+void set_pointer(ImGuiIO& io, float x, float y) {
+    io.MousePos = {x, y};
+}
+void set_button(ImGuiIO& io, int button, bool down) {
+    io.MouseDown[button] = down;
+}
+void add_wheel(ImGuiIO& io, float right, float up) {
+    io.MouseWheel += up;
+    io.MouseWheelH += right;
+}
+#else
+using KeyName = ImGuiKey;
+
+void set_key_state(ImGuiIO& io, KeyName name, Key, bool down) {
+    io.AddKeyEvent(name, down);
+}
+void set_modifier(ImGuiIO& io, Key key, bool down) {
+    io.AddKeyEvent(key == Key::control ? ImGuiMod_Ctrl
+                   : key == Key::shift ? ImGuiMod_Shift
+                                       : ImGuiMod_Alt,
+                   down);
+}
+void set_pointer(ImGuiIO& io, float x, float y) {
+    io.AddMousePosEvent(x, y);
+}
+void set_button(ImGuiIO& io, int button, bool down) {
+    io.AddMouseButtonEvent(button, down);
+}
+void add_wheel(ImGuiIO& io, float right, float up) {
+    io.AddMouseWheelEvent(right, up);
+}
+#endif
+
+/// The keys that text fields use.
+constexpr std::pair<KeyName, Key> k_keys[] = {
+    {ImGuiKey_Tab, Key::tab},
+    {ImGuiKey_LeftArrow, Key::left},
+    {ImGuiKey_RightArrow, Key::right},
+    {ImGuiKey_UpArrow, Key::up},
+    {ImGuiKey_DownArrow, Key::down},
+    {ImGuiKey_Home, Key::home},
+    {ImGuiKey_End, Key::end},
+    {ImGuiKey_Delete, Key::del},
+    {ImGuiKey_Backspace, Key::backspace},
+    {ImGuiKey_Enter, Key::enter},
+    {ImGuiKey_Escape, Key::escape},
+    {ImGuiKey_A, Key::a},
+    {ImGuiKey_C, Key(67)},
+    {ImGuiKey_V, Key(86)},
+    {ImGuiKey_X, Key(88)},
+    {ImGuiKey_Y, Key(89)},
+    {ImGuiKey_Z, Key::z},
+};
+
+void set_key(ImGuiIO& io, Key key, bool down) {
+    if (key == Key::control || key == Key::shift || key == Key::alt)
+        set_modifier(io, key, down);
+    else if (const auto named = std::ranges::find(k_keys, key, &std::pair<KeyName, Key>::second);
+             named != std::end(k_keys))
+        // Pass keys only to text fields: Dear ImGui has shortcuts of its own that Tidemark does not offer.
+        set_key_state(io, named->first, key, down && io.WantTextInput);
+}
+
+} // namespace
+
+void set_up_input(ImGuiIO& io) {
+#if IMGUI_VERSION_NUM < 18700
+    for (const auto& [name, key] : k_keys)
+        io.KeyMap[name] = platform::js_key_code(key);
+#else
+    // Handle all events of a frame in that frame: an idle window does not draw a second one for the
+    // remainder.
+    io.ConfigInputTrickleEventQueue = false;
+#endif
+}
+
+void feed(ImGuiIO& io, const platform::InputEvent& event, int height) {
+    const auto point = [&](const platform::PointerPosition& at) {
+        set_pointer(io, float(at.x), float(height - at.y));
+    };
+    std::visit(
+        Overloaded{
+            [&](const platform::PointerMoved& moved) { point(moved.at); },
+            [&](const platform::ButtonPressed& pressed) {
+                point(pressed.at);
+                set_button(io, int(pressed.button), true);
+            },
+            [&](const platform::ButtonReleased& released) { set_button(io, int(released.button), false); },
+            [&](const platform::WheelTurned& turned) {
+                add_wheel(io, float(turned.right), float(turned.up));
+            },
+            [&](const platform::KeyPressed& pressed) { set_key(io, pressed.key, true); },
+            [&](const platform::KeyReleased& released) { set_key(io, released.key, false); },
+            [&](const platform::TextTyped& typed) {
+                if (io.WantTextInput)
+                    io.AddInputCharacter(typed.character);
+            },
+            [](const auto&) {},
+        },
+        event);
+}
+
+void release_all(ImGuiIO& io) {
+    for (int button = 0; button < ImGuiMouseButton_COUNT; ++button)
+        set_button(io, button, false);
+    for (const auto& [name, key] : k_keys)
+        set_key_state(io, name, key, false);
+    for (const Key modifier : {Key::control, Key::shift, Key::alt})
+        set_modifier(io, modifier, false);
+    set_pointer(io, -FLT_MAX, -FLT_MAX);
+}
+
+namespace {
+
+/// The size at which Dear ImGui's own font has whole pixels.
+constexpr double k_font_pixels = 13;
+
+/// Relative font size of the first error.
+constexpr double k_large = 1.5;
+
+ImFont* add_font(double scale) {
+    ImFontConfig font;
+    font.SizePixels = float(std::max(1.0, std::round(k_font_pixels * scale)));
+    return ImGui::GetIO().Fonts->AddFontDefault(&font);
+}
+
+constexpr const char* k_glsl_version = "#version 450 core";
+
+} // namespace
+
+ImGuiPanels::ImGuiPanels() {
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr; // no settings file
+    set_up_input(io);
+    ImGui_ImplOpenGL3_Init(k_glsl_version);
+}
+
+ImGuiPanels::~ImGuiPanels() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui::DestroyContext();
+}
+
+/// Scales the widgets and the font to another pixel density.
+void ImGuiPanels::adopt(double scale) {
+    ImGuiStyle style;
+    ImGui::StyleColorsDark(&style);
+    style.WindowRounding = style.FrameRounding = 3;
+    style.Colors[ImGuiCol_WindowBg].w = 0.85F;
+    style.ScaleAllSizes(float(scale));
+    ImGui::GetStyle() = style;
+    ImGuiIO& io = ImGui::GetIO();
+    io.Fonts->Clear();
+    add_font(scale);
+    large_ = add_font(k_large * scale);
+    ImGui_ImplOpenGL3_DestroyDeviceObjects(); // the next frame creates them again, with that font
+}
+
+void ImGuiPanels::show(Model model, const Surface& surface) {
+    if (surface.scale != surface_.scale)
+        adopt(surface.scale);
+    surface_ = surface;
+    keep_changing(model_.definitions, model.definitions);
+    model_ = std::move(model);
+}
+
+/// Runs Dear ImGui after each event, so that a press and its release within one frame are both seen, and hit
+/// tests use the current layout.
+bool ImGuiPanels::take(const platform::InputEvent& event) {
+    ImGuiIO& io = ImGui::GetIO();
+    const bool typing = io.WantTextInput; // the key that ends typing still belongs to the field
+    feed(io, event, surface_.extent.height);
+    run();
+    run(); // the result of the first run is needed to know whether a field has the keyboard
+    return owner_.take(event, {io.WantCaptureMouse, typing});
+}
+
+void ImGuiPanels::run() {
+    const auto now = std::chrono::steady_clock::now();
+    constexpr float k_shortest = 1e-5F; // Dear ImGui divides by it
+    ImGuiIO& io = ImGui::GetIO();
+    io.DeltaTime =
+        std::max(k_shortest, std::chrono::duration<float>(now - std::exchange(ran_at_, now)).count());
+    io.DisplaySize = {float(surface_.extent.width), float(surface_.extent.height)};
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::NewFrame();
+    float bottom = 0;
+    if (model_.controls) {
+        if (model_.large)
+            draw_large(model_.pictures[*model_.large], surface_);
+        draw_controls(model_, surface_, commands_);
+        bottom = draw_time_bar(model_, surface_, commands_);
+    }
+    if (!model_.errors.empty())
+        draw_errors(model_, surface_, {large_, bottom}, commands_);
+    if (!model_.help.empty())
+        draw_help(model_, surface_);
+    if (model_.magnifier)
+        draw_magnifier(*model_.magnifier, surface_);
+    if (!model_.clock.empty())
+        draw_clock(model_.clock, surface_);
+    ImGui::Render();
+}
+
+void ImGuiPanels::draw() {
+    run();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+Commands ImGuiPanels::take_commands() {
+    return std::exchange(commands_, {});
+}
+
+void ImGuiPanels::release_all() {
+    live::release_all(ImGui::GetIO());
+    owner_.release_all();
+}
+
+namespace {
+
+const PanelsPlugIn k_plug_in{k_panels_version,
+                             []() -> std::unique_ptr<Panels> { return std::make_unique<ImGuiPanels>(); }};
+
+} // namespace
+} // namespace tidemark::live
+
+extern "C" __attribute__((visibility("default"))) const void* tidemark_panels() {
+    return &tidemark::live::k_plug_in;
+}

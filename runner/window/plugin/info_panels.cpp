@@ -1,0 +1,181 @@
+#include "window/plugin/imgui_drawing.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace tidemark::live {
+namespace {
+
+const ImVec4 k_red{1, 0.45F, 0.4F, 1};
+const ImVec4 k_grey{0.7F, 0.7F, 0.7F, 1};
+
+/// Draws the place as a link, the source line, and a mark under the column.
+void draw_place(const ErrorField& error, Commands& commands) {
+    const SourceLocation& where = error.diagnostic.where;
+    if (where.file.empty())
+        return;
+    std::string place = where.file;
+    for (const int number : {where.line, where.column})
+        if (number > 0)
+            place += fmt::format(":{}", number);
+    if (ImGui::SmallButton(shown(place).c_str()))
+        commands.emplace_back(OpenEditor{where});
+    if (error.line.empty())
+        return;
+    const float character = ImGui::CalcTextSize("m").x;
+    const Excerpt excerpt = excerpt_of(error.line, where.column,
+                                       size_t(std::max(ImGui::GetContentRegionAvail().x / character, 1.0F)));
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+    draw_text(excerpt.text);
+    draw_coloured(k_red, excerpt.mark);
+    ImGui::PopStyleVar();
+}
+
+void draw_first(const ErrorField& error, ImFont* large, Commands& commands) {
+    ImGui::PushFont(large);
+    ImGui::PushStyleColor(ImGuiCol_Text, k_red);
+    draw_wrapped(error.diagnostic.message);
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+    draw_place(error, commands);
+}
+
+void draw_others(const std::vector<ErrorField>& errors, Commands& commands) {
+    if (errors.size() < 2 || !ImGui::TreeNode("more", "%zu more", errors.size() - 1))
+        return;
+    for (size_t i = 1; i < errors.size(); ++i) {
+        ImGui::PushID(int(i));
+        ImGui::PushStyleColor(ImGuiCol_Text,
+                              errors[i].diagnostic.severity == Severity::error ? k_red : k_grey);
+        draw_wrapped(errors[i].diagnostic.message);
+        ImGui::PopStyleColor();
+        draw_place(errors[i], commands);
+        ImGui::PopID();
+    }
+    ImGui::TreePop();
+}
+
+} // namespace
+
+void draw_errors(const Model& model, const Surface& surface, const ErrorLayout& layout, Commands& commands) {
+    constexpr double k_margin = 8;
+    const auto margin = float(k_margin * surface.scale);
+    const auto width = float(surface.extent.width) - 2 * margin;
+    const auto bottom = float(surface.extent.height) - layout.bottom - margin;
+    ImGui::SetNextWindowPos({margin, bottom}, ImGuiCond_Always, {0, 1});
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, bottom - margin});
+    constexpr auto k_plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                             ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
+    if (ImGui::Begin("Errors", nullptr, k_plain & ~ImGuiWindowFlags_NoScrollbar)) {
+        draw_first(model.errors.front(), layout.large, commands);
+        draw_others(model.errors, commands);
+    }
+    ImGui::End();
+}
+
+void draw_help(const Model& model, const Surface& surface) {
+    constexpr double k_width = 620; // the longest row takes two lines
+    const ImVec2 all(float(surface.extent.width), float(surface.extent.height));
+    ImGui::SetNextWindowPos({all.x / 2, all.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+    const float width = std::min(all.x, float(k_width * surface.scale));
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, all.y});
+    constexpr auto k_plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                             ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
+    if (ImGui::Begin("Help", nullptr, k_plain & ~ImGuiWindowFlags_NoScrollbar)) {
+        if (ImGui::BeginTable("keys", 2)) {
+            ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed);
+            ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthStretch);
+            for (const HelpRow& row : model.help) {
+                ImGui::TableNextColumn();
+                draw_text(row.keys);
+                ImGui::TableNextColumn();
+                draw_wrapped(row.meaning);
+            }
+            ImGui::EndTable();
+        }
+        draw_wrapped(model.help_footer);
+    }
+    ImGui::End();
+}
+
+namespace {
+
+constexpr double k_cell = 12;
+
+void draw_cells(const MagnifierField& magnifier, float cell) {
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const int columns = magnifier.cells.width, rows = magnifier.cells.height;
+    const auto corner = [&](int column, int row) {
+        return ImVec2(from.x + float(column) * cell, from.y + float(rows - row) * cell);
+    };
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column)
+            if (const auto& colour = magnifier.colours[size_t(row * columns + column)])
+                list.AddRectFilled(corner(column, row + 1), corner(column + 1, row),
+                                   IM_COL32((*colour)[0], (*colour)[1], (*colour)[2], 255));
+    // Draw two frames, so that one is visible on any colour.
+    const ImVec2 low = corner(columns / 2, rows / 2 + 1);
+    const ImVec2 high = corner(columns / 2 + 1, rows / 2);
+    list.AddRect({low.x - 1, low.y - 1}, {high.x + 1, high.y + 1}, IM_COL32_BLACK);
+    list.AddRect(low, high, IM_COL32_WHITE);
+    ImGui::Dummy({float(columns) * cell, float(rows) * cell});
+}
+
+void draw_value(const PixelValue& value, float column) {
+    draw_text(value.pass);
+    const auto row = [&](std::string (*text)(float)) {
+        for (size_t i = 0; i < value.channels.size(); ++i) {
+            if (i > 0)
+                ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + float(i) * column);
+            ImGui::TextUnformatted(text(value.channels[i]).c_str());
+        }
+    };
+    row(number_text);
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    row(bits_text);
+    ImGui::PopStyleColor();
+}
+
+/// Returns the panel's position: next to the pointer, on the side with room, within the window.
+ImVec2 place_of(const MagnifierField& magnifier, const Surface& surface, ImVec2 size) {
+    constexpr double k_away = 20;
+    const auto away = float(k_away * surface.scale);
+    const ImVec2 all(float(surface.extent.width), float(surface.extent.height));
+    const ImVec2 pointer(float(magnifier.pointer.x), all.y - float(magnifier.pointer.y));
+    const auto beside = [away](float at, float length, float end) {
+        const float place = at + away + length <= end ? at + away : at - away - length;
+        return std::clamp(place, 0.0F, std::max(0.0F, end - length));
+    };
+    return {beside(pointer.x, size.x, all.x), beside(pointer.y, size.y, all.y)};
+}
+
+} // namespace
+
+void draw_magnifier(const MagnifierField& magnifier, const Surface& surface) {
+    constexpr auto k_plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                             ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
+    const float column = ImGui::CalcTextSize("-1.234567e-05 ").x;
+    if (ImGui::Begin("Magnifier", nullptr, k_plain)) {
+        draw_cells(magnifier, float(k_cell * surface.scale));
+        ImGui::TextUnformatted(fmt::format("pixel {},{}", magnifier.x, magnifier.y).c_str());
+        for (const PixelValue& value : magnifier.values)
+            draw_value(value, column);
+        ImGui::SetWindowPos(place_of(magnifier, surface, ImGui::GetWindowSize()));
+    }
+    ImGui::End();
+}
+
+void draw_clock(const std::string& text, const Surface& surface) {
+    const auto margin = float(8 * surface.scale);
+    ImGui::SetNextWindowPos({float(surface.extent.width) - margin, margin}, ImGuiCond_Always, {1, 0});
+    constexpr auto k_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                             ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
+    if (ImGui::Begin("Clock", nullptr, k_flags))
+        draw_text(text);
+    ImGui::End();
+}
+
+} // namespace tidemark::live

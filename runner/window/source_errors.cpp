@@ -1,0 +1,168 @@
+#include "window/source_errors.hpp"
+
+#include "base/encoding.hpp"
+#include "base/file.hpp"
+#include "base/mapped_text.hpp"
+#include "base/process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <thread>
+#include <utility>
+
+namespace tidemark::cli {
+namespace {
+
+/// Returns the source line as the author wrote it; empty if it cannot be read.
+std::string line_at(const SourceLocation& where) {
+    const auto file = where.line > 0 ? read_text_file(where.file) : Result<std::string>("");
+    const std::string text = file ? text::with_plain_line_ends(*file) : "";
+    size_t begin = 0;
+    for (int line = 1; line < where.line && begin < text.size(); ++line)
+        begin = std::min(text.find('\n', begin), text.size() - 1) + 1;
+    return begin < text.size() ? text.substr(begin, text.find('\n', begin) - begin) : "";
+}
+
+/// Returns the fields in order of importance: the first error with its notes, then the other diagnostics,
+/// then the message about the whole scene. A diagnostic at the same place as the one before has no source
+/// line.
+std::vector<live::ErrorField> fields_of(const Error& error) {
+    std::vector<live::ErrorField> fields;
+    const SourceLocation* before = nullptr;
+    for (const Diagnostic& diagnostic : error.diagnostics) {
+        const bool again = before && diagnostic.where == *before;
+        fields.push_back({diagnostic, again ? "" : line_at(diagnostic.where)});
+        before = &diagnostic.where;
+    }
+    const auto first = std::ranges::find_if(fields, [](const live::ErrorField& field) {
+        return field.diagnostic.severity == Severity::error && field.diagnostic.where.line > 0;
+    });
+    if (first != fields.end())
+        std::rotate(fields.begin(), first,
+                    std::find_if(first + 1, fields.end(), [](const live::ErrorField& field) {
+                        return field.diagnostic.severity != Severity::note;
+                    }));
+    if (!error.message.empty())
+        fields.insert(first == fields.end() ? fields.begin() : fields.end(),
+                      {{{}, Severity::error, error.message}});
+    return fields;
+}
+
+} // namespace
+
+bool ErrorBoard::show(const Error* error) {
+    std::string text = error ? to_string(*error) : "";
+    if (text == text_)
+        return false;
+    text_ = std::move(text);
+    fields_ = error ? fields_of(*error) : std::vector<live::ErrorField>{};
+    return true;
+}
+
+namespace {
+
+/// The argument formats for a line and a column.
+enum class Form { plus_line, file_colon, goto_file_colon, options };
+
+struct KnownEditor {
+    std::string_view name;
+    Form form;
+    bool in_terminal;
+};
+
+constexpr KnownEditor k_editors[] = {
+    {"code", Form::goto_file_colon, false},
+    {"codium", Form::goto_file_colon, false},
+    {"cursor", Form::goto_file_colon, false},
+    {"subl", Form::file_colon, false},
+    {"zed", Form::file_colon, false},
+    {"kate", Form::options, false},
+    {"hx", Form::file_colon, true},
+    {"helix", Form::file_colon, true},
+    {"vi", Form::plus_line, true},
+    {"vim", Form::plus_line, true},
+    {"nvim", Form::plus_line, true},
+    {"nano", Form::plus_line, true},
+    {"kak", Form::plus_line, true},
+    {"micro", Form::plus_line, true},
+};
+
+/// Returns the editor's entry; the most common format for an unknown editor.
+KnownEditor known(std::string_view program) {
+    const std::string name = std::filesystem::path(program).filename().string();
+    const auto* found = std::ranges::find(k_editors, name, &KnownEditor::name);
+    return found == std::end(k_editors) ? KnownEditor{"", Form::plus_line, false} : *found;
+}
+
+std::vector<std::string> place_words(Form form, const SourceLocation& where) {
+    const int line = std::max(where.line, 1);
+    const int column = std::max(where.column, 1);
+    const std::string place = fmt::format("{}:{}:{}", where.file, line, column);
+    switch (form) {
+    case Form::file_colon: return {place};
+    case Form::goto_file_colon: return {"--goto", place};
+    case Form::options: return {"-l", fmt::format("{}", line), "-c", fmt::format("{}", column), where.file};
+    case Form::plus_line: return {fmt::format("+{}", line), where.file};
+    }
+    return {};
+}
+
+/// Starts the program in a session of its own, without access to our terminal. Returns 0 or an errno value.
+int spawn(const std::vector<std::string>& words, pid_t& child) {
+    const std::vector<char*> arguments = argument_pointers(words);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        posix_spawn_file_actions_addopen(&files, descriptor, "/dev/null", O_RDWR, 0);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
+    const int error = ::posix_spawnp(&child, arguments[0], &files, &attributes, arguments.data(), environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&files);
+    return error;
+}
+
+const char* chosen_editor() {
+    for (const char* variable : {"VISUAL", "EDITOR"})
+        if (const char* value = std::getenv(variable); value && *value)
+            return value;
+    return nullptr;
+}
+
+} // namespace
+
+std::vector<std::string> editor_words(std::string_view editor, const SourceLocation& where) {
+    std::vector<std::string> words = split_words(editor);
+    if (words.empty())
+        return words;
+    const KnownEditor kind = known(words.front());
+    for (std::string& word : place_words(kind.form, where))
+        words.push_back(std::move(word));
+    if (kind.in_terminal)
+        words.insert(words.begin(), {"x-terminal-emulator", "-e"});
+    return words;
+}
+
+Result<void> open_editor(const SourceLocation& where) {
+    const char* editor = chosen_editor();
+    const auto words = editor_words(editor ? editor : "", where);
+    if (words.empty())
+        return fail(ErrorCode::usage, "no editor to open: set VISUAL or EDITOR, as in VISUAL='code --wait'");
+    pid_t child = 0;
+    if (const int error = spawn(words, child); error != 0)
+        return fail(ErrorCode::usage,
+                    fmt::format("cannot start the editor '{}': {}", words.front(), std::strerror(error)));
+    std::thread([child] { ::waitpid(child, nullptr, 0); }).detach(); // prevents a zombie
+    return {};
+}
+
+} // namespace tidemark::cli

@@ -1,0 +1,211 @@
+#include "window/stage.hpp"
+
+#include "base/error.hpp"
+#include "host/program_trial.hpp"
+#include "shader/driver_load.hpp"
+#include "window/screen.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <string_view>
+#include <system_error>
+
+namespace tidemark::cli {
+namespace {
+
+constexpr auto k_settled = glsl::Specialise::invariant_uniforms;
+
+/// Idle time before background optimisation: a user who edits a scene saves and drags more often.
+constexpr double k_shortest_rest_seconds = 2;
+/// Idle time for each second of compiling. A trial compiles the scene twice, which is then a tenth of the
+/// idle time.
+constexpr double k_rest_per_second_of_compiling = 20;
+
+} // namespace
+
+Result<Stage> Stage::create(platform::SharedContext context, scene::Scene scene,
+                            const render::RenderOptions& options, const render::FrameInputs& first) {
+    TRY(context.make_current());
+    const double start = now_seconds();
+    auto renderer = TRY(render::Renderer::create(std::move(scene), options));
+    renderer.warm_up(first);
+    const double compiling = now_seconds() - start;
+    const bool worth_settling = worth_trying(renderer, k_settled);
+    context.leave();
+    Stage stage(std::move(context), std::make_unique<render::Renderer>(std::move(renderer)));
+    if (worth_settling)
+        stage.seconds_to_settle_ =
+            std::max(k_shortest_rest_seconds, k_rest_per_second_of_compiling * compiling);
+    return stage;
+}
+
+Result<Stage> Stage::settle(platform::SharedContext context, const scene::Scene& scene,
+                            const render::RenderOptions& options, const render::FrameInputs& shown) {
+    TRY(context.make_current());
+    render::RenderOptions settled = options;
+    settled.specialise = k_settled;
+    TrialPlan plan{shown, shown, std::numeric_limits<size_t>::max()};
+    plan.first.frame = 0; // buffers begin at frame 0
+    plan.first.time = 0;
+    plan.first.date = render::later(shown.date, -shown.time);
+    plan.in_window = true;
+    auto trial = TRY(choose_program(scene, settled, plan));
+    if (!trial.share)
+        return fail(ErrorCode::check_failed, "the specialised program is no better");
+    context.leave();
+    Stage stage(std::move(context), std::make_unique<render::Renderer>(std::move(trial.renderer)));
+    stage.share_ = trial.share;
+    return stage;
+}
+
+Stage::~Stage() {
+    if (!renderer_)
+        return;
+    const platform::KeepCurrent current;
+    (void)context_.make_current(); // GL objects must be deleted in the context that owns them
+    renderer_.reset();
+}
+
+namespace {
+
+/// Returns whether threads may compile. Some drivers cannot compile and draw at once in shared contexts (see
+/// Dolphin's pull request 7276); with TIDEMARK_ASYNC_COMPILE=off the window waits for the compiler instead.
+bool compiles_on_threads() {
+    const char* const wish = std::getenv("TIDEMARK_ASYNC_COMPILE");
+    return !wish || std::string_view(wish) != "off";
+}
+
+/// Concurrent builds. Each keeps a core busy, and drawing needs one, too.
+constexpr size_t k_most_at_once = 3;
+
+Result<Stage> build(StageBuilder::Order order, const std::function<bool()>& unwanted) {
+    if (order.rehearsal && !order.settle && !glsl::is_modest(order.scene, order.options.precision))
+        TRY(order.rehearsal->try_out(order.held, unwanted));
+    if (unwanted()) // a cancelled try was not completed, so the scene must not reach the driver here
+        return fail(ErrorCode::load, "the scene is not wanted any more");
+    if (order.settle && !compiles_on_threads())
+        return fail(ErrorCode::check_failed, "the window would stand still for a trial");
+    if (order.settle)
+        return Stage::settle(std::move(order.context), order.scene, order.options, order.first);
+    return Stage::create(std::move(order.context), std::move(order.scene), order.options, order.first);
+}
+
+/// Turns exceptions into errors, so that the picture on show stays.
+Result<Stage> build_or_say_why(StageBuilder::Order order, const std::function<bool()>& unwanted) {
+    try {
+        return build(std::move(order), unwanted);
+    } catch (const std::exception& error) {
+        return fail(ErrorCode::load, fmt::format("the scene cannot be built: {}", error.what()));
+    }
+}
+
+} // namespace
+
+struct StageBuilder::Job {
+    std::mutex mutex;
+    bool abandoned = false;
+    bool done = false;
+    std::optional<Result<Stage>> outcome;
+};
+
+StageBuilder::~StageBuilder() {
+    abandon();
+    for (auto& [thread, job] : running_)
+        thread.join();
+}
+
+void StageBuilder::start(Order order) {
+    abandon();
+    sweep();
+    if (running_.size() < k_most_at_once)
+        launch(std::move(order));
+    else
+        waiting_.emplace(std::move(order));
+}
+
+void StageBuilder::launch(Order order) {
+    newest_ = std::make_shared<Job>();
+    auto work = [job = newest_, wake = wake_, order = std::move(order)]() mutable {
+        {
+            auto built = build_or_say_why(std::move(order), [&job] {
+                const std::lock_guard lock(job->mutex);
+                return job->abandoned;
+            });
+            const std::lock_guard lock(job->mutex);
+            if (!job->abandoned)
+                job->outcome.emplace(std::move(built));
+        } // destroys an abandoned Stage, before `done` is set
+        const std::lock_guard lock(job->mutex);
+        job->done = true;
+        wake();
+    };
+    if (!compiles_on_threads()) {
+        const platform::KeepCurrent current;
+        return work();
+    }
+    try {
+        std::thread thread(std::move(work));
+        running_.emplace_back(std::move(thread), newest_);
+    } catch (const std::system_error& no_thread) {
+        newest_->outcome.emplace(
+            fail(ErrorCode::load, fmt::format("no thread is to be had to compile on: {}", no_thread.what())));
+        wake_();
+    }
+}
+
+void StageBuilder::abandon() {
+    waiting_.reset();
+    if (!newest_)
+        return;
+    const std::lock_guard lock(newest_->mutex);
+    newest_->abandoned = true;
+    newest_->outcome.reset();
+    newest_ = nullptr;
+}
+
+std::optional<Result<Stage>> StageBuilder::take() {
+    sweep();
+    if (waiting_ && running_.size() < k_most_at_once) {
+        launch(*std::move(waiting_));
+        waiting_.reset();
+    }
+    if (!newest_)
+        return std::nullopt;
+    std::optional<Result<Stage>> outcome;
+    {
+        const std::lock_guard lock(newest_->mutex);
+        if (!newest_->outcome)
+            return std::nullopt;
+        outcome.emplace(*std::move(newest_->outcome));
+        newest_->outcome.reset();
+    }
+    newest_ = nullptr;
+    return outcome;
+}
+
+/// Removes threads that have finished.
+void StageBuilder::sweep() {
+    std::erase_if(running_, [](auto& running) {
+        {
+            const std::lock_guard lock(running.second->mutex);
+            if (!running.second->done)
+                return false;
+        }
+        running.first.join();
+        return true;
+    });
+}
+
+bool StageBuilder::busy() const {
+    return std::any_of(running_.begin(), running_.end(), [](const auto& running) {
+        const std::lock_guard lock(running.second->mutex);
+        return !running.second->done;
+    });
+}
+
+} // namespace tidemark::cli

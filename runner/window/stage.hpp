@@ -1,0 +1,102 @@
+// A Renderer with its OpenGL context: created and warmed up on any thread, then drawn on the window's. The
+// first one of a scene compiles the text as written; after idle time it may be replaced by an optimised
+// program with identical output.
+#pragma once
+
+#include "host/gl_context.hpp"
+#include "render/renderer.hpp"
+#include "window/rehearsal.hpp"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <vector>
+
+namespace tidemark::cli {
+
+class Stage {
+public:
+    /// Compiles the scene and makes the driver finish what it defers to the first draw. Meanwhile the context
+    /// is current on the calling thread; afterwards on none.
+    static Result<Stage> create(platform::SharedContext context, scene::Scene scene,
+                                const render::RenderOptions& options, const render::FrameInputs& first);
+    /// Returns an optimised program of the same scene that draws the same bytes in frame 0 and in `shown` and
+    /// takes clearly less time; fails if there is none, which need not be reported.
+    static Result<Stage> settle(platform::SharedContext context, const scene::Scene& scene,
+                                const render::RenderOptions& options, const render::FrameInputs& shown);
+    Stage(Stage&&) = default;
+    Stage& operator=(Stage&&) = delete;
+    /// Keeps the calling thread's current context.
+    ~Stage();
+
+    /// Makes the context current on the window's thread, to draw into the window.
+    Result<void> enter() { return context_.make_current_in_window(); }
+
+    render::Renderer& renderer() { return *renderer_; }
+    const render::Renderer& renderer() const { return *renderer_; }
+
+    /// Returns the idle time, in seconds, before background optimisation is worth trying; none: it never is.
+    std::optional<double> seconds_to_settle() const { return seconds_to_settle_; }
+    /// Returns the frame time of an optimised program as a share of the original's.
+    std::optional<double> share() const { return share_; }
+
+private:
+    Stage(platform::SharedContext context, std::unique_ptr<render::Renderer> renderer)
+        : context_(std::move(context)), renderer_(std::move(renderer)) {}
+
+    platform::SharedContext context_;
+    std::unique_ptr<render::Renderer> renderer_;
+    std::optional<double> seconds_to_settle_;
+    std::optional<double> share_;
+};
+
+// Builds Stages on worker threads, so that the window goes on while the driver compiles. Driver calls cannot
+// be interrupted: an abandoned build ends by itself, and its result is discarded.
+
+class StageBuilder {
+public:
+    /// The input of a build.
+    struct Order {
+        platform::SharedContext context;
+        scene::Scene scene;
+        render::RenderOptions options;
+        render::FrameInputs first;              ///< inputs of the first frame
+        bool settle = false;                    ///< Stage::settle instead of Stage::create
+        std::shared_ptr<Rehearsal> rehearsal{}; ///< tries heavy scenes first; null: no tries
+        HeldTexts held{};                       ///< the overrides in the scene
+    };
+
+    /// `wake` is called on another thread when `take` has a result.
+    explicit StageBuilder(std::function<void()> wake) : wake_(std::move(wake)) {}
+    /// Waits for all builds: see `busy`.
+    ~StageBuilder();
+    StageBuilder(StageBuilder&&) = default;
+    StageBuilder& operator=(StageBuilder&&) = delete;
+
+    /// Abandons the current build and starts another. The order waits if several abandoned builds still
+    /// occupy the driver.
+    void start(Order order);
+    void abandon();
+
+    /// Returns the result of the last order, once.
+    std::optional<Result<Stage>> take();
+
+    /// Returns whether an order is in progress or waits.
+    bool building() const { return newest_ != nullptr || waiting_.has_value(); }
+    /// Returns whether a thread is in the driver, perhaps for long. To exit at once then, the process must be
+    /// ended.
+    bool busy() const;
+
+private:
+    struct Job; ///< shared by its thread and this object
+    void launch(Order order);
+    void sweep();
+
+    std::function<void()> wake_;
+    std::vector<std::pair<std::thread, std::shared_ptr<Job>>> running_; ///< including abandoned ones
+    std::shared_ptr<Job> newest_;
+    std::optional<Order> waiting_;
+};
+
+} // namespace tidemark::cli

@@ -1,0 +1,2 @@
+#iChannel0 "Buffer A"
+void mainImage(out vec4 c, in vec2 p) { c = vec4(brightness); }

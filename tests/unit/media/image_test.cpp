@@ -1,0 +1,67 @@
+#include "media/image.hpp"
+#include "picture_support.hpp"
+
+#include <cstring>
+
+namespace tidemark::image::image_test {
+
+TEST(Image, flipped_exchanges_rows_and_keeps_their_order_inside) {
+    Image image({2, 3}, 1, SampleType::u8);
+    std::ranges::copy(std::initializer_list<uint8_t>{1, 2, 3, 4, 5, 6}, image.u8().begin());
+    const Image turned = flipped(image);
+    EXPECT_EQ(std::vector<uint8_t>(turned.u8().begin(), turned.u8().end()),
+              (std::vector<uint8_t>{5, 6, 3, 4, 1, 2}));
+    EXPECT_EQ(turned.extent, image.extent);
+}
+
+TEST(Image, flipping_twice_changes_nothing) {
+    for (const int channels : {1, 2, 3, 4}) {
+        const Image image = patterned_f32({5, 4}, channels);
+        EXPECT_NE(flipped(image), image);
+        EXPECT_EQ(flipped(flipped(image)), image);
+    }
+}
+
+TEST(Image, an_empty_picture_flips_to_itself) {
+    EXPECT_EQ(flipped(Image()), Image());
+}
+
+TEST(Image, alpha_is_opaque_when_every_pixel_has_one) {
+    for (const int channels : {2, 4}) {
+        Image bytes = opaque(patterned_u8({3, 3}, channels));
+        EXPECT_TRUE(has_opaque_alpha(bytes));
+        bytes.u8().back() = 254;
+        EXPECT_FALSE(has_opaque_alpha(bytes));
+        Image floats = opaque(patterned_f32({3, 3}, channels));
+        EXPECT_TRUE(has_opaque_alpha(floats));
+        floats.f32()[size_t(channels) - 1] = 1.0000001f;
+        EXPECT_FALSE(has_opaque_alpha(floats));
+    }
+}
+
+TEST(Image, a_picture_without_alpha_has_no_opaque_alpha) {
+    Image white({2, 2}, 3, SampleType::u8);
+    std::ranges::fill(white.u8(), uint8_t{255});
+    EXPECT_FALSE(has_opaque_alpha(white));
+    EXPECT_EQ(without_alpha(white), white);
+}
+
+TEST(Image, without_alpha_keeps_the_colours_in_place) {
+    Image image({2, 1}, 4, SampleType::u8);
+    std::ranges::copy(std::initializer_list<uint8_t>{1, 2, 3, 4, 5, 6, 7, 8}, image.u8().begin());
+    const Image colours = without_alpha(image);
+    EXPECT_EQ(colours.channels, 3);
+    EXPECT_EQ(std::vector<uint8_t>(colours.u8().begin(), colours.u8().end()),
+              (std::vector<uint8_t>{1, 2, 3, 5, 6, 7}));
+}
+
+TEST(Image, without_alpha_keeps_the_bits_of_a_nan) {
+    Image image({1, 1}, 2, SampleType::f32);
+    const uint32_t signalling = 0x7fa12345u;
+    std::memcpy(image.bytes.data(), &signalling, sizeof signalling);
+    uint32_t bits;
+    std::memcpy(&bits, without_alpha(image).bytes.data(), sizeof bits);
+    EXPECT_EQ(bits, signalling);
+}
+
+} // namespace tidemark::image::image_test

@@ -1,0 +1,52 @@
+#include "shader/tree_facts.hpp"
+#include "glsl_support.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tidemark::glsl::expression_type_test {
+
+/// Of what the function g returns; empty: nobody knows.
+std::string type_of(const std::string& expression) {
+    const auto read = parsed(
+        "uniform sampler2D s;\nuniform mat3 turn;\nstruct Ray { vec3 o; };\nfloat twice = 2.0;\n"
+        "vec2 own(vec2 p) { return p; }\nfloat two(int x) { return 1.0; }\nint two(float x) { return 1; }\n"
+        "void f(float twice) { vec4 v; float a[3]; Ray ray; float d; { vec2 d; } int n; }\n"
+        "float g(vec3 p, float x) { ivec2 i; float a[3]; Ray ray; return " +
+        expression + "; }\n");
+    const SyntaxTree& tree = read->tree();
+    const TreeFacts facts = find_facts(*read);
+    std::string found = "no return";
+    for (NodeId id = 1; id < tree.nodes.size(); ++id)
+        if (tree[id].kind == NodeKind::return_statement) {
+            const auto type = expression_type(*read, facts, tree.child(id, 0));
+            found = type ? to_string(*type) : "";
+        }
+    return found;
+}
+
+TEST(ExpressionType, IsWhatDeclarationsAndFunctionsSay) {
+    EXPECT_EQ(type_of("1.0"), "float");
+    EXPECT_EQ(type_of("p"), "vec3");
+    EXPECT_EQ(type_of("-p.xz"), "vec2");
+    EXPECT_EQ(type_of("2.0 * p"), "vec3");
+    EXPECT_EQ(type_of("turn * p"), "vec3");
+    EXPECT_EQ(type_of("(x > 1.0 ? p : p + 1.0)"), "vec3");
+    EXPECT_EQ(type_of("length(p)"), "float");
+    EXPECT_EQ(type_of("own(p.xy).yx"), "vec2");
+    EXPECT_EQ(type_of("texture(s, p.xy).rgb"), "vec3");
+    EXPECT_EQ(type_of("vec4(p, 1.0)"), "vec4");
+    EXPECT_EQ(type_of("fwidth(p)"), "vec3");
+    EXPECT_EQ(type_of("i + 1"), "ivec2");
+    EXPECT_EQ(type_of("twice"), "float"); // f has another one
+}
+
+TEST(ExpressionType, IsUnknownWhereTheyDoNot) {
+    EXPECT_EQ(type_of("ray"), "");
+    EXPECT_EQ(type_of("ray.o"), "");
+    EXPECT_EQ(type_of("a"), "");
+    EXPECT_EQ(type_of("two(1)"), ""); // its overloads differ
+    EXPECT_EQ(type_of("missing"), "");
+    EXPECT_EQ(type_of("missing(p)"), "");
+}
+
+} // namespace tidemark::glsl::expression_type_test

@@ -1,0 +1,79 @@
+#include "web/request.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace tidemark::serve::access_test {
+
+constexpr std::string_view k_token = "0123456789abcdef";
+constexpr std::string_view k_socket = "/socket?token=0123456789abcdef";
+
+Answer to(Knock knock) {
+    return answer_to(knock, k_token);
+}
+
+TEST(Access, lets_in_who_has_the_token) {
+    EXPECT_EQ(to({.target = "/?token=0123456789abcdef", .host = "127.0.0.1:8080"}), Answer::page);
+    EXPECT_EQ(to({.target = "/?a=b&token=0123456789abcdef", .host = "localhost:8080"}), Answer::page);
+    EXPECT_EQ(to({.target = k_socket, .host = "[::1]:8080", .origin = "http://[::1]:8080", .upgrade = true}),
+              Answer::socket);
+    EXPECT_EQ(to({.target = k_socket, .host = "localhost", .upgrade = true}), Answer::socket) << "no browser";
+}
+
+TEST(Access, refuses_whoever_has_not) {
+    for (const std::string_view target :
+         {"/", "/?token=", "/?token=0123456789abcdeX", "/?token=0123456789abcdef0",
+          "/?tokens=0123456789abcdef", "/socket", "", "?", "/elsewhere", "/?xtoken=0123456789abcdef"})
+        EXPECT_EQ(to({.target = target, .host = "localhost:8080"}), Answer::forbidden) << target;
+}
+
+TEST(Access, has_two_places) {
+    EXPECT_EQ(to({.target = "/x?token=0123456789abcdef", .host = "localhost"}), Answer::not_found);
+    EXPECT_EQ(to({.target = k_socket, .host = "localhost"}), Answer::not_found) << "no upgrade";
+    EXPECT_EQ(to({.target = "/?token=0123456789abcdef", .host = "localhost", .upgrade = true}),
+              Answer::not_found);
+}
+
+TEST(Access, refuses_pages_of_others) {
+    for (const std::string_view origin :
+         {"http://evil.example", "http://localhost:80", "null", "localhost:8080", "file://localhost:8080",
+          "http://localhost:8080.evil.example"})
+        EXPECT_EQ(to({.target = k_socket, .host = "localhost:8080", .origin = origin, .upgrade = true}),
+                  Answer::forbidden)
+            << origin;
+    EXPECT_EQ(to({.target = k_socket,
+                  .host = "localhost:8080",
+                  .origin = "http://localhost:8080",
+                  .upgrade = true}),
+              Answer::socket);
+}
+
+/// The page of a name that was turned to the loopback has itself for an origin.
+TEST(Access, refuses_names_that_were_turned_to_the_loopback) {
+    Knock knock{.target = k_socket, .host = "evil.example", .origin = "http://evil.example", .upgrade = true};
+    EXPECT_EQ(to(knock), Answer::forbidden);
+    knock.through_loopback = false;
+    EXPECT_EQ(to(knock), Answer::socket) << "what --host says is reached by many names";
+    EXPECT_EQ(to({.target = k_socket, .host = "127.evil.example", .upgrade = true}), Answer::forbidden);
+    EXPECT_EQ(to({.target = k_socket, .host = "", .upgrade = true}), Answer::forbidden);
+}
+
+TEST(Access, makes_tokens_that_differ) {
+    const auto one = make_token(), other = make_token();
+    ASSERT_TRUE(one && other);
+    EXPECT_THAT(*one, testing::MatchesRegex("[A-Za-z0-9_-]+"));
+    EXPECT_EQ(one->size(), 22u);
+    EXPECT_NE(*one, *other);
+    EXPECT_TRUE(check_token(*one));
+}
+
+TEST(Access, wants_tokens_that_nobody_guesses) {
+    EXPECT_FALSE(check_token("short"));
+    EXPECT_FALSE(check_token("0123456789abcdef&"));
+    EXPECT_FALSE(check_token(std::string(129, 'a')));
+    EXPECT_EQ(
+        check_token("secret").error().message,
+        "the token has 6 characters: give 16 to 128 letters, digits, - or _, as in `openssl rand -hex 16`");
+}
+
+} // namespace tidemark::serve::access_test

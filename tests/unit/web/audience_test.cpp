@@ -1,0 +1,326 @@
+#include "web/audience.hpp"
+#include "web/messages.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <latch>
+#include <mutex>
+
+namespace tidemark::serve::audience_test {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+struct AudienceTest : testing::Test {
+    Inbox inbox;
+    std::map<ViewerId, std::vector<std::string>> sent;
+    Audience audience = made(false);
+
+    Audience made(bool once) {
+        return Audience(
+            {.send = [this](ViewerId viewer,
+                            const SharedMessage& message) { sent[viewer].push_back(message->bytes); },
+             .once = once,
+             .film = true},
+            inbox);
+    }
+    /// As the encoder makes it for those who want it so; `before` 0: seen without the film before.
+    void show_film(uint32_t number, uint32_t before) {
+        const auto message = [&](const char* kind) {
+            return std::make_shared<Message>(Message{fmt::format("picture {} {}", number, kind), true});
+        };
+        audience.show(
+            {number, audience.wanted().whole ? message("whole") : nullptr, message("film"), before});
+    }
+    void show(uint32_t number) {
+        audience.show({number, std::make_shared<Message>(Message{fmt::format("picture {}", number), true})});
+    }
+    void seen(ViewerId viewer, uint32_t number) {
+        EXPECT_TRUE(audience.said(viewer, fmt::format(R"({{"do":"seen","number":{}}})", number)));
+    }
+    std::vector<std::string> pictures(ViewerId viewer) {
+        std::vector<std::string> found;
+        for (const std::string& message : sent[viewer])
+            if (message.starts_with("picture"))
+                found.push_back(message);
+        return found;
+    }
+    std::vector<platform::InputEvent> events() { return inbox.wait(0).events; }
+};
+
+constexpr std::string_view k_press = R"({"do":"press","button":"left","x":1,"y":2})";
+
+TEST_F(AudienceTest, one_that_is_slow_misses_pictures_and_holds_up_nobody) {
+    audience.came(1);
+    audience.came(2);
+    for (uint32_t number = 1; number <= 5; ++number) {
+        show(number);
+        seen(2, number);
+    }
+    EXPECT_THAT(pictures(1), ElementsAre("picture 1", "picture 2"));
+    EXPECT_THAT(pictures(2), ElementsAre("picture 1", "picture 2", "picture 3", "picture 4", "picture 5"));
+    seen(1, 1);
+    EXPECT_THAT(pictures(1), ElementsAre("picture 1", "picture 2", "picture 5"));
+    seen(1, 5);
+    EXPECT_THAT(pictures(1), testing::SizeIs(3)) << "there is no newer one";
+}
+
+constexpr std::string_view k_shows_film = R"({"do":"film","can":1})",
+                           k_shows_none = R"({"do":"film","can":0})";
+
+TEST_F(AudienceTest, a_film_goes_to_those_who_can_show_it_and_have_what_it_follows) {
+    audience.came(1);
+    audience.came(2);
+    EXPECT_TRUE(audience.wanted().whole);
+    EXPECT_FALSE(audience.wanted().film);
+    EXPECT_TRUE(audience.said(1, k_shows_film));
+    show_film(2, 0);
+    show_film(4, 2);
+    EXPECT_THAT(pictures(1), ElementsAre("picture 2 film", "picture 4 film"));
+    EXPECT_THAT(pictures(2), ElementsAre("picture 2 whole", "picture 4 whole"));
+    EXPECT_FALSE(audience.wanted().key) << "nobody who is ready lacks anything";
+    seen(2, 4);
+    show_film(6, 4); // the first is not ready
+    seen(1, 4);
+    EXPECT_THAT(pictures(1).back(), "picture 6 film") << "late, and nothing is missing";
+    show_film(8, 6);
+    show_film(10, 8);
+    seen(1, 8);
+    EXPECT_THAT(pictures(1).back(), "picture 10 film");
+}
+
+TEST_F(AudienceTest, whoever_missed_a_part_of_the_film_waits_for_one_that_needs_nothing) {
+    audience.came(1);
+    EXPECT_TRUE(audience.said(1, k_shows_film));
+    show_film(2, 0);
+    show_film(4, 2);
+    show_film(6, 4);
+    show_film(8, 6);
+    EXPECT_THAT(pictures(1), ElementsAre("picture 2 film", "picture 4 film"));
+    seen(1, 4);
+    EXPECT_THAT(pictures(1), testing::SizeIs(2)) << "8 follows 6, which it has not";
+    EXPECT_TRUE(audience.wanted().key);
+    show_film(10, 8);
+    EXPECT_THAT(pictures(1), testing::SizeIs(2));
+    show_film(12, 0);
+    EXPECT_THAT(pictures(1).back(), "picture 12 film");
+    EXPECT_TRUE(audience.said(1, k_shows_none));
+    EXPECT_TRUE(audience.wanted().whole);
+    show(13);
+    EXPECT_THAT(pictures(1).back(), "picture 13");
+    EXPECT_FALSE(audience.said(1, R"({"do":"film","can":2})"));
+}
+
+TEST_F(AudienceTest, a_picture_that_was_not_sent_is_not_seen) {
+    audience.came(1);
+    for (uint32_t number = 1; number <= 5; ++number) {
+        show(number);
+        seen(1, 2147483647);
+    }
+    EXPECT_THAT(pictures(1), ElementsAre("picture 1", "picture 2"));
+    seen(1, 2);
+    EXPECT_THAT(pictures(1).back(), "picture 5");
+}
+
+TEST_F(AudienceTest, those_who_wrestle_for_the_helm_drown_nobody) {
+    for (ViewerId viewer = 1; viewer <= 3; ++viewer)
+        audience.came(viewer);
+    sent.clear();
+    for (int i = 0; i < 10000; ++i)
+        EXPECT_TRUE(audience.said(ViewerId(1 + i % 2), R"({"do":"steer"})"));
+    EXPECT_THAT(sent[3].size(), testing::AllOf(testing::Ge(1u), testing::Lt(256u)))
+        << "what a connection holds";
+}
+
+TEST_F(AudienceTest, waits_while_somebody_is_ready) {
+    EXPECT_FALSE(audience.is_waiting());
+    audience.came(1);
+    EXPECT_TRUE(audience.is_waiting());
+    show(1);
+    EXPECT_TRUE(audience.is_waiting());
+    show(2);
+    EXPECT_FALSE(audience.is_waiting());
+    seen(1, 2);
+    EXPECT_TRUE(audience.is_waiting());
+}
+
+TEST_F(AudienceTest, newcomers_learn_what_there_is) {
+    audience.tell("title", std::make_shared<Message>(Message{"old"}));
+    audience.tell("title", std::make_shared<Message>(Message{"new"}));
+    show(1);
+    audience.came(1);
+    EXPECT_THAT(sent[1], ElementsAre("new", "picture 1", R"({"steering":{"you":true,"viewers":1}})"));
+}
+
+TEST_F(AudienceTest, the_first_steers_and_the_others_watch) {
+    audience.came(1);
+    audience.came(2);
+    EXPECT_EQ(sent[2].back(), R"({"steering":{"you":false,"viewers":2}})");
+    ASSERT_TRUE(audience.said(2, k_press));
+    EXPECT_THAT(events(), IsEmpty());
+    ASSERT_TRUE(audience.said(1, k_press));
+    EXPECT_THAT(events(), ElementsAre(platform::ButtonPressed{platform::Button::left, {1, 2}}));
+}
+
+TEST_F(AudienceTest, what_one_held_is_let_go_when_the_next_steers) {
+    audience.came(1);
+    audience.came(2);
+    ASSERT_TRUE(audience.said(1, k_press));
+    ASSERT_TRUE(audience.said(1, R"({"do":"keydown","code":65})"));
+    ASSERT_TRUE(audience.said(1, R"({"do":"move","x":5,"y":6})"));
+    events();
+    audience.left(1);
+    EXPECT_THAT(events(), ElementsAre(platform::ButtonReleased{platform::Button::left, {5, 6}},
+                                      platform::KeyReleased{platform::Key::a}));
+    EXPECT_EQ(sent[2].back(), R"({"steering":{"you":true,"viewers":1}})");
+    ASSERT_TRUE(audience.said(2, k_press));
+    EXPECT_THAT(events(), testing::SizeIs(1));
+}
+
+TEST_F(AudienceTest, whoever_asks_may_steer) {
+    audience.came(1);
+    audience.came(2);
+    ASSERT_TRUE(audience.said(1, k_press));
+    events();
+    ASSERT_TRUE(audience.said(2, R"({"do":"steer"})"));
+    EXPECT_THAT(events(), testing::SizeIs(1)) << "the first one's button goes up";
+    EXPECT_EQ(sent[1].back(), R"({"steering":{"you":false,"viewers":2}})");
+}
+
+TEST_F(AudienceTest, has_so_many_seats) {
+    for (ViewerId viewer = 1; viewer <= Audience::k_most_viewers; ++viewer)
+        EXPECT_TRUE(audience.came(viewer));
+    EXPECT_FALSE(audience.came(100));
+    audience.left(1);
+    EXPECT_TRUE(audience.came(101));
+}
+
+TEST_F(AudienceTest, ends_with_its_last_viewer_if_told) {
+    Audience once = made(true);
+    once.came(1);
+    once.came(2);
+    once.left(1);
+    EXPECT_THAT(events(), IsEmpty());
+    once.left(2);
+    EXPECT_THAT(events(), ElementsAre(platform::CloseRequested{}));
+}
+
+TEST_F(AudienceTest, a_flood_is_refused) {
+    audience.came(1);
+    Result<void> taken;
+    int count = 0;
+    while ((taken = audience.said(1, R"({"do":"pause"})")) && count < 100000)
+        ++count;
+    EXPECT_EQ(count, 4096) << "and no more";
+    EXPECT_EQ(taken.error().message, "too many messages at a time");
+}
+
+TEST_F(AudienceTest, a_pointer_that_moves_on_is_where_it_came_to) {
+    audience.came(1);
+    for (int x = 0; x < 10000; ++x)
+        ASSERT_TRUE(audience.said(1, fmt::format(R"({{"do":"move","x":{},"y":0}})", x)));
+    EXPECT_THAT(events(), ElementsAre(platform::PointerMoved{{9999, 0}}));
+}
+
+TEST(PictureEncoder, takes_the_newest) {
+    std::latch begun(1), go_on(1), done(2);
+    std::vector<uint32_t> numbers;
+    PictureEncoder encoder({.whole =
+                                [&, first = true](const image::Image&) mutable {
+                                    if (std::exchange(first, false)) {
+                                        begun.count_down();
+                                        go_on.wait();
+                                    }
+                                    return std::string("file");
+                                },
+                            .film = [](const image::Image&, bool) { return std::string("film"); },
+                            .wanted = [] { return WantedCodings{.whole = true}; },
+                            .done =
+                                [&](const NumberedPicture& picture) {
+                                    numbers.push_back(picture.number);
+                                    EXPECT_TRUE(picture.message->bytes.ends_with("}file"));
+                                    EXPECT_EQ(picture.film, nullptr);
+                                    done.count_down();
+                                }});
+    encoder.push({{}, {.number = 1}});
+    begun.wait();
+    EXPECT_TRUE(encoder.has_room());
+    encoder.push({{}, {.number = 2}});
+    EXPECT_FALSE(encoder.has_room());
+    encoder.push({{}, {.number = 3}});
+    go_on.count_down();
+    done.wait();
+    EXPECT_THAT(numbers, ElementsAre(1, 3));
+}
+
+/// Each as "number: whole, film <- what it follows".
+std::string told(const NumberedPicture& picture) {
+    const auto part = [](const SharedMessage& message) {
+        return message ? message->bytes.substr(message->bytes.rfind('}') + 1) : std::string("-");
+    };
+    return fmt::format("{}: {}, {} <- {}", picture.number, part(picture.message), part(picture.film),
+                       picture.film_before);
+}
+
+TEST(PictureEncoder, makes_a_film_that_ends_with_a_whole_picture) {
+    std::vector<std::string> made;
+    std::mutex mutex;
+    std::condition_variable changed;
+    WantedCodings wanted{.film = true};
+    PictureEncoder encoder(
+        {.whole = [](const image::Image&) { return std::string("file"); },
+         .film = [](const image::Image&, bool key) { return std::string(key ? "key" : "delta"); },
+         .wanted = [&] { return wanted; },
+         .done =
+             [&](const NumberedPicture& picture) {
+                 const std::lock_guard lock(mutex);
+                 made.push_back(told(picture));
+                 changed.notify_one();
+             }});
+    const auto push = [&](uint32_t number, Extent extent) {
+        std::unique_lock lock(mutex);
+        const size_t before = made.size();
+        encoder.push({image::Image(extent, 4, image::SampleType::u8), {.number = number}});
+        changed.wait(lock, [&] { return made.size() > before; });
+        std::string first = made[before];
+        changed.wait(lock, [&] { return made.size() > before + 1; }); // it stands still then
+        EXPECT_EQ(made.back(), fmt::format("{}: file, - <- 0", number + 1));
+        return first;
+    };
+    EXPECT_EQ(push(2, {4, 4}), "2: -, key <- 0");
+    EXPECT_EQ(push(4, {4, 4}), "4: -, delta <- 2");
+    EXPECT_EQ(push(6, {4, 8}), "6: -, key <- 0") << "another size";
+    wanted.key = wanted.whole = true;
+    EXPECT_EQ(push(8, {4, 8}), "8: file, key <- 0");
+}
+
+TEST(StateText, a_picture_has_a_head) {
+    const auto message = picture_message(
+        {.number = 3, .seconds = 2.5, .frame = 150, .costs = {1.234, {}}, .draw_ms = 4, .encode_ms = 0.5},
+        "file");
+    const std::string head =
+        R"({"number":3,"seconds":2.5,"frame":150,"costs":[1.23,null],"draw":4.0,"encode":0.5,"coding":"jpeg"})";
+    EXPECT_EQ(message->bytes, std::string({char(head.size()), 0, 0, 0}) + head + "file");
+    EXPECT_TRUE(message->binary);
+}
+
+TEST(StateText, has_what_the_page_shows) {
+    live::Model model;
+    scene::Knob knob{.name = "height", .initial = {0.5}, .range = scene::KnobRange{{0}, {1}}};
+    model.knobs.push_back({knob, {0.25}});
+    model.definitions.push_back({.name = "STEPS", .value = 12, .whole = true});
+    model.pictures.push_back({"Image", 0, {}});
+    model.errors.push_back({{{"a.glsl", 3, 5}, Severity::error, "no"}, "int x = y;"});
+    EXPECT_EQ(
+        state_text(model, {64, 36}, true),
+        R"({"state":{"size":[64,36],"keyboard":true,"knobs":[{"name":"height","colour":false,"whole":false,)"
+        R"("value":[0.25],"low":[0.0],"high":[1.0],"turned":true}],"definitions":[{"name":"STEPS","value":"12",)"
+        R"("whole":true,"held":false}],"pictures":["Image"],"large":null,"time":{"paused":false,"speed":1.0,)"
+        R"("turnsBack":false,"hasSpeed":true,"from":null,"to":null},"errors":[{"text":"a.glsl:3:5: error: no",)"
+        R"("line":"int x = y;","mark":"    ^"}]}})");
+}
+
+} // namespace tidemark::serve::audience_test

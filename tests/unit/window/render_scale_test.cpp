@@ -1,0 +1,32 @@
+#include "window/frame_pacing.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tidemark::render::render_scale_test {
+
+TEST(RenderScale, is_known_by_its_name) {
+    std::vector<std::string> names;
+    for (const RenderScale scale : RenderScale::all())
+        names.push_back(scale.name());
+    EXPECT_EQ(names, (std::vector<std::string>{"1/8", "1/4", "1/2", "1", "2"}));
+    for (const RenderScale scale : RenderScale::all())
+        EXPECT_EQ(RenderScale::named(scale.name()), scale);
+    EXPECT_EQ(RenderScale::named("1"), RenderScale());
+    for (const char* other : {"", "0.5", "1/3", "4", "1/16", " 1"})
+        EXPECT_EQ(RenderScale::named(other), std::nullopt) << other;
+}
+
+TEST(RenderScale, draws_whole_pixels_and_one_at_least) {
+    EXPECT_EQ(RenderScale().drawn({641, 359}), (Extent{641, 359}));
+    EXPECT_EQ(RenderScale().stepped(-1).drawn({640, 359}), (Extent{320, 180}));
+    EXPECT_EQ(RenderScale().stepped(1).drawn({641, 359}), (Extent{1282, 718}));
+    EXPECT_EQ(RenderScale().stepped(-3).drawn({3, 100}), (Extent{1, 13}));
+}
+
+TEST(RenderScale, steps_end_where_there_are_no_more) {
+    EXPECT_EQ(RenderScale().stepped(-9).name(), "1/8");
+    EXPECT_EQ(RenderScale().stepped(9).name(), "2");
+    EXPECT_EQ(RenderScale().stepped(1).steps_from(RenderScale().stepped(-3)), 4);
+}
+
+} // namespace tidemark::render::render_scale_test
