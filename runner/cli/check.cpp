@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace tidemark::cli {
 namespace {
@@ -35,10 +36,13 @@ Result<int> check_portable(const SceneRequest& request, const platform::DeviceCh
     const auto scene = TRY(load(request));
     std::vector<Diagnostic> found = glsl::portability_lint(scene);
     const auto context = platform::HeadlessContext::create(device);
+    std::optional<SlowNotice> notice;
     if (context)
-        add_site_refusals(scene, found);
+        add_site_refusals(
+            scene, found, [&](const std::string& pass) { notice.emplace("the driver is compiling " + pass); });
     else
         say("only the texts were looked at, nothing was compiled: " + to_string(context.error()));
+    notice.reset();
 
     Json json = {{"tidemark", k_version},
                  {"scene", scene.file.string()},

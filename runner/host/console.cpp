@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <condition_variable>
 #include <cstdio>
+#include <mutex>
 #include <string>
 
 namespace tidemark::cli {
@@ -115,5 +117,15 @@ std::string Progress::line() const {
     const std::string shown_rate = rate < 100 ? fmt::format("{:.3g}", rate) : fmt::format("{:.0f}", rate);
     return fmt::format("{}/{} {}, {} a second, {:.0f} s left", done_, total_, what_, shown_rate, left);
 }
+
+SlowNotice::SlowNotice(std::string message, std::chrono::milliseconds delay)
+    : thread_([message = std::move(message), delay](const std::stop_token& stop) {
+          std::mutex mutex;
+          std::unique_lock lock(mutex);
+          std::condition_variable_any stopped;
+          stopped.wait_for(lock, stop, delay, [] { return false; });
+          if (!stop.stop_requested())
+              say(message);
+      }) {}
 
 } // namespace tidemark::cli

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <thread>
 
 namespace tidemark::cli {
 
@@ -63,6 +64,16 @@ private:
     std::chrono::steady_clock::time_point start_;
     std::chrono::steady_clock::time_point shown_;
     std::chrono::steady_clock::time_point first_done_;
+};
+
+/// Says what a long call does, for calls that report no progress: prints `message` once, if it still exists after
+/// `delay`.
+class SlowNotice {
+public:
+    explicit SlowNotice(std::string message, std::chrono::milliseconds delay = std::chrono::seconds(2));
+
+private:
+    std::jthread thread_;
 };
 
 } // namespace tidemark::cli

@@ -332,7 +332,8 @@ std::string trace_command(const SceneRequest& scene, const FrameSequence& sequen
     return shell_words(trace_words(scene, sequence, state));
 }
 
-void add_site_refusals(const scene::Scene& scene, std::vector<Diagnostic>& found) {
+void add_site_refusals(const scene::Scene& scene, std::vector<Diagnostic>& found,
+                       const std::function<void(const std::string& pass)>& compiling) {
     const auto is_known = [&found](const SourceLocation& where) {
         return std::ranges::any_of(found, [&](const Diagnostic& known) {
             return known.where.line > 0 && known.where.file == where.file && known.where.line == where.line;
@@ -341,6 +342,8 @@ void add_site_refusals(const scene::Scene& scene, std::vector<Diagnostic>& found
     for (const scene::Pass& pass : scene.passes) {
         const glsl::PassReading reading(scene, pass);
         const text::MappedText source = reading.site_source();
+        if (compiling)
+            compiling(pass.name);
         const auto linked = gl::Program::link(glsl::vertex_shader(glsl::Version::es_300), source.text());
         if (linked)
             continue;

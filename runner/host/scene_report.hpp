@@ -8,6 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -86,6 +87,8 @@ std::string trace_command(const SceneRequest& scene, const FrameSequence& sequen
 /// Adds compile errors to those `found` by reading (shader/portability.hpp). Each place is reported once,
 /// including places of Common, which precedes every pass, and places in `found` before. A context must be
 /// current.
-void add_site_refusals(const scene::Scene& scene, std::vector<Diagnostic>& found);
+/// `compiling` is called with the name of each pass before the driver compiles it.
+void add_site_refusals(const scene::Scene& scene, std::vector<Diagnostic>& found,
+                       const std::function<void(const std::string& pass)>& compiling = {});
 
 } // namespace tidemark::cli

@@ -87,10 +87,15 @@ Result<int> wrongly_rounded(std::string_view expression, float (*truth)(float, f
     return wrong;
 }
 
+/// Returns the larger of two errors; a NaN counts as the largest.
+double larger_error(double one, double other) {
+    return std::isnan(one) || one > other ? one : other;
+}
+
 Result<double> largest_float_error(std::string_view expression, double (*truth)(double, double)) {
     double largest = 0;
     for (const auto& [a, b, got] : TRY(of_two_floats(expression)))
-        largest = std::max(largest, ulps_between(truth(double(a), double(b)), got));
+        largest = larger_error(largest, ulps_between(truth(double(a), double(b)), got));
     return largest;
 }
 
@@ -111,7 +116,7 @@ Result<double> largest_double_error(std::string_view expression, double (*truth)
     double largest = 0;
     for (size_t i = 0; i < samples.size(); ++i) {
         const double wanted = truth(double(i) + 2.0), got = double_in(samples[i]);
-        largest = std::max(largest, std::abs(got - wanted) / std::ldexp(1.0, std::ilogb(wanted) - 52));
+        largest = larger_error(largest, std::abs(got - wanted) / std::ldexp(1.0, std::ilogb(wanted) - 52));
     }
     return largest;
 }
@@ -229,6 +234,8 @@ Result<LargestShare> look_at(const BoundedFunction& function) {
         const double allowed = function.ulps + function.ulps_per_x * std::abs(double(x));
         const double error = function.absolute > 0 ? std::abs(double(got) - truth) : ulps;
         const double share = function.absolute > 0 ? error / function.absolute : error / allowed;
+        if (std::isnan(largest.share)) // no error is larger
+            break;
         if (!(share <= largest.share)) // also true for a NaN share
             largest = {share, error, double(x)};
     }
@@ -238,9 +245,7 @@ Result<LargestShare> look_at(const BoundedFunction& function) {
 double largest_error_of_sine(const std::vector<Sample>& samples) {
     double largest = 0;
     for (const auto& [x, got, unused] : samples) {
-        const double error = std::abs(double(got) - std::sin(double(x)));
-        if (!(error <= largest))
-            largest = error;
+        largest = larger_error(largest, std::abs(double(got) - std::sin(double(x))));
     }
     return largest;
 }

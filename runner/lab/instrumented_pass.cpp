@@ -47,6 +47,7 @@ void StandIn::set(const std::string& name, double value) {
 }
 
 void StandIn::draw(const PassPreview& preview, int face) const {
+    gl::clear(target_); // pixels that this draw discards would keep an earlier draw's values
     preview.draw(program_, target_, face);
 }
 

@@ -111,7 +111,7 @@ inline constexpr std::string_view k_defaults = "defaults";
 std::vector<Series> series_of(const std::vector<Axis>& axes);
 
 /// Reads a study file. Errors (ErrorCode::load) name `file`, with a JSON pointer to the value. The schema is
-/// in runner/lab/study/README.md, "Study files".
+/// in runner/cli/manual/study.md, "Study files".
 Result<Study> parse_study(std::string_view text, const std::string& file);
 
 // Continues the values of a knob beyond the strictest one, for references that are refined until nothing

@@ -25,7 +25,7 @@ inline std::string one_line(std::string_view text) {
 
 inline constexpr const char* k_study_schema = "tidemark study 1";
 
-/// The format is described in runner/lab/study/README.md, "Results". NaN and infinity are null.
+/// The format is described in runner/cli/manual/study.md, "Results". NaN and infinity are null.
 std::string to_json(const WorkPrecisionSet& set);
 
 /// Returns one row for each point and view, and one for all views together.

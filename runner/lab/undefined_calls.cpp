@@ -40,7 +40,6 @@ void WatchedDomains::set(int site, double value, const PixelGrid& grid, size_t o
 std::vector<uint32_t> WatchedDomains::draw(const PassPreview& preview, const PixelGrid& grid) {
     const ShaderWords words(std::max<size_t>(watch_.words(), 1));
     set(-1, 0, grid, watch_.objectives.size());
-    gl::clear(stand_in_.target()); // pixels that this draw discards would keep an earlier draw's values
     stand_in_.draw(preview);
     return words.read();
 }

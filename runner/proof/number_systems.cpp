@@ -141,7 +141,7 @@ Interval whole(Op op, Scalar type, const Interval& a, const Interval& b) {
     case Op::multiply: return within(rounded(a * b, [](double x) { return std::round(x); }));
     case Op::negate: return within(-a);
     case Op::square: return within(rounded(square(a), [](double x) { return std::round(x); }));
-    case Op::absolute: return absolute(a);
+    case Op::absolute: return within(absolute(a)); // on a device the least int has no absolute value
     case Op::minimum: return minimum(a, b);
     case Op::maximum: return maximum(a, b);
     case Op::less: return less(a, b, false);

@@ -155,9 +155,9 @@ bool may_be_left_out(const ParsedText& text, const TreeFacts& facts, NodeId expr
 }
 
 std::string in_short(std::string words) {
-    constexpr size_t k_most = 60;
-    if (words.size() > k_most)
-        words = words.substr(0, k_most - 3) + "...";
+    constexpr size_t k_longest = 60;
+    if (words.size() > k_longest)
+        words = words.substr(0, k_longest - 3) + "...";
     return words;
 }
 

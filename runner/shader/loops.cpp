@@ -65,6 +65,11 @@ std::string_view changed_name(const ParsedText& text, NodeId id) {
     return names ? text.word_of(target) : std::string_view();
 }
 
+/// Returns whether the expression has its operand's value before the change: `i++`.
+bool changes_after_test(const ParsedText& text, NodeId change) {
+    return text.tree()[change].kind == NodeKind::postfix;
+}
+
 /// Returns by how much an expression changes a variable in each iteration; nothing if it does not, or if the
 /// amount is unknown.
 std::optional<double> change_of(const ParsedText& text, NodeId id, std::string_view name) {
@@ -107,8 +112,11 @@ std::optional<LoopBound> bound_by(const ParsedText& text, NodeId test, NodeId lo
         const auto first = first_of(text, loop, name), last = number_of(text, number);
         if (*change != 1 || !first || !last)
             return LoopBound{};
-        return LoopBound{number, *first,
-                         std::max(0.0, std::ceil(*last - *first) + (op == "<=" || op == ">="))};
+        const double distance = *last - *first;
+        const double passed = op == "<=" || op == ">=" ? std::floor(distance) + 1 : std::ceil(distance);
+        const bool runs_first = tree[loop].kind == NodeKind::loop_do;
+        const bool before_test = !named && !changes_after_test(text, counter); // `++i < 64`
+        return LoopBound{number, *first, std::max(0.0, passed - before_test) + runs_first};
     }
     return std::nullopt;
 }

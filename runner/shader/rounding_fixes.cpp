@@ -47,9 +47,9 @@ constexpr Rule k_differences[] = {
     {"cos", "-2.0 * sin(0.5 * ({0} + {1})) * sin(0.5 * ({0} - {1}))", k_sum_to_product},
 };
 
-class Rewriter {
+class PreciseForms {
 public:
-    Rewriter(const ParsedText& text, const TreeFacts& facts)
+    PreciseForms(const ParsedText& text, const TreeFacts& facts)
         : text_(text), tree_(text.tree()), facts_(facts), values_(text, facts) {}
 
     std::vector<Cure> run() {
@@ -74,8 +74,8 @@ private:
         if (!difference || facts_.surely_whole[id])
             return std::nullopt;
         const NodeId left = bare(tree_.child(id, 0)), right = bare(tree_.child(id, 1));
-        for (const auto rule : {&Rewriter::discriminant, &Rewriter::one_less_cosine, &Rewriter::of_squares,
-                                &Rewriter::of_two_calls})
+        for (const auto rule : {&PreciseForms::discriminant, &PreciseForms::one_less_cosine, &PreciseForms::of_squares,
+                                &PreciseForms::of_two_calls})
             if (auto found = (this->*rule)(left, right))
                 return found;
         return std::nullopt;
@@ -207,7 +207,7 @@ private:
 } // namespace
 
 std::vector<Cure> rewrites(const ParsedText& text, const TreeFacts& facts) {
-    return Rewriter(text, facts).run();
+    return PreciseForms(text, facts).run();
 }
 
 namespace {

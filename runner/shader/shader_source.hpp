@@ -13,7 +13,7 @@
 
 namespace tidemark::glsl {
 
-/// Values of `#version`, preferred ones first: see runner/scene/README.md, "Dialect".
+/// Values of `#version`, preferred ones first: see runner/cli/manual/scenes.md, "Dialect".
 enum class Version { core_330, core_450, es_300 };
 
 /// Precision of the author's floats.

@@ -27,9 +27,9 @@ bool changes_something(const Word& word) {
            (word.text.back() == '=' && !word.is("==") && !word.is("!=") && !word.is("<=") && !word.is(">="));
 }
 
-class Finder {
+class ExpressionFinder {
 public:
-    explicit Finder(const ParsedText& text) : text_(text), tree_(text.tree()) {}
+    explicit ExpressionFinder(const ParsedText& text) : text_(text), tree_(text.tree()) {}
 
     std::vector<Global> run() {
         NodeId first = 1;
@@ -196,7 +196,7 @@ std::string assign_globals_in_main(const ParsedText& text) {
 }
 
 std::vector<Global> find_globals(const ParsedText& text) {
-    return Finder(text).run();
+    return ExpressionFinder(text).run();
 }
 
 std::vector<bool> find_reached(const ParsedText& text, const std::vector<Global>& globals,

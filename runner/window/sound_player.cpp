@@ -106,6 +106,7 @@ void SoundPlayer::play(platform::SharedContext context, const scene::Scene& scen
             thread_ = std::thread([this] { run(); });
     } catch (const std::system_error& no_thread) {
         order_.reset();
+        playing_.clear(); // the next call tries again
         say(std::string("the scene's sound is not heard: no thread is to be had: ") + no_thread.what());
     }
     changed_.notify_all();

@@ -160,12 +160,12 @@ void StageBuilder::launch(Order order) {
 
 void StageBuilder::abandon() {
     waiting_.reset();
-    if (!newest_)
+    const auto job = std::exchange(newest_, nullptr); // outlives the lock of its own mutex
+    if (!job)
         return;
-    const std::lock_guard lock(newest_->mutex);
-    newest_->abandoned = true;
-    newest_->outcome.reset();
-    newest_ = nullptr;
+    const std::lock_guard lock(job->mutex);
+    job->abandoned = true;
+    job->outcome.reset();
 }
 
 std::optional<Result<Stage>> StageBuilder::take() {

@@ -1,12 +1,14 @@
 """`view --webcam`: what is seen is what webcam inputs hold. A video stands for the device."""
 import json
+import os
 import shutil
+import signal
 import subprocess
 import sys
 
 from support import probe
 from support.live import LiveTest, main
-from support.program import SKIPPED, environment
+from support.program import PROGRAM, SKIPPED, TIME_LIMIT, environment
 
 SIZE = ("--size", "200x100")
 
@@ -51,6 +53,15 @@ class Webcam(LiveTest):
     def test_a_recording_says_that_it_has_nothing_of_it(self):
         view = self.view("a.glsl", *SIZE, "--webcam", "camera.mkv", "--record", "take.txt")
         view.wait_for_words("^the recording has nothing of what the webcam sees: a replay has a stand-in$")
+
+    def test_a_pipe_without_a_writer_can_be_interrupted(self):
+        os.mkfifo(self.folder / "camera")
+        with subprocess.Popen([PROGRAM, "view", "a.glsl", *SIZE, "--webcam", "camera"], cwd=self.folder,
+                              stderr=subprocess.DEVNULL, env=environment(DISPLAY=self.screen.display)) as program:
+            with self.assertRaises(subprocess.TimeoutExpired):
+                program.wait(1.5)  # it waits for a writer
+            program.send_signal(signal.SIGINT)
+            self.assertEqual(program.wait(TIME_LIMIT), 130)
 
     def test_where_there_is_none(self):
         for name, why in (("/dev/video9", "No such file or directory"), ("a.glsl", "Invalid data found")):

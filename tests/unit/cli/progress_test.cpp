@@ -54,4 +54,14 @@ TEST(Progress, one_thing_has_no_progress) {
     EXPECT_EQ(printed(100, 0), "");
 }
 
+TEST(SlowNotice, is_printed_after_its_delay_alone) {
+    testing::internal::CaptureStderr();
+    { const SlowNotice never("never", std::chrono::hours(1)); }
+    {
+        const SlowNotice at_once("compiling Image", std::chrono::milliseconds(0));
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "compiling Image\n");
+}
+
 } // namespace tidemark::cli::progress_test
