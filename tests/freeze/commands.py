@@ -38,6 +38,9 @@ def look_at(side: Side, group: str, lines: list[str], wording: bool) -> Seen:
         if line.startswith("use "):
             shutil.copytree(ROOT / line[4:], folder / line[4:], ignore=shutil.ignore_patterns("*.jpg", "*.study.png"))
             continue
+        if line.startswith("make "):
+            (folder / line[5:]).mkdir()
+            continue
         number += 1
         mark = line[0] if line[:1] in tuple(MARKS) else ""
         words = shlex.split(line.removeprefix(mark))

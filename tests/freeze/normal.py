@@ -13,10 +13,11 @@ import re
 
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?"
 # Keys of JSON whose values are measured. Everything below such a key is hidden.
-MEASURED_KEY = re.compile(r"(^|_)(milliseconds|seconds|ms|bytes_a_second|frames_a_second|speed_?up|peak_memory)$|^tidemark$|^version$")
+MEASURED_KEY = re.compile(r"(^|_)(milliseconds|seconds|ms|bytes_a_second|frames_a_second|speed_?up|peak_memory)$|^ms_|^tidemark$|^version$")
 # Keys of a study whose values follow from times.
-TIMED_KEY = re.compile(r"^(on_front|hollow|drifted|drift|verdict|verdicts|remarks|cheapest|budget|rounds|clock|causes|runs|device)$")
+TIMED_KEY = re.compile(r"^(on_front|hollow|drifted|drift|verdict|verdicts|remarks|cheapest|budget|rounds|clock|causes|runs|device|machine)$")
 MEASURED = [
+    (re.compile(r"^.*\bstill .+ after \d+ s;.*\n?", re.MULTILINE), ""),  # progress, which only a busy machine shows
     (re.compile(rf"{NUMBER} -> {NUMBER} ?(ms|s)\b"), r"# -> # \1"),
     (re.compile(rf"{NUMBER}( ?)(ms|µs|us|ns|KiB|MiB|GiB|fps|frames a second)\b( \[[^\]]*\])?"), r"#\1\2"),
     (re.compile(rf"(\d (?:fail|warn|pass|n/a|cut)\b); {NUMBER} s(: .*)?$", re.MULTILINE), r"\1; # s"),
@@ -25,6 +26,7 @@ MEASURED = [
     (re.compile(r"127\.0\.0\.1:\d+"), "HOST"),
     (re.compile(r"token=[\w-]+"), "token=TOKEN"),
     (re.compile(r"\.part-[\w-]+"), ".part-ID"),
+    (re.compile(r"\bversion=[0-9a-f]{8,}"), "version=ID"),  # of the fingerprint in a picture's metadata: another for each build
 ]
 # The words of a text that are no prose: places and numbers, options, code in backticks, names with _ or an inner capital, files.
 NOT_PROSE = re.compile(

@@ -39,7 +39,7 @@ def has_sound(scene: pathlib.Path) -> bool:
 
 
 def look_at(side: Side, name: str, scene: pathlib.Path, options: list[str], events: str, frames: list[str], wording: bool,
-            copied: bool, layers: bool = True) -> Seen:
+            copied: bool, pictured: bool = True) -> Seen:
     folder = side.fresh_folder("picture " + name)
     normal = Normal(folder, wording)
     if copied:  # a file is captured beside the other files of its folder
@@ -52,9 +52,9 @@ def look_at(side: Side, name: str, scene: pathlib.Path, options: list[str], even
     if events:
         (folder / "events.txt").write_text(events)
         options = [*options, "--input", "events.txt"]
-    captures = {"picture": ["-o", "frame_%d.png", "--json"]}
-    if layers:
-        captures["layers"] = ["--layers", "--depth", "float", "-o", "layers_%d.exr", "--json"]
+    captures = {"layers": ["--layers", "--depth", "float", "-o", "layers_%d.exr", "--json"]}
+    if pictured:
+        captures["picture"] = ["-o", "frame_%d.png", "--json"]
     seen: Seen = {}
     for kind, more in captures.items():
         done = side.run(["capture", path, *frames, *options, *more], folder)
@@ -116,12 +116,13 @@ def scenes_of_cases():
 
 
 def items(wording: bool, projects: pathlib.Path | None):
-    def item(name, scene, options, events="", frames=FRAMES, size=SIZE, copied=False, layers=True):
+    def item(name, scene, options, events="", frames=FRAMES, size=SIZE, copied=False, pictured=True):
         return Item("pictures", name, lambda side: look_at(side, name, scene, [*size, *options], events, list(frames), wording,
-                                                           copied, layers))
+                                                           copied, pictured))
 
     for name, scene, options, events in scenes_of_cases():
-        yield item(name, scene, options, events, copied=name.startswith("conformance/"))
+        of_conformance = name.startswith("conformance/")
+        yield item(name, scene, options, events, copied=of_conformance, pictured=of_conformance)
     shaders = ROOT / "shaders"
     for scene in [*sorted(shaders.glob("*.glsl")), *sorted((shaders / "examples").glob("*.glsl"))]:
         yield item(str(scene.relative_to(ROOT)), scene, [])

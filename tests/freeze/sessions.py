@@ -118,7 +118,6 @@ def look_at_serve(side: Side, wording: bool) -> Seen:
             head, picture = viewer.picture()
             seen["viewer: keys of the picture's head"] = sorted(head)
             seen["viewer: picture"] = [f"{len(picture)} bytes", f"sha256 {sha(picture)}"]
-            seen["viewer: keys of texts"] = sorted({key for text in viewer.texts for key in text})
             viewer.close()  # the last viewer: --once ends the program
         seen["exit code"] = [str(process.wait(TIME_LIMIT))]
         seen["standard output"] = normal.text(process.stdout.read())

@@ -91,7 +91,7 @@ TEST(ReadFile, what_is_too_large_is_not_read) {
 }
 
 TEST(ReadFile, a_file_without_a_size_is_read) {
-    EXPECT_EQ(read_file("/proc/self/comm"), "unit_text\n");
+    EXPECT_EQ(read_file("/proc/self/comm"), "unit_base\n");
 }
 
 TEST(ReadFile, a_link_that_leads_nowhere_says_where) {
