@@ -83,7 +83,7 @@ Result<void> prepare_report(const OutputPath& folder) {
     return check_writable(folder / "study.json");
 }
 
-Result<std::filesystem::path> write_findings(const OutputPath& folder, lab::Findings& findings) {
+Result<std::filesystem::path> write_findings(const OutputPath& folder, const lab::Findings& findings) {
     const OutputPath place = report_folder(folder, findings.set.circumstances.complete);
     TRY(make_folder(place));
     TRY(lab::write_report(place, findings));
