@@ -6,7 +6,6 @@
 #include "media/image.hpp"
 #include "web/audience.hpp"
 
-#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
