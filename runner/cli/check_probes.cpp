@@ -111,12 +111,11 @@ std::string probe_names() {
 
 Result<std::vector<const lab::Probe*>> chosen_probes(const std::vector<std::string>& names) {
     for (const std::string& name : names)
-        if (std::ranges::find(lab::all_probes(), lab::probe_name(name), &lab::Probe::name) ==
-            lab::all_probes().end())
+        if (std::ranges::find(lab::all_probes(), name, &lab::Probe::name) == lab::all_probes().end())
             return fail(ErrorCode::usage, fmt::format("--probe {}: there are {}", name, probe_names()));
     std::vector<const lab::Probe*> chosen;
     for (const lab::Probe& probe : lab::all_probes())
-        if (names.empty() || std::ranges::find(names, probe.name, lab::probe_name) != names.end())
+        if (names.empty() || std::ranges::find(names, probe.name) != names.end())
             chosen.push_back(&probe);
     return chosen;
 }

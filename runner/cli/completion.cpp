@@ -52,6 +52,8 @@ Words commands_and_options(const CLI::App& command) {
     for (const CLI::App* inner : command.get_subcommands({}))
         names.push_back(inner->get_name());
     for (const CLI::Option* option : command.get_options()) {
+        if (option->get_group().empty())
+            continue;
         for (const std::string& name : option->get_lnames())
             names.push_back("--" + name);
         for (const std::string& name : option->get_snames())

@@ -32,7 +32,6 @@
 #include <array>
 #include <chrono>
 #include <filesystem>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>

@@ -1,4 +1,4 @@
-// Browser pages as a Screen: pictures go out as JPEG or VP8, the input of the client in control comes in.
+// Browser pages as a Screen: pictures go out as JPEG, the input of the client in control comes in.
 
 #include "base/error.hpp"
 #include "base/file.hpp"
@@ -31,8 +31,7 @@ public:
     struct Settings {
         serve::ServerSettings server;
         Extent extent;
-        int quality = 85;  ///< JPEG's, 1 to 100; VP8's is similar
-        bool film = false; ///< VP8 instead of JPEG for clients that can show it
+        int quality = 85;  ///< JPEG's, 1 to 100
         bool once = false; ///< closes when the last client has left
     };
 
@@ -73,7 +72,6 @@ private:
     serve::Inbox inbox_;
     serve::Audience audience_;
     std::unique_ptr<serve::Server> server_;
-    std::unique_ptr<serve::Film> film_; ///< used by the encoder
     std::unique_ptr<serve::PictureEncoder> encoder_;
     live::Commands commands_;
     const gl::RenderTarget* picture_ = nullptr; ///< of the scene, between `begin` and `finish`
@@ -110,8 +108,7 @@ image::Image read_target(const gl::RenderTarget& target) {
 RemoteScreen::RemoteScreen(Settings settings, platform::HeadlessContext context)
     : settings_(std::move(settings)), context_(std::move(context)),
       audience_({.send = [this](auto viewer, auto message) { server_->send(viewer, std::move(message)); },
-                 .once = settings_.once,
-                 .film = settings_.film},
+                 .once = settings_.once},
                 inbox_) {}
 
 /// Stops the threads first: they send through members that are destroyed next.
@@ -133,13 +130,9 @@ Result<void> RemoteScreen::listen() {
     const serve::ServePlugIn& plug_in = *TRY(serve::load_serve_plug_in());
     settings_.server.page = serve::k_page;
     server_ = TRY(plug_in.open(settings_.server));
-    film_ = plug_in.open_film(settings_.quality);
     encoder_ = std::make_unique<serve::PictureEncoder>(serve::PictureEncoder::Settings{
-        .whole = [encode = plug_in.encode, quality = settings_.quality](
-                     const image::Image& picture) { return encode(picture.extent, picture.bytes, quality); },
-        .film = [this](const image::Image& picture,
-                       bool key) { return film_->encode(picture.extent, picture.bytes, key); },
-        .wanted = [this] { return audience_.wanted(); },
+        .encode = [encode = plug_in.encode, quality = settings_.quality](
+                      const image::Image& picture) { return encode(picture.extent, picture.bytes, quality); },
         .done = [this](serve::NumberedPicture picture) { audience_.show(std::move(picture)); }});
     server_->start(audience_);
     return {};
@@ -198,8 +191,7 @@ void RemoteScreen::send_picture(const live::Model& model, const ShownMoment& mom
     large_ = model.large;
     const live::PictureField* large = large_ ? &model.pictures[*large_] : nullptr;
     image::Image picture = large ? read_texture(large->texture, large->extent) : read_target(*picture_);
-    const uint32_t number = 2 * pictures_++ + 1; // the number after it is for the encoder
-    serve::PictureHead head{.number = number, .seconds = moment.seconds, .frame = moment.frame};
+    serve::PictureHead head{.number = ++pictures_, .seconds = moment.seconds, .frame = moment.frame};
     for (const live::PictureField& field : model.pictures)
         head.costs.push_back(field.milliseconds);
     head.draw_ms = (now_seconds() - begun) * 1000;
@@ -225,7 +217,6 @@ struct ServeOptions : ViewerOptions {
     int port = 0;
     std::string token_file;
     int quality = 85;
-    std::string codec = "jpeg";
     bool once = false;
 };
 
@@ -269,8 +260,7 @@ Result<int> serve_scene(const ServeOptions& options) {
     settings.controls = true;
     settings.sounds = false;
     return show(std::move(settings), [&](const std::string&) -> Result<std::unique_ptr<Screen>> {
-        auto screen =
-            TRY(RemoteScreen::open({server, size, options.quality, options.codec == "vp8", options.once}));
+        auto screen = TRY(RemoteScreen::open({server, size, options.quality, options.once}));
         TRY(announce(*screen));
         return screen;
     });
@@ -297,12 +287,6 @@ void add_serve(Command app, Action& chosen) {
     command.add_option("--quality", options->quality, "Of the pictures: JPEG's, from 1 to 100")
         .type_name("N")
         .check(number<int>("a whole number from 1 to 100", 1, 100))
-        .capture_default_str();
-    command
-        .add_option("--codec", options->codec,
-                    "jpeg, or vp8: films for browsers that show them, smaller where little moves")
-        .type_name("NAME")
-        .check(one_of({"jpeg", "vp8"}))
         .capture_default_str();
     command.add_flag("--once", options->once, "Ends when the last viewer has left");
     command.on_call([options, &chosen] { chosen = [options] { return serve_scene(*options); }; });

@@ -5,7 +5,6 @@
 
 #include <tl/expected.hpp>
 
-#include <optional>
 #include <string>
 #include <string_view>
 

@@ -65,7 +65,7 @@ public:
     Option needs(const std::string& other) const;
     Option excludes(Option other) const;
     Option excludes(const std::string& other) const;
-    /// Sets the heading under which the help lists the option.
+    /// Sets the heading under which the help lists the option; with an empty one it is listed nowhere.
     Option group(const std::string& heading) const;
     /// Splits a value into several at `separator`.
     Option delimiter(char separator) const;

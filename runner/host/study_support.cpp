@@ -83,7 +83,7 @@ Result<void> prepare_report(const OutputPath& folder) {
     return check_writable(folder / "study.json");
 }
 
-Result<std::filesystem::path> write_findings(const OutputPath& folder, lab::Findings& findings) {
+Result<std::filesystem::path> write_findings(const OutputPath& folder, const lab::Findings& findings) {
     const OutputPath place = report_folder(folder, findings.set.circumstances.complete);
     TRY(make_folder(place));
     TRY(lab::write_report(place, findings));
@@ -114,9 +114,10 @@ void add_search_options(Command command, SearchOptions& options) {
         .type_name("LIST")
         .default_str(options.usual_views);
     command.add_option("--size", options.size, "Resolution in pixels [320x180]").type_name("WxH");
-    command.add_option("--for", options.seconds, "Seconds for the search and the timing, compiling aside")
+    command.add_option("--budget", options.seconds, "Seconds for the search and the timing, compiling aside")
         .type_name("S")
         .capture_default_str();
+    command.add_option("--for", options.seconds, "The name of --budget in version 0.1").group("");
     command
         .add_option("-o,--output", options.output,
                     fmt::format("Folder for the report [SCENE-{}]", command.name()))
@@ -133,7 +134,7 @@ Result<lab::SearchRequest> search_request(const SearchOptions& options, const sc
     if (!options.size.empty())
         request.extent = TRY(parse_size(options.size));
     if (!(options.seconds > 0))
-        return fail(ErrorCode::usage, "--for: give a number of seconds above 0");
+        return fail(ErrorCode::usage, "--budget: give a number of seconds above 0");
     request.seconds = options.seconds;
     return request;
 }

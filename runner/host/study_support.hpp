@@ -49,8 +49,8 @@ lab::Circumstances circumstances_of(const scene::Scene& scene);
 Result<void> prepare_report(const OutputPath& folder);
 
 /// Writes the report into `folder`, or into FOLDER-interrupted if an interrupted study would replace a
-/// complete one. Returns the folder used; parts that could not be made (no gnuplot) are added to the remarks.
-Result<std::filesystem::path> write_findings(const OutputPath& folder, lab::Findings& findings);
+/// complete one. Returns the folder used.
+Result<std::filesystem::path> write_findings(const OutputPath& folder, const lab::Findings& findings);
 
 /// Prints the path of the report's page.
 void say_report(const std::filesystem::path& folder);

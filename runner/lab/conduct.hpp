@@ -5,7 +5,6 @@
 #include "base/measurement.hpp"
 #include "lab/outcome.hpp"
 #include "lab/specimen.hpp"
-#include "lab/truth.hpp"
 #include "lab/work_precision.hpp"
 #include "scene/scene.hpp"
 

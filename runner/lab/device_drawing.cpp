@@ -12,8 +12,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <set>
 
 namespace tidemark::lab {
 

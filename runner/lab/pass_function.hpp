@@ -11,7 +11,6 @@
 
 #include <glm/vec2.hpp>
 
-#include <string>
 #include <vector>
 
 namespace tidemark::lab {

@@ -1,7 +1,6 @@
 #include "lab/probe_inputs.hpp"
 
 #include "base/error.hpp"
-#include "lab/probes.hpp"
 #include "lab/scene_numbers.hpp"
 #include "scene/scene.hpp"
 
@@ -44,7 +43,7 @@ std::string take_reasons(Promises& promises, const Json& reasons) {
     for (const auto& [probe, reason] : reasons.items()) {
         if (!reason.is_string())
             return R"('skip' takes {"probe": "why"})";
-        promises.skip[std::string(probe_name(probe))] = reason.get<std::string>();
+        promises.skip[probe] = reason.get<std::string>();
     }
     return {};
 }
@@ -62,10 +61,8 @@ std::string take_ranges(Promises& promises, const Json& ranges) {
     return {};
 }
 
-/// Sets one number, also by its name of version 0.1.
-std::string take_number(Promises& promises, std::string name, const Json& value) {
-    if (name == "most_witness_percent")
-        name = "most_overstep_percent";
+/// Sets one number.
+std::string take_number(Promises& promises, const std::string& name, const Json& value) {
     const auto field = std::ranges::find(k_fields, name, &Field::name);
     if (field == std::end(k_fields))
         return fmt::format("'{}' is nothing that a scene can promise; there are {}", name, names());

@@ -1,6 +1,5 @@
 #include "lab/probes.hpp"
 
-#include <utility>
 
 namespace tidemark::lab {
 
@@ -150,16 +149,6 @@ std::span<const Probe> all_probes() {
          ask_mediump},
     };
     return probes;
-}
-
-std::string_view probe_name(std::string_view name) {
-    static constexpr std::pair<std::string_view, std::string_view> old_names[] = {
-        {"witnesses", "overstep"}, {"stiffness", "lipschitz_sweep"}, {"folds", "self_intersection"},
-        {"clicks", "mouse_edge"},  {"jumps", "time_discontinuity"},  {"halves", "mediump"}};
-    for (const auto& [old_name, now] : old_names)
-        if (name == old_name)
-            return now;
-    return name;
 }
 
 } // namespace tidemark::lab

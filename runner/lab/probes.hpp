@@ -36,10 +36,6 @@ struct Probe {
 /// Returns all probes in the order in which they run: the cheap ones first.
 std::span<const Probe> all_probes();
 
-/// Returns the current name of a probe that had another name in version 0.1; other names are returned
-/// unchanged.
-std::string_view probe_name(std::string_view name);
-
 // The probe functions, by subject. The table in lab/probes.cpp describes each, also for users.
 
 // probes_finite.cpp

@@ -3,7 +3,6 @@
 #include "lab/report_page.hpp"
 #include "lab/scatter_plot.hpp"
 #include "lab/study_page.hpp"
-#include "lab/study_report.hpp"
 #include "lab/work_precision.hpp"
 
 #include <fmt/format.h>
@@ -13,6 +12,9 @@
 #include <string>
 
 namespace tidemark::lab {
+
+/// Quantity on the horizontal axis; the error is on the vertical one.
+enum class Across { time, work };
 
 /// Returns the number of a mark's series: 0 is the unchanged scene, the study's are counted from 1.
 size_t plotted_series(const WorkPrecisionSet& set, const Point& point);

@@ -332,7 +332,7 @@ private:
         if (late)
             return fail(
                 ErrorCode::check_failed,
-                fmt::format("cannot say: {:g} seconds are too few for this scene: give more with --for",
+                fmt::format("cannot say: {:g} seconds are too few for this scene: give more with --budget",
                             request_.seconds));
         return findings;
     }

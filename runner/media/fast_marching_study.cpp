@@ -1,7 +1,6 @@
 #include "media/fast_marching_study.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <ctime>
 
 namespace tidemark::bake {

@@ -1,7 +1,6 @@
 #include "proof/number_systems.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,6 @@
 #include "proof/texels.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <optional>
 #include <utility>
 

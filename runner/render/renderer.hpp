@@ -17,7 +17,6 @@
 
 #include <array>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace tidemark::render {

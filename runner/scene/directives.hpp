@@ -9,7 +9,6 @@
 #include "scene/scene.hpp"
 
 #include <array>
-#include <optional>
 #include <string>
 #include <vector>
 

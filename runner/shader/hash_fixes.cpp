@@ -8,11 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <limits>
-#include <map>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <set>
 
 namespace tidemark::glsl {

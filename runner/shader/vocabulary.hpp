@@ -5,7 +5,6 @@
 #include "scene/host_uniforms.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>

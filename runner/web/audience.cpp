@@ -151,27 +151,12 @@ void Audience::handle(ViewerId viewer, LetGo) {
         let_go();
 }
 
-void Audience::handle(ViewerId viewer, const FilmShown& shown) {
-    viewers_[viewer].shows_film = shown.can && settings_.film;
-    viewers_[viewer].film = 0;
-    inbox_.wake();
-}
-
-/// Sends a film picture only if it follows the last one that the viewer has; otherwise the whole picture, if
-/// there is one.
 void Audience::send_newest(ViewerId id, Viewer& viewer) {
-    if (viewer.sent == newest_.number || !viewer.is_ready())
+    if (viewer.sent == newest_.number || !viewer.is_ready() || !newest_.message)
         return;
-    const bool follows = newest_.film_before == 0 || newest_.film_before == viewer.film;
-    const bool film = viewer.shows_film && newest_.film && follows;
-    const SharedMessage& message = film ? newest_.film : newest_.message;
-    if (!message)
-        return;
-    if (film)
-        viewer.film = newest_.number;
     viewer.sent = newest_.number;
     viewer.on_the_way.push_back(newest_.number);
-    settings_.send(id, message);
+    settings_.send(id, newest_.message);
 }
 
 /// Limits the rate: each change of control is sent to all viewers, and users must be able to follow.
@@ -203,8 +188,6 @@ void Audience::tell_who_steers() {
 void Audience::show(NumberedPicture picture) {
     const std::lock_guard lock(mutex_);
     newest_ = std::move(picture);
-    if (newest_.film)
-        newest_film_ = newest_.number;
     for (auto& [id, viewer] : viewers_)
         send_newest(id, viewer);
     inbox_.wake();
@@ -228,21 +211,10 @@ bool Audience::is_waiting() const {
     return std::ranges::any_of(viewers_, [](const auto& viewer) { return viewer.second.is_ready(); });
 }
 
-WantedCodings Audience::wanted() const {
-    const std::lock_guard lock(mutex_);
-    WantedCodings wanted;
-    for (const auto& [id, viewer] : viewers_) {
-        wanted.whole |= !viewer.shows_film;
-        wanted.film |= viewer.shows_film;
-        wanted.key |= viewer.shows_film && viewer.is_ready() && viewer.film != newest_film_;
-    }
-    return wanted;
-}
-
 Result<const ServePlugIn*> load_serve_plug_in() {
     return load_plug_in<ServePlugIn>({"tidemark_serve.so", "plug-in of the web server",
-                                      "serving a scene to browsers", "libturbojpeg 2.1, libvpx and libyuv",
-                                      k_serve_entry, k_serve_version});
+                                      "serving a scene to browsers", "libturbojpeg 2.1", k_serve_entry,
+                                      k_serve_version});
 }
 
 } // namespace tidemark::serve

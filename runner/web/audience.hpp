@@ -66,16 +66,7 @@ private:
 /// An encoded picture, to be sent; numbered from 1.
 struct NumberedPicture {
     uint32_t number = 0;
-    SharedMessage message{};  ///< as a whole; null if no viewer needs it
-    SharedMessage film{};     ///< as changes since `film_before`; null likewise
-    uint32_t film_before = 0; ///< number of the preceding film picture; 0: a key picture, which needs none
-};
-
-/// The encodings that the viewers need.
-struct WantedCodings {
-    bool whole = false;
-    bool film = false;
-    bool key = false; ///< a viewer of the film has not received its last picture
+    SharedMessage message{}; ///< null if encoding failed
 };
 
 /// Thread-safe.
@@ -88,7 +79,6 @@ public:
     struct Settings {
         std::function<void(ViewerId, SharedMessage)> send;
         bool once = false; ///< close the program when the last viewer leaves
-        bool film = false; ///< send a film to viewers that can show one
     };
 
     /// Adds the viewers' input to `inbox`, and wakes it when a viewer is ready for a picture.
@@ -109,21 +99,17 @@ public:
 
     /// Returns whether a viewer is ready for one more picture.
     bool is_waiting() const;
-    WantedCodings wanted() const;
 
 private:
     struct Viewer {
         std::deque<uint32_t> on_the_way; ///< numbers of pictures sent and not acknowledged
         uint32_t sent = 0;               ///< number of the newest one sent
-        bool shows_film = false;
-        uint32_t film = 0; ///< number of the newest film picture sent
 
         bool is_ready() const { return on_the_way.size() < k_pictures_on_the_way; }
     };
 
     void handle(ViewerId viewer, const PictureSeen& seen);
     void handle(ViewerId viewer, SteeringWanted);
-    void handle(ViewerId viewer, const FilmShown& shown);
     void handle(ViewerId viewer, const platform::InputEvent& event);
     void handle(ViewerId viewer, const live::Command& command);
     void handle(ViewerId viewer, LetGo);
@@ -141,7 +127,6 @@ private:
     std::chrono::steady_clock::time_point steering_since_{};
     Hands hands_;
     NumberedPicture newest_;
-    uint32_t newest_film_ = 0; ///< number of the film's last picture
     std::map<std::string, SharedMessage> told_;
 };
 

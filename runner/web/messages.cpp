@@ -102,8 +102,7 @@ std::string to_text(const PictureHead& head) {
                  {"frame", head.frame},
                  {"costs", std::move(costs)},
                  {"draw", in_hundredths(head.draw_ms)},
-                 {"encode", in_hundredths(head.encode_ms)},
-                 {"coding", head.coding}});
+                 {"encode", in_hundredths(head.encode_ms)}});
 }
 
 std::string line_text(const char* name, const std::string& line) {
@@ -113,9 +112,6 @@ std::string line_text(const char* name, const std::string& line) {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// A film picture that stands still this long is sent again as a whole, sharp picture.
-constexpr std::chrono::milliseconds k_still(200);
 
 } // namespace
 
@@ -144,51 +140,22 @@ bool PictureEncoder::has_room() const {
 
 void PictureEncoder::run() {
     std::unique_lock lock(mutex_);
-    std::optional<Job> soft; // sent only as film so far
-    const auto is_asked = [this] { return ending_ || waiting_; };
     while (true) {
-        if (soft)
-            changed_.wait_for(lock, k_still, is_asked);
-        else
-            changed_.wait(lock, is_asked);
+        changed_.wait(lock, [this] { return ending_ || waiting_; });
         if (ending_)
             return;
-        const bool stands_still = !waiting_;
-        Job job = *std::exchange(stands_still ? soft : waiting_, std::nullopt);
+        Job job = *std::exchange(waiting_, std::nullopt);
         lock.unlock();
-        WantedCodings wanted{.whole = true};
-        if (stands_still)
-            ++job.head.number;
-        else
-            wanted = settings_.wanted();
-        NumberedPicture picture = encoded(job, wanted);
-        soft = !stands_still && picture.film ? std::optional(std::move(job)) : std::nullopt;
-        settings_.done(std::move(picture));
+        settings_.done(encoded(std::move(job)));
         lock.lock();
     }
 }
 
-/// Without a film picture, makes a whole one even if no viewer needs it: a later viewer may.
-NumberedPicture PictureEncoder::encoded(Job& job, const WantedCodings& wanted) {
+NumberedPicture PictureEncoder::encoded(Job job) const {
     const auto begun = Clock::now();
-    const Extent extent = job.picture.extent;
-    const bool key = wanted.key || film_ == 0 || extent != film_extent_;
-    const std::string film = wanted.film ? settings_.film(job.picture, key) : std::string();
-    const std::string whole = wanted.whole || film.empty() ? settings_.whole(job.picture) : std::string();
-    PictureHead& head = job.head;
-    head.encode_ms = std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
-    NumberedPicture picture{head.number};
-    head.coding = "jpeg";
-    if (!whole.empty())
-        picture.message = picture_message(head, whole);
-    if (film.empty())
-        return picture;
-    head.coding = key ? "key" : "delta";
-    picture.film = picture_message(head, film);
-    picture.film_before = key ? 0 : film_;
-    film_ = head.number;
-    film_extent_ = extent;
-    return picture;
+    const std::string file = settings_.encode(job.picture);
+    job.head.encode_ms = std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
+    return {job.head.number, file.empty() ? nullptr : picture_message(job.head, file)};
 }
 
 SharedMessage picture_message(const PictureHead& picture, const std::string& file) {

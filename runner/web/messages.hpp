@@ -6,14 +6,12 @@
 #include "media/image.hpp"
 #include "web/audience.hpp"
 
-#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -30,7 +28,6 @@ struct PictureHead {
     std::vector<std::optional<double>> costs{}; ///< milliseconds per pass, measured by the driver
     double draw_ms = 0; ///< milliseconds from the event that caused it, if there was one, to its pixels
     double encode_ms = 0;
-    std::string_view coding = "jpeg"; ///< or of a film: "key", or "delta" relative to the picture before
 };
 std::string to_text(const PictureHead& head);
 
@@ -43,13 +40,11 @@ class PictureEncoder {
 public:
     struct Job {
         image::Image picture; ///< RGBA, 8 bits per channel
-        PictureHead head;     ///< the number after its own is reserved for this picture too
+        PictureHead head;
     };
     /// Callbacks, all called on the encoder's thread.
     struct Settings {
-        std::function<std::string(const image::Image&)> whole;          ///< returns a file
-        std::function<std::string(const image::Image&, bool key)> film; ///< empty: encoding failed
-        std::function<WantedCodings()> wanted;
+        std::function<std::string(const image::Image&)> encode; ///< returns a file; empty: encoding failed
         std::function<void(NumberedPicture)> done;
     };
 
@@ -65,11 +60,9 @@ public:
 
 private:
     void run();
-    NumberedPicture encoded(Job& job, const WantedCodings& wanted);
+    NumberedPicture encoded(Job job) const;
 
     Settings settings_;
-    uint32_t film_ = 0; ///< number of the film's last picture
-    Extent film_extent_{};
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::optional<Job> waiting_;

@@ -279,8 +279,6 @@ constexpr Verb k_of_viewers[] = {
          return PictureSeen{uint32_t(TRY(whole_number(m, "number", 1, std::numeric_limits<int>::max())))};
      }},
     {"steer", [](const Json&) -> Result<Request> { return SteeringWanted{}; }},
-    {"film",
-     [](const Json& m) -> Result<Request> { return FilmShown{TRY(whole_number(m, "can", 0, 1)) == 1}; }},
     {"let go", [](const Json&) -> Result<Request> { return LetGo{}; }},
 };
 

@@ -46,15 +46,10 @@ struct PictureSeen {
 };
 /// The viewer asks for control.
 struct SteeringWanted {};
-/// Whether the viewer's browser can show a film.
-struct FilmShown {
-    bool can = false;
-};
 /// The page lost the keyboard: everything held down is released.
 struct LetGo {};
 
-using Request =
-    std::variant<platform::InputEvent, live::Command, PictureSeen, SteeringWanted, FilmShown, LetGo>;
+using Request = std::variant<platform::InputEvent, live::Command, PictureSeen, SteeringWanted, LetGo>;
 
 /// Bytes; longer messages are refused.
 inline constexpr size_t k_longest_request = 4096;

@@ -22,7 +22,6 @@
 #include "window/stage.hpp"
 #include "window/window_keys.hpp"
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>

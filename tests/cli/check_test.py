@@ -492,16 +492,6 @@ class Check(ProgramTest):
         self.assertEqual(result.returncode, 2)
         self.assertIn("--probe luck: there are times, ", result.stderr)
 
-    def test_a_probe_answers_to_its_name_of_version_0_1(self):
-        found = self.verdicts(self.write("sound.glsl", SOUND), "--probe", "jumps", "--probe", "witnesses")
-        self.assertEqual(set(found), {"time_discontinuity", "overstep"})
-
-    def test_a_promise_is_read_under_its_name_of_version_0_1(self):
-        scene = self.write("over.glsl", FAULTS["overstep"])
-        for name in ("most_overstep_percent", "most_witness_percent"):
-            self.write("over.check.json", f'{{"{name}": 100}}')
-            self.assertEqual(self.verdicts(scene, "--probe", "overstep")["overstep"]["verdict"], "pass")
-
     def test_list_needs_no_scene(self):
         self.assertIn(b"overstep", self.succeed("check", "--list").stdout)
 

@@ -37,8 +37,8 @@ NOT_COMPARED = (r"tidemark (study|tune|simplify) ",)
 SMALL = {
     "capture": ("--size", "64x36"),
     "study": ("--size", "32x18", "--budget", "1"),
-    "tune": ("--size", "32x18", "--for", "20"),
-    "simplify": ("--size", "32x18", "--for", "20"),
+    "tune": ("--size", "32x18", "--budget", "20"),
+    "simplify": ("--size", "32x18", "--budget", "20"),
 }
 PATIENT = ("--budget", "900")  # a busy machine cuts no probe
 SHORTER = ((r"\b0-299\b", "0-2"), (r"\b30000x20000\b", "300x200"))

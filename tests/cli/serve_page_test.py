@@ -1,5 +1,4 @@
 """tidemark serve in headless Chromium: a person at the page sees what is drawn and steers it."""
-import math
 import sys
 
 from support import browser
@@ -127,29 +126,6 @@ class Looking(Page):
         self.assertFalse(first.text("steering", lambda steering: not steering["you"])["you"])
         first.close()
         self.browser.wait_for(f"{FIGURE}.steering.viewers === 1")
-
-    def test_a_film_that_moves_and_a_picture_that_stands(self):
-        self.open(MOVING, "--codec", "vp8")
-        self.browser.wait_for(f"{FIGURE}.head.coding === 'delta'")
-        self.wait_for_colour(None, 129, 131)
-        number = self.browser.evaluate(f"{FIGURE}.number")
-        self.browser.wait_for(f"{FIGURE}.number > {number + 20} && {FIGURE}.head.coding === 'delta'")
-        self.press_button("Pause")
-        self.browser.wait_for(f"{FIGURE}.state.time.paused && {FIGURE}.head.coding === 'jpeg'")
-        self.browser.evaluate("(bar => { bar.value = 7.5; bar.dispatchEvent(new Event('input')); })(document.querySelector('input[aria-label=Time]'))")
-        self.browser.wait_for(f"{FIGURE}.head.seconds === 7.5 && {FIGURE}.head.coding === 'jpeg'")
-        self.wait_for_colour(round(255 * (0.5 + 0.5 * math.sin(7.5))), 129, 131)
-        self.press_button("Play")
-        self.browser.wait_for(f"{FIGURE}.head.coding === 'delta'")
-
-    def test_a_browser_that_shows_no_film_any_more(self):
-        self.open(MOVING, "--codec", "vp8")
-        self.browser.wait_for(f"{FIGURE}.head.coding === 'delta'")
-        self.browser.evaluate(f"{FIGURE}.film.tell(false)")
-        number = self.browser.wait_for(f"{FIGURE}.head.coding === 'jpeg' && {FIGURE}.number")
-        self.browser.wait_for(f"{FIGURE}.number > {number + 20} && {FIGURE}.head.coding === 'jpeg'")
-        self.browser.evaluate(f"{FIGURE}.film.tell(true)")
-        self.browser.wait_for(f"{FIGURE}.head.coding === 'delta'")
 
     def test_the_end(self):
         self.open()

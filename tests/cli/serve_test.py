@@ -88,33 +88,6 @@ class Pictures(Serve):
         newest = slow.picture()[0]["number"]
         self.assertGreaterEqual(newest, later[-1], "one that was slow gets the newest")
 
-    def test_as_a_film(self):
-        service = self.serve("a.glsl", "--codec", "vp8", text=MOVING)
-        viewer, other = self.viewer(service), self.viewer(service)
-        viewer.send("film", can=1)
-        while (shown := viewer.picture())[0]["coding"] == "jpeg":
-            pass
-        self.assertEqual(shown[0]["coding"], "key")
-        # RFC 6386, 9.1: a key frame, its start code and its size.
-        self.assertEqual((shown[1][0] & 1, shown[1][3:10]), (0, b"\x9d\x01\x2a" + bytes([64, 0, 36, 0])))
-        deltas = 0
-        while deltas < 10:
-            head, film = viewer.picture()
-            if head["coding"] == "jpeg":  # so slow that the film seemed to stand still
-                continue
-            self.assertEqual((head["coding"], film[0] & 1), ("delta", 1))
-            deltas += 1
-        self.assertEqual(other.picture()[0]["coding"], "jpeg")
-        viewer.send("pause")
-        while viewer.picture()[0]["coding"] != "jpeg":
-            pass
-        late = self.viewer(service)
-        head, file = late.picture()
-        self.assertEqual((head["coding"], file[:2]), ("jpeg", b"\xff\xd8"))
-        jpeg = self.viewer(self.serve("b.glsl", "--codec", "jpeg", text=MOVING))
-        jpeg.send("film", can=1)
-        self.assertEqual({jpeg.picture()[0]["coding"] for _ in range(5)}, {"jpeg"})
-
     def test_that_nobody_waited_for_are_no_time_step(self):
         viewer = self.viewer(self.serve("a.glsl", text="void mainImage(out vec4 c, in vec2 p) { c = vec4(iTimeDelta / 8.0); }\n"))
         head, _ = viewer.picture(seen=False)

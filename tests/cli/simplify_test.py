@@ -20,7 +20,7 @@ void mainImage(out vec4 c, in vec2 p) {
     c = vec4(colour, 1.0);
 }
 """
-QUICK = ("--size", "96x54", "--for", "20")
+QUICK = ("--size", "96x54", "--budget", "20")
 
 
 class Simplify(ProgramTest):
@@ -86,7 +86,7 @@ void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p / iResolution.x
         self.write("dear.glsl", """#iChannel0 "self"
 void mainImage(out vec4 c, in vec2 p) { c = 0.9 * texture(iChannel0, p / iResolution.xy) + 0.1 * sin(iTime + p.x); }
 """)
-        found, said = self.simplify("--for", "3")
+        found, said = self.simplify("--budget", "3")
         views = list(found["study"]["points"][0]["views"])
         self.assertEqual(views[:4], ["t=0.2", "t=0.5", "t=1", "t=2"], said)
         self.assertLess(max(float(view.removeprefix("t=").split(",")[0]) for view in views), 6)
@@ -107,7 +107,7 @@ void mainImage(out vec4 c, in vec2 p) { c = 0.9 * texture(iChannel0, p / iResolu
     def test_bad_requests_are_refused(self):
         for arguments, words in ((("--max-error", "wrong=1%"), "held against the picture"),
                                  (("--max-error", "flip"), "give rmse=0.01"),
-                                 (("--for", "0"), "above 0"),
+                                 (("--budget", "0"), "above 0"),
                                  (("--exact", "--max-error", "flip=0.1"), "--exact")):
             with self.subTest(arguments=arguments):
                 done = self.run_program("simplify", "dear.glsl", *arguments)

@@ -3,11 +3,9 @@ import csv
 import html.parser
 import json
 import re
-import shutil
 import signal
 import subprocess
 import time
-import xml.dom.minidom
 
 from support import png
 from support.program import PROGRAM, ROOT, ProgramTest, environment, main
@@ -198,10 +196,8 @@ class Report(Study):
         self.write("plane.glsl", PLANE)
         study = self.study("plane.glsl", "--vary", "N=2,4", "--reference", "N=40")
         names = {name.removeprefix("report/") for name in self.files()}
-        wanted = {"points.csv", "study.json", "report.html", "error-vs-time.gp", "error-vs-work.gp", "maps/reference.png",
+        wanted = {"points.csv", "study.json", "report.html", "maps/reference.png",
                   "maps/01-picture.png", "maps/01-flip.png", "maps/01-causes.png"}
-        if shutil.which("gnuplot"):
-            wanted |= {f"error-vs-{x}.{ending}" for x in ("time", "work") for ending in ("svg", "png")}
         self.assertLessEqual(wanted, names)
         self.assertEqual(json.loads((self.folder / "report/study.json").read_text()), study)
         rows = list(csv.DictReader((self.folder / "report/points.csv").read_text().splitlines()))
@@ -210,17 +206,6 @@ class Report(Study):
         self.assertEqual(float(rows[-1]["rms_t"]), self.points(study)["N = 4"]["all"]["hits"]["rms_t"])
         orange = png.read(self.folder / "report/maps/01-causes.png").pixel(8, 4)
         self.assertEqual(orange, (229, 158, 0))  # exhaustion
-
-    def test_without_gnuplot_everything_else_is_there(self):
-        self.write("sum.glsl", SUM)
-        tools = self.folder / "bin"
-        tools.mkdir()
-        done = self.succeed("study", "sum.glsl", "--vary", "STEPS=4,8", *QUICK, "-o", "report",
-                            env=environment(PATH=str(tools)))
-        self.assertRegex(done.stderr, r"no diagrams: .*gnuplot.* \(the data are in points\.csv, the script is "
-                                      r"error-vs-time\.gp\)")
-        self.assertTrue((self.folder / "report/report.html").exists())
-        self.assertFalse((self.folder / "report/error-vs-time.svg").exists())
 
     def test_page_is_whole_and_asks_nobody(self):
         self.write("sum.glsl", SUM)
@@ -384,12 +369,6 @@ class Names(Study):
         report = self.folder / "report"
         self.assertEqual({point["series"] for point in study["points"]} - set(self.HOSTILE), {"defaults"})
 
-        if shutil.which("gnuplot"):
-            subprocess.run(["gnuplot", "error-vs-time.gp"], cwd=report, check=True, env=environment(HOME=str(self.folder)))
-            svg = (report / "error-vs-time.svg").read_text()
-            self.assertNotIn("<script", svg)
-            self.assertIn("touch RAN", svg)
-            xml.dom.minidom.parseString(svg)
         self.assertFalse([name for name in self.files() if "RAN" in name])
 
         with open(report / "points.csv", newline="") as file:

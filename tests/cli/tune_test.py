@@ -26,7 +26,7 @@ MARCH = """void mainImage(out vec4 c, in vec2 f) {
     c = vec4(vec3(t / 20.0), 1.0);
 }
 """
-QUICK = ("--size", "48x27", "--for", "10")
+QUICK = ("--size", "48x27", "--budget", "10")
 
 
 class Tune(ProgramTest):
@@ -101,7 +101,8 @@ class Tune(ProgramTest):
                 (("--max-error", "rmse=1", "--max-time", "5"), "give one of them"),
                 (("--as-it-is", "--max-error", "wrong=1%"), "--as-it-is compares pictures"),
                 (("--as-it-is", "--max-time", "5"), "--max-time excludes --as-it-is"),
-                (("--for", "0"), "seconds above 0")):
+                (("--budget", "0"), "--budget: give a number of seconds above 0"),
+                (("--for", "0"), "--budget: give a number of seconds above 0")):  # its name in version 0.1
             with self.subTest(arguments=arguments):
                 done = self.run_program("tune", "sum.glsl", *QUICK, *arguments)
                 self.assertEqual(done.returncode, 2)

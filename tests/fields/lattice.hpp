@@ -3,7 +3,6 @@
 // the device's sine makes of them, and are read back from it.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <variant>
 #include <vector>

@@ -6,7 +6,6 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include <cmath>
 #include <cstdint>
 
 namespace tidemark::fields {

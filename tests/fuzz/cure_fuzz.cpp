@@ -6,7 +6,6 @@
 #include "shader/pass_cuts.hpp"
 
 #include <iterator>
-#include <string>
 #include <vector>
 
 using namespace tidemark;

@@ -1,7 +1,7 @@
 // What a browser, or somebody who says to be one, sends to `tidemark serve`: its address, and its messages.
 #include "fuzz.hpp"
-#include "web/request.hpp"
 #include "web/audience.hpp"
+#include "web/request.hpp"
 
 #include <string>
 
@@ -21,8 +21,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     REQUIRE(serve::answer_to(strange, k_token) == serve::Answer::forbidden);
 
     serve::Inbox inbox;
-    serve::Audience audience({.send = [](serve::ViewerId, const serve::SharedMessage&) {}, .film = true},
-                             inbox);
+    serve::Audience audience({.send = [](serve::ViewerId, const serve::SharedMessage&) {}}, inbox);
     REQUIRE(audience.came(1));
     (void)audience.said(1, text);
     audience.left(1);

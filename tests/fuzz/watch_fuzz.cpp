@@ -4,7 +4,6 @@
 #include "shader/undefined_behaviour.hpp"
 #include "shader/watch.hpp"
 
-#include <string>
 
 using namespace tidemark;
 

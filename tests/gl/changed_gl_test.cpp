@@ -4,7 +4,6 @@
 #include "render/frame_stepper.hpp"
 #include "scene/load_scene.hpp"
 
-#include <cmath>
 #include <limits>
 #include <random>
 

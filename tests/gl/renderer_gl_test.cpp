@@ -5,7 +5,6 @@
 
 #include <gmock/gmock.h>
 
-#include <limits>
 
 namespace tidemark::render::renderer_gl_test {
 

@@ -5,7 +5,6 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 #include <spirv-tools/optimizer.hpp>
 
-#include <algorithm>
 #include <exception>
 #include <mutex>
 

@@ -1,5 +1,5 @@
 // The interface of the program and the web server's plug-in: viewers' messages come in, pictures and texts
-// for them go out. The plug-in handles HTTP, WebSocket (RFC 6455), JPEG and VP8, but not scenes. Both are
+// for them go out. The plug-in handles HTTP, WebSocket (RFC 6455) and JPEG, but not scenes. Both are
 // built together; a plug-in with another version is refused.
 #pragma once
 
@@ -61,16 +61,6 @@ public:
     virtual bool is_loopback() const = 0;
 };
 
-/// Encodes pictures as a film: each one as its changes since the one before.
-class Film {
-public:
-    virtual ~Film() = default;
-    /// `rgba` has 8 bits per channel, the bottom row first; alpha is ignored. With `key`, and after a change
-    /// of size, the picture can be decoded without those before it. Not thread-safe. Returns an empty text if
-    /// the library fails.
-    virtual std::string encode(Extent extent, std::span<const std::byte> rgba, bool key) = 0;
-};
-
 struct ServePlugIn {
     unsigned version;
     /// Fails (ErrorCode::usage) if it cannot listen there.
@@ -78,11 +68,9 @@ struct ServePlugIn {
     /// Returns a JPEG file of RGBA pixels, 8 bits per channel, bottom row first; alpha is ignored. `quality`
     /// is 1 to 100. Not thread-safe. Empty if the library fails.
     std::string (*encode)(Extent extent, std::span<const std::byte> rgba, int quality);
-    /// Returns a VP8 encoder; `quality` as above.
-    std::unique_ptr<Film> (*open_film)(int quality);
 };
 
-inline constexpr unsigned k_serve_version = 2;
+inline constexpr unsigned k_serve_version = 3;
 inline constexpr const char* k_serve_entry = "tidemark_serve";
 
 } // namespace tidemark::serve

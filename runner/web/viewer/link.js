@@ -1,7 +1,6 @@
 // ---- The connection to the program
 
-// Texts go both ways. A picture comes as four bytes of length, a JSON head of that length, and a JPEG file or
-// a VP8 film picture.
+// Texts go both ways. A picture comes as four bytes of length, a JSON head of that length, and a JPEG file.
 class Link {
     constructor({onText, onPicture, onEnd}) {
         const address = new URL("socket", location.href);
@@ -17,12 +16,6 @@ class Link {
         const length = new DataView(buffer).getUint32(0, true);
         const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
         return [head, new Uint8Array(buffer, 4 + length)];
-    }
-
-    // Sends a message now, or when the connection opens.
-    sendFirst(wanted, values) {
-        this.socket.addEventListener("open", () => this.send(wanted, values), {once: true});
-        this.send(wanted, values);
     }
 
     send(wanted, values = {}) {

@@ -14,7 +14,6 @@ class Remote {
                               onEnd: reason => this.#end(reason)});
         this.#build();
         const {canvas, link} = this;
-        this.film = new Film((head, frame) => this.#present(head, frame), can => link.sendFirst("film", {can: Number(can)}));
         sendPointer(canvas, link, () => this.state.size);
         sendKeys(canvas, link, () => this.state.keyboard, () => this.toggleFullScreen());
         document.addEventListener("visibilitychange", () => this.#tellSeen());
@@ -110,25 +109,18 @@ class Remote {
     }
 
     async #see(head, bytes) {
-        if (head.coding === "jpeg")
-            this.#present(head, await createImageBitmap(new Blob([bytes], {type: "image/jpeg"})));
-        else
-            this.film.show(head, bytes);
-    }
-
-    // `bitmap` is an ImageBitmap or a VideoFrame.
-    #present(head, bitmap) {
+        const bitmap = await createImageBitmap(new Blob([bytes], {type: "image/jpeg"}));
         if (head.number > this.number) {
             this.number = head.number;
             this.head = head;
-            this.#draw(bitmap, bitmap.displayWidth ?? bitmap.width, bitmap.displayHeight ?? bitmap.height);
+            this.#draw(bitmap);
         }
         bitmap.close();
         this.#tellSeen();
     }
 
-    #draw(bitmap, width, height) {
-        const {canvas, picture} = this;
+    #draw(bitmap) {
+        const {canvas, picture} = this, {width, height} = bitmap;
         if (canvas.width !== width || canvas.height !== height) {
             [canvas.width, canvas.height] = [width, height];
             picture.style.setProperty("--ratio", width / height);

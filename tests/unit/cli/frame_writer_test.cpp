@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <iterator>
 
 namespace tidemark::cli::frame_writer_test {
 

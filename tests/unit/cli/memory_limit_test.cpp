@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <cstring>
 #include <vector>
 
 namespace tidemark::cli::memory_limit_test {

@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include <limits>
 
 namespace tidemark::cli::requests_test {
 

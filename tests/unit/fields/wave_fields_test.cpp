@@ -2,7 +2,6 @@
 #include "dense_march.hpp"
 #include "fields/gerstner_waves_field.hpp"
 #include "fields/procedural_ocean_field.hpp"
-#include "shader/definitions.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/scene.hpp"
 

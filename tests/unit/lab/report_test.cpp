@@ -1,6 +1,5 @@
 // What is said of a study, made by hand so that the right answers are known.
 #include "lab/study_data.hpp"
-#include "lab/study_report.hpp"
 #include "lab/study_page.hpp"
 #include "lab/work_precision.hpp"
 
@@ -144,25 +143,6 @@ TEST(Data, csv_has_a_row_for_each_view_and_quotes_what_needs_it) {
     EXPECT_EQ(std::ranges::count(head, ','), std::ranges::count(last, ','));
 }
 
-TEST(Diagram, draws_every_series_the_front_and_hollow_points) {
-    const std::string script = diagram_script(usual(), Across::time, "error-vs-time");
-    EXPECT_THAT(script, HasSubstr("set output 'error-vs-time.svg'"));
-    EXPECT_THAT(script, HasSubstr("set logscale xy"));
-    EXPECT_THAT(script, HasSubstr("title 'N <of it> (heuristic)'"));
-    EXPECT_THAT(script, HasSubstr("$front << EOD"));
-    EXPECT_THAT(script, HasSubstr("5e-05"));
-    EXPECT_EQ(diagram_script(usual(), Across::work, "w"), ""); // no hits, no work
-}
-
-TEST(Diagram, texts_are_no_commands) {
-    WorkPrecisionSet set = usual();
-    set.study.series[0].name = "x'; system('rm') ; \n'";
-    set.points[1].point.knob = "a\"b";
-    const std::string script = diagram_script(set, Across::time, "t");
-    EXPECT_THAT(script, HasSubstr("title 'x\u2019; system(\u2019rm\u2019) ;  \u2019 (heuristic)'"));
-    EXPECT_THAT(script, HasSubstr("\"a'b\""));
-}
-
 TEST(Html, escapes_and_needs_no_network) {
     WorkPrecisionSet set = usual();
     set.points[2].failure = "a <b> & c";
@@ -272,8 +252,6 @@ TEST(Data, what_a_set_has_not_is_left_out) {
     EXPECT_THAT(page, Not(HasSubstr("PSNR")));
     EXPECT_THAT(page, Not(HasSubstr("float target")));
     EXPECT_THAT(sentences(set), ElementsAre(HasSubstr("faster than the bake's own setting: 16")));
-    EXPECT_THAT(diagram_script(set, Across::work, "x"), testing::IsEmpty()); // nobody counted
-    EXPECT_THAT(diagram_script(set, Across::time, "x"), HasSubstr("title 'the bake\u2019s own setting'"));
 }
 
 // ---- Clocks ---------------------------------------------------------------------------------------------

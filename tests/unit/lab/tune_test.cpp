@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
 
 namespace tidemark::lab::tune_test {
 

@@ -3,7 +3,6 @@
 #include "picture_support.hpp"
 #include "support/limited_child.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <map>

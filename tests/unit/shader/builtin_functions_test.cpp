@@ -6,7 +6,6 @@
 #include <cmath>
 #include <set>
 #include <string>
-#include <tuple>
 
 namespace tidemark::glsl::builtin_functions_test {
 

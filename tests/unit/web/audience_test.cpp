@@ -5,9 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <condition_variable>
 #include <latch>
-#include <mutex>
 
 namespace tidemark::serve::audience_test {
 
@@ -23,17 +21,8 @@ struct AudienceTest : testing::Test {
         return Audience(
             {.send = [this](ViewerId viewer,
                             const SharedMessage& message) { sent[viewer].push_back(message->bytes); },
-             .once = once,
-             .film = true},
+             .once = once},
             inbox);
-    }
-    /// As the encoder makes it for those who want it so; `before` 0: seen without the film before.
-    void show_film(uint32_t number, uint32_t before) {
-        const auto message = [&](const char* kind) {
-            return std::make_shared<Message>(Message{fmt::format("picture {} {}", number, kind), true});
-        };
-        audience.show(
-            {number, audience.wanted().whole ? message("whole") : nullptr, message("film"), before});
     }
     void show(uint32_t number) {
         audience.show({number, std::make_shared<Message>(Message{fmt::format("picture {}", number), true})});
@@ -66,52 +55,6 @@ TEST_F(AudienceTest, one_that_is_slow_misses_pictures_and_holds_up_nobody) {
     EXPECT_THAT(pictures(1), ElementsAre("picture 1", "picture 2", "picture 5"));
     seen(1, 5);
     EXPECT_THAT(pictures(1), testing::SizeIs(3)) << "there is no newer one";
-}
-
-constexpr std::string_view k_shows_film = R"({"do":"film","can":1})",
-                           k_shows_none = R"({"do":"film","can":0})";
-
-TEST_F(AudienceTest, a_film_goes_to_those_who_can_show_it_and_have_what_it_follows) {
-    audience.came(1);
-    audience.came(2);
-    EXPECT_TRUE(audience.wanted().whole);
-    EXPECT_FALSE(audience.wanted().film);
-    EXPECT_TRUE(audience.said(1, k_shows_film));
-    show_film(2, 0);
-    show_film(4, 2);
-    EXPECT_THAT(pictures(1), ElementsAre("picture 2 film", "picture 4 film"));
-    EXPECT_THAT(pictures(2), ElementsAre("picture 2 whole", "picture 4 whole"));
-    EXPECT_FALSE(audience.wanted().key) << "nobody who is ready lacks anything";
-    seen(2, 4);
-    show_film(6, 4); // the first is not ready
-    seen(1, 4);
-    EXPECT_THAT(pictures(1).back(), "picture 6 film") << "late, and nothing is missing";
-    show_film(8, 6);
-    show_film(10, 8);
-    seen(1, 8);
-    EXPECT_THAT(pictures(1).back(), "picture 10 film");
-}
-
-TEST_F(AudienceTest, whoever_missed_a_part_of_the_film_waits_for_one_that_needs_nothing) {
-    audience.came(1);
-    EXPECT_TRUE(audience.said(1, k_shows_film));
-    show_film(2, 0);
-    show_film(4, 2);
-    show_film(6, 4);
-    show_film(8, 6);
-    EXPECT_THAT(pictures(1), ElementsAre("picture 2 film", "picture 4 film"));
-    seen(1, 4);
-    EXPECT_THAT(pictures(1), testing::SizeIs(2)) << "8 follows 6, which it has not";
-    EXPECT_TRUE(audience.wanted().key);
-    show_film(10, 8);
-    EXPECT_THAT(pictures(1), testing::SizeIs(2));
-    show_film(12, 0);
-    EXPECT_THAT(pictures(1).back(), "picture 12 film");
-    EXPECT_TRUE(audience.said(1, k_shows_none));
-    EXPECT_TRUE(audience.wanted().whole);
-    show(13);
-    EXPECT_THAT(pictures(1).back(), "picture 13");
-    EXPECT_FALSE(audience.said(1, R"({"do":"film","can":2})"));
 }
 
 TEST_F(AudienceTest, a_picture_that_was_not_sent_is_not_seen) {
@@ -228,7 +171,7 @@ TEST_F(AudienceTest, a_pointer_that_moves_on_is_where_it_came_to) {
 TEST(PictureEncoder, takes_the_newest) {
     std::latch begun(1), go_on(1), done(2);
     std::vector<uint32_t> numbers;
-    PictureEncoder encoder({.whole =
+    PictureEncoder encoder({.encode =
                                 [&, first = true](const image::Image&) mutable {
                                     if (std::exchange(first, false)) {
                                         begun.count_down();
@@ -236,13 +179,10 @@ TEST(PictureEncoder, takes_the_newest) {
                                     }
                                     return std::string("file");
                                 },
-                            .film = [](const image::Image&, bool) { return std::string("film"); },
-                            .wanted = [] { return WantedCodings{.whole = true}; },
                             .done =
                                 [&](const NumberedPicture& picture) {
                                     numbers.push_back(picture.number);
                                     EXPECT_TRUE(picture.message->bytes.ends_with("}file"));
-                                    EXPECT_EQ(picture.film, nullptr);
                                     done.count_down();
                                 }});
     encoder.push({{}, {.number = 1}});
@@ -256,53 +196,12 @@ TEST(PictureEncoder, takes_the_newest) {
     EXPECT_THAT(numbers, ElementsAre(1, 3));
 }
 
-/// Each as "number: whole, film <- what it follows".
-std::string told(const NumberedPicture& picture) {
-    const auto part = [](const SharedMessage& message) {
-        return message ? message->bytes.substr(message->bytes.rfind('}') + 1) : std::string("-");
-    };
-    return fmt::format("{}: {}, {} <- {}", picture.number, part(picture.message), part(picture.film),
-                       picture.film_before);
-}
-
-TEST(PictureEncoder, makes_a_film_that_ends_with_a_whole_picture) {
-    std::vector<std::string> made;
-    std::mutex mutex;
-    std::condition_variable changed;
-    WantedCodings wanted{.film = true};
-    PictureEncoder encoder(
-        {.whole = [](const image::Image&) { return std::string("file"); },
-         .film = [](const image::Image&, bool key) { return std::string(key ? "key" : "delta"); },
-         .wanted = [&] { return wanted; },
-         .done =
-             [&](const NumberedPicture& picture) {
-                 const std::lock_guard lock(mutex);
-                 made.push_back(told(picture));
-                 changed.notify_one();
-             }});
-    const auto push = [&](uint32_t number, Extent extent) {
-        std::unique_lock lock(mutex);
-        const size_t before = made.size();
-        encoder.push({image::Image(extent, 4, image::SampleType::u8), {.number = number}});
-        changed.wait(lock, [&] { return made.size() > before; });
-        std::string first = made[before];
-        changed.wait(lock, [&] { return made.size() > before + 1; }); // it stands still then
-        EXPECT_EQ(made.back(), fmt::format("{}: file, - <- 0", number + 1));
-        return first;
-    };
-    EXPECT_EQ(push(2, {4, 4}), "2: -, key <- 0");
-    EXPECT_EQ(push(4, {4, 4}), "4: -, delta <- 2");
-    EXPECT_EQ(push(6, {4, 8}), "6: -, key <- 0") << "another size";
-    wanted.key = wanted.whole = true;
-    EXPECT_EQ(push(8, {4, 8}), "8: file, key <- 0");
-}
-
 TEST(StateText, a_picture_has_a_head) {
     const auto message = picture_message(
         {.number = 3, .seconds = 2.5, .frame = 150, .costs = {1.234, {}}, .draw_ms = 4, .encode_ms = 0.5},
         "file");
     const std::string head =
-        R"({"number":3,"seconds":2.5,"frame":150,"costs":[1.23,null],"draw":4.0,"encode":0.5,"coding":"jpeg"})";
+        R"({"number":3,"seconds":2.5,"frame":150,"costs":[1.23,null],"draw":4.0,"encode":0.5})";
     EXPECT_EQ(message->bytes, std::string({char(head.size()), 0, 0, 0}) + head + "file");
     EXPECT_TRUE(message->binary);
 }
