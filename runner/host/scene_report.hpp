@@ -8,8 +8,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
