@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace tidemark {
@@ -40,5 +41,10 @@ struct Rectangle {
         return {left, bottom, {std::max(0, right - left), std::max(0, top - bottom)}};
     }
 };
+
+/// Parses `100,50,320,180`: left, bottom, width and height; nullopt for any other text or a side below 1.
+std::optional<Rectangle> parse_rectangle(std::string_view text);
+/// Returns the text that parse_rectangle reads.
+std::string to_string(const Rectangle& area);
 
 } // namespace tidemark

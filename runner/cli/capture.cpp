@@ -2,7 +2,7 @@
 // open.
 
 #include "base/error.hpp"
-#include "cli/capture_output.hpp"
+#include "cli/capture_delivery.hpp"
 #include "cli/capture_plan.hpp"
 #include "cli/capture_resume.hpp"
 #include "cli/capture_run.hpp"
@@ -41,7 +41,7 @@ namespace tidemark::cli {
 Result<CaptureOptions> with_likeness(CaptureOptions options);
 
 /// Prints a line if the picture was drawn from another text, with other inputs, or by another driver.
-void say_what_is_unlike(const CapturePlan& plan, const Fingerprint& fingerprint);
+void say_what_is_unlike(const CapturePlan& plan);
 
 namespace {
 
@@ -100,8 +100,12 @@ std::optional<T> number_in(const image::Metadata& metadata, std::string_view nam
     return number;
 }
 
-/// Takes --samples and --shutter from the metadata if they are not given.
-void take_exposure(const image::Metadata& metadata, CaptureOptions& options) {
+/// Takes --crop, --samples and --shutter from the metadata if they are not given. A crop is of one size, so
+/// with --size it is not taken.
+void take_options(const image::Metadata& metadata, CaptureOptions& options) {
+    const std::string* const crop = image::find(metadata, k_crop);
+    if (crop && !options.crop && !options.frames.size && parse_rectangle(*crop))
+        options.crop = *crop;
     if (!options.samples)
         options.samples = number_in(metadata, "Samples", 1, render::k_most_samples);
     if (!options.shutter)
@@ -156,17 +160,17 @@ Result<CaptureOptions> with_likeness(CaptureOptions options) {
         moment.sequence.state = without_recorded(std::move(moment.sequence.state));
     }
     scene = completed(std::move(scene), moment);
-    take_exposure(*metadata, options);
+    take_options(*metadata, options);
     const std::string* fingerprint = image::find(*metadata, k_fingerprint);
     options.likeness = Likeness{std::move(moment.sequence), fingerprint ? *fingerprint : ""};
     return options;
 }
 
-void say_what_is_unlike(const CapturePlan& plan, const Fingerprint& fingerprint) {
+void say_what_is_unlike(const CapturePlan& plan) {
     if (plan.like.empty() || !plan.likeness)
         return;
     const Fingerprint there = Fingerprint::parse(plan.likeness->fingerprint).of_scene();
-    if (const std::string other = fingerprint.of_scene().differences(there); !other.empty())
+    if (const std::string other = plan.identity.of_scene().differences(there); !other.empty())
         say(fmt::format("not quite like {}: {}", plan.like, other));
 }
 
@@ -182,12 +186,11 @@ uint64_t largest_state(const CapturePlan& plan) {
 
 /// Returns the newest state from which the rest of the capture can start. If there is none, a newer one
 /// supplies only the program that was chosen.
-std::optional<SavedState> find_state(const CapturePlan& plan, const Fingerprint& fingerprint) {
-    const render::FrameStates states = states_of(plan.frames);
+std::optional<SavedState> find_state(const CapturePlan& plan) {
     std::optional<SavedState> too_new;
     for (const std::filesystem::path& file : find_states(plan.output)) {
         auto state = read_state(
-            file, [&](int frame) { return fingerprint.of_frame(states(frame)); }, largest_state(plan));
+            file, [&](int frame) { return plan.identity_of(frame); }, largest_state(plan));
         if (state && state->frame <= plan.frames.frames.front())
             return state;
         if (state && !too_new)
@@ -230,7 +233,7 @@ void say_what_pixels_hold(const FrameRecords& records, const CapturePlan& plan) 
     warn_of(records.not_finite(), [&](const FrameRecord& first, const std::string& others) {
         return fmt::format("{} not finite{}; where from: {}",
                            pixels_are(first.not_finite, fmt::format("of frame {}", first.frame)), others,
-                           plan.trace_command(states_of(plan.frames)(first.frame)));
+                           trace_command(plan.request, plan.frames, plan.states(first.frame)));
     });
     const bool clamped = !plan.to_picture_files() || plan.depth == image::SampleDepth::u8 ||
                          plan.depth == image::SampleDepth::u16;
@@ -242,9 +245,9 @@ void say_what_pixels_hold(const FrameRecords& records, const CapturePlan& plan) 
 }
 
 /// Removes frames that already exist from the plan, and prints how many there are.
-void keep_what_is_there(CapturePlan& plan, const Fingerprint& fingerprint) {
+void keep_what_is_there(CapturePlan& plan) {
     const size_t all = plan.frames.frames.size();
-    const KeptFrames kept = leave_out_kept(plan, fingerprint);
+    const KeptFrames kept = leave_out_kept(plan);
     for (const std::string& line : kept.said)
         say(line);
     say(fmt::format("kept {} of {} frames", kept.frames.size(), all));
@@ -272,9 +275,9 @@ std::string interruption(const CapturePlan& plan, Capture& run) {
 }
 
 /// Removes existing frames from the plan, and returns the state from which the rest starts.
-std::optional<SavedState> take_up(CapturePlan& plan, const Fingerprint& fingerprint) {
+std::optional<SavedState> take_up(CapturePlan& plan) {
     if (plan.resume)
-        keep_what_is_there(plan, fingerprint);
+        keep_what_is_there(plan);
     else if (plan.frames.frames.empty())
         say(plan.output.video()
                 ? "this shard has no frame: there are more shards than segments of the video, "
@@ -282,7 +285,7 @@ std::optional<SavedState> take_up(CapturePlan& plan, const Fingerprint& fingerpr
                 : "this shard has no frame: there are more shards than frames");
     if (plan.frames.frames.empty() || !(plan.resume || plan.shard))
         return std::nullopt;
-    auto state = find_state(plan, fingerprint);
+    auto state = find_state(plan);
     if (state && !plan.shard) { // all shards must draw the same program, whatever another capture chose
         plan.drawing.specialise = state->program;
         plan.trial.reset();
@@ -318,16 +321,16 @@ Result<int> capture_frames(CapturePlan plan) {
     if (plan.to_picture_files())
         codec = image::preload_picture_codec(plan.output.pattern());
     const auto context = TRY(platform::HeadlessContext::create(plan.device));
-    const auto fingerprint = fingerprint_of_run(plan, gl::query_capabilities());
-    say_what_is_unlike(plan, fingerprint);
+    plan.identity.set_device(gl::query_capabilities());
+    say_what_is_unlike(plan);
     const std::optional<StagedFile> sound = draw_sound_of_video(plan, interrupt);
-    const std::optional<SavedState> state = take_up(plan, fingerprint);
+    const std::optional<SavedState> state = take_up(plan);
     if (plan.frames.frames.empty() && (plan.to_picture_files() || plan.shard) && !plan.json) {
         tidy_up(plan);
         return 0;
     }
     auto compiled = TRY(compile(plan, interrupt));
-    Capture run(plan, fingerprint, compiled, sound ? sound->path() : std::filesystem::path());
+    Capture run(plan, compiled, sound ? sound->path() : std::filesystem::path());
     if (state)
         run.start_from(*state);
     const bool complete = TRY(draw(run, plan, interrupt));
@@ -388,6 +391,10 @@ void add_capture_options(Command command, CaptureOptions& options) {
             "Of Image: 1, as ShaderToy shows it; or what its text gives, straight or with the colours "
             "multiplied by it [opaque]")
         .type_name("opaque|keep|premultiplied");
+    command
+        .add_option("--crop", options.crop,
+                    "Writes that part alone: left, bottom, width and height in pixels from the bottom left")
+        .type_name("X,Y,W,H");
     command.add_flag("--layers", options.layers,
                      "All passes into one .exr, each as a part of its name; a cube as six");
     add_device_options(command, options.device);

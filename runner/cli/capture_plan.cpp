@@ -10,6 +10,7 @@
 #include "host/scene_report.hpp"
 #include "host/supervision.hpp"
 #include "media/picture_file.hpp"
+#include "media/texture_files.hpp"
 #include "media/video_output.hpp"
 #include "render/gl_context.hpp"
 #include "render/picture_parts.hpp"
@@ -126,6 +127,26 @@ Result<std::optional<SampleDepth>> parse_layers(const CaptureOptions& options, c
     return options.depth.empty() ? SampleDepth::f32 : plan.depth;
 }
 
+/// Returns the part of a picture of size `drawn` that is written; nothing for the whole picture.
+Result<std::optional<Rectangle>> parse_crop(const CaptureOptions& options, const CapturePlan& plan,
+                                            Extent drawn) {
+    if (!options.crop)
+        return std::nullopt;
+    const auto refuse = [&](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("--crop {}: {}", *options.crop, why));
+    };
+    const auto area = parse_rectangle(*options.crop);
+    if (!area)
+        return refuse("give X,Y,WIDTH,HEIGHT in pixels from the bottom left, as in 100,50,320,180");
+    if (plan.output.six_faces())
+        return refuse("the faces of a cube are written whole: leave {} out of the name");
+    const auto& [x, y, size] = *area;
+    if (x < 0 || y < 0 || size.width > drawn.width - x || size.height > drawn.height - y)
+        return refuse(fmt::format("the rectangle is not inside the picture of {}x{} pixels", drawn.width,
+                                  drawn.height));
+    return size == drawn ? std::nullopt : std::optional(*area);
+}
+
 /// The default length of a sheet in seconds.
 constexpr double k_seconds_of_sheet = 10;
 
@@ -161,7 +182,9 @@ Result<void> check_sheet(const CapturePlan& plan) {
     };
     if (!plan.to_picture_files() || plan.output.six_faces())
         return refuse("it is one picture: give a .png, .jpg, .tif, .exr or .hdr");
-    const Extent extent = plan.sheet->extent(plan.frames.state.extent);
+    if (plan.cube && !plan.crop)
+        return refuse("a cube is shown as a panorama, which is too large for a cell");
+    const Extent extent = plan.sheet->extent(plan.written);
     const size_t bytes = extent.pixels() * 4 * image::size_of(plan.drawing.samples);
     if (std::max(extent.width, extent.height) > image::k_largest_side || bytes > image::k_largest_picture)
         return refuse(fmt::format("it would be {}x{} pixels: give a smaller --size, or fewer cells",
@@ -243,7 +266,7 @@ Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options
     if (plan.to_picture_files()) {
         if (auto known = image::check_picture_format(output.pattern(), plan.depth); !known)
             return known;
-        if (auto fits = image::PictureStream::check_extent(output.pattern(), extent); !fits)
+        if (auto fits = image::PictureStream::check_extent(output.pattern(), plan.written); !fits)
             return fits;
     }
     TRY(check_sheet(plan));
@@ -262,11 +285,22 @@ Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options
     return {};
 }
 
-/// Converts the options that do not depend on the scene.
-Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
+/// Returns the pass that a command shows; null if the scene has none of that name.
+const scene::Pass* shown_pass(const scene::Scene& scene, const std::string& name) {
+    const auto shown =
+        std::ranges::find(scene.passes, name.empty() ? scene.image().name : name, &scene::Pass::name);
+    return shown == scene.passes.end() ? nullptr : &*shown;
+}
+
+/// Converts the options. `files` is the scene without the changes that options make to it, which gives the
+/// size and the kind of the shown pass; null if it could not be loaded.
+Result<CapturePlan> plan_of_options(const CaptureOptions& options, const scene::Scene* files) {
     CapturePlan plan;
-    plan.frames =
-        TRY(resolve(options.frames, options.likeness ? options.likeness->sequence : FrameSequence()));
+    plan.frames = TRY(resolve(files && !options.likeness ? sized(options.frames, *files) : options.frames,
+                              options.likeness ? options.likeness->sequence : FrameSequence()));
+    plan.states = states_of(plan.frames);
+    const scene::Pass* const shown = files ? shown_pass(*files, plan.frames.state.pass) : nullptr;
+    plan.cube = shown && shown->kind == scene::PassKind::cubemap;
     std::vector<int>& numbers = plan.frames.frames;
     if (!options.sheet.empty()) {
         plan.sheet = TRY(parse_sheet(options.sheet));
@@ -286,8 +320,10 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     plan.exposure = exposure_of(options, plan.depth);
     plan.alpha = TRY(parse_alpha(options.alpha, plan));
     plan.layers = TRY(parse_layers(options, plan));
-    const bool keeps_alpha = plan.alpha != Alpha::where_needed;
-    const bool bytes = plan.depth == SampleDepth::u8 && !plan.exposure.several() && !keeps_alpha;
+    const Extent drawn = plan.cube ? image::k_panorama : plan.frames.state.extent;
+    plan.crop = TRY(parse_crop(options, plan, drawn));
+    plan.written = plan.crop ? plan.crop->extent : drawn;
+    const bool bytes = plan.depth == SampleDepth::u8 && !plan.exposure.several() && !plan.keeps_alpha();
     plan.drawing = {
         .extent = plan.frames.state.extent,
         .samples = bytes ? SampleType::u8 : SampleType::f32,
@@ -296,7 +332,7 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
         .specialise = options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable,
         .extras = {.passes = options.layers},
         .marks_non_finite = true,
-        .keeps_alpha = keeps_alpha,
+        .keeps_alpha = plan.keeps_alpha(),
     };
     if (plan.output.video())
         plan.segments = segments_of(numbers, plan.pace, options.state_every);
@@ -310,9 +346,6 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options) {
     plan.resume = options.resume;
     plan.loop = options.loop;
     plan.state_every = options.state_every;
-    plan.trace_command = [scene = options.scene, frames = plan.frames](const render::FrameState& state) {
-        return trace_command(scene, frames, state);
-    };
     return check_output(plan, options).map([&] { return std::move(plan); });
 }
 
@@ -334,15 +367,8 @@ Result<void> spare_what_is_read(const CaptureOptions& options, CapturePlan& plan
     return {};
 }
 
-Result<void> check_cube(const CapturePlan& plan) {
-    const std::string& name = plan.drawing.pass;
-    const auto shown = std::ranges::find(plan.scene.passes, name.empty() ? plan.scene.image().name : name,
-                                         &scene::Pass::name);
-    const bool other = shown != plan.scene.passes.end() && shown->kind != scene::PassKind::cubemap;
-    if (plan.sheet && shown != plan.scene.passes.end() && !other)
-        return fail(ErrorCode::usage,
-                    "--sheet: a cube is shown as a panorama, which is too large for a cell");
-    if (plan.output.six_faces() && other)
+Result<void> check_six_faces(const CapturePlan& plan) {
+    if (plan.output.six_faces() && !plan.cube && shown_pass(plan.scene, plan.drawing.pass))
         return fail(ErrorCode::usage,
                     fmt::format("-o {}: {{}} stands for a face of a cube: give --pass \"Cube A\"",
                                 plan.output.pattern().string()));
@@ -365,10 +391,9 @@ Result<std::optional<PlannedTrial>> plan_trial(const CaptureOptions& options, co
     if (options.plain || turned || !(options.allowed_difference || long_enough))
         return std::nullopt;
     const int first = plan.scene.passes.size() > 1 ? 0 : frames.front(); // buffers begin at frame 0
-    const render::FrameStates states = states_of(plan.frames);
     return PlannedTrial{options.allowed_difference ? glsl::Specialise::constants
                                                    : glsl::Specialise::invariant_uniforms,
-                        {inputs_of(states(first)), inputs_of(states(frames.back())), frames.size(),
+                        {inputs_of(plan.states(first)), inputs_of(plan.states(frames.back())), frames.size(),
                          options.allowed_difference}};
 }
 
@@ -397,27 +422,20 @@ Result<void> take_shard(const CaptureOptions& options, CapturePlan& plan) {
     return {};
 }
 
-CaptureOptions sized(CaptureOptions options, const scene::Scene& scene) {
-    options.frames = sized(std::move(options.frames), scene);
-    return options;
-}
-
 } // namespace
 
 Result<CapturePlan> plan_capture(const CaptureOptions& options) {
-    auto plan = plan_of_options(options);
-    if (!plan)
-        return plan;
-    auto scene = TRY(load(options.scene, plan->frames));
-    if (scene.size && !options.frames.size && !options.likeness)
-        plan = TRY(plan_of_options(sized(options, scene)));
-    plan->scene = std::move(scene);
-    TRY(spare_what_is_read(options, *plan));
-    TRY(check_cube(*plan));
+    // Wrong options are reported before a scene that cannot be loaded.
+    auto files = scene::load_scene(options.scene.path, options.scene.files);
+    CapturePlan plan = TRY(plan_of_options(options, files ? &*files : nullptr));
+    plan.scene = TRY(load(options.scene, plan.frames, std::move(files)));
+    TRY(spare_what_is_read(options, plan));
+    TRY(check_six_faces(plan));
+    if (options.shard.empty())
+        plan.trial = TRY(plan_trial(options, plan));
+    plan.identity = identity_of_run(plan);
     if (!options.shard.empty())
-        TRY(take_shard(options, *plan));
-    else
-        plan->trial = TRY(plan_trial(options, *plan));
+        TRY(take_shard(options, plan));
     return plan;
 }
 

@@ -1,11 +1,13 @@
-// The options of `tidemark capture`, and the plan made from them: the scene, its frames, how they are drawn
-// and where they go. Errors in the command line are found here, except those that only the driver or the
-// compiled scene shows; later code uses the plan, not the options.
+// The options of `tidemark capture`, and the plan made once from them: the scene, its frames with their
+// states, how they are drawn, where they go, and the identity of the run. Errors in the command line are
+// found here, except those that only the driver or the compiled scene shows; later code uses the plan, not
+// the options.
 #pragma once
 
 #include "cli/capture_frames.hpp"
 #include "host/command_line.hpp"
 #include "host/devices.hpp"
+#include "host/fingerprint.hpp"
 #include "host/frame_files.hpp"
 #include "host/program_trial.hpp"
 #include "host/requests.hpp"
@@ -14,7 +16,6 @@
 #include "render/exposure.hpp"
 #include "render/renderer.hpp"
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,7 @@ struct CaptureOptions {
     bool layers = false;
     std::string alpha;
     std::string codec;
+    std::optional<std::string> crop;
     platform::DeviceChoice device{};
     std::optional<double> timeout;
     std::string sheet;
@@ -74,7 +76,13 @@ struct VideoSegment {
 struct CapturePlan {
     scene::Scene scene;
     FrameSequence frames;
+    render::FrameStates states; ///< of `frames`: the state of any frame by its number
+    Fingerprint identity;       ///< of the run; its device is set when there is a context
     OutputName output;
+    bool cube =
+        false; ///< the shown pass is a cube, drawn as a panorama or, with {} in the name, as six faces
+    std::optional<Rectangle> crop{}; ///< the part of a drawn picture that is written; nothing: all of it
+    Extent written{};                ///< size of a written picture, except for six faces
     image::SampleDepth depth = image::SampleDepth::u8;
     image::Transfer transfer = image::Transfer::srgb; ///< of the files
     image::Alpha alpha = image::Alpha::where_needed;  ///< of Image; where_needed: alpha is 1
@@ -99,9 +107,10 @@ struct CapturePlan {
     int state_every = 0;          ///< frames between two saved states of buffers; 0: none is saved
     std::optional<Shard> shard{}; ///< the shard that makes `frames`
     std::vector<int> kept{};      ///< frames that already exist, not in `frames`
-    /// Returns the command that finds where a pixel of that frame becomes NaN or infinite.
-    std::function<std::string(const render::FrameState&)> trace_command;
 
+    /// Returns the fingerprint of a frame of the run.
+    Fingerprint identity_of(int frame) const { return identity.of_frame(states(frame)); }
+    bool keeps_alpha() const { return alpha != image::Alpha::where_needed; }
     bool to_picture_files() const { return !output.standard_output() && !output.video(); }
 };
 

@@ -53,13 +53,15 @@ Json drawing_facts(const CapturePlan& plan) {
         facts.push_back(Json::array({"alpha", int(plan.alpha)}));
     if (plan.layers)
         facts.push_back(Json::array({"layers", int(*plan.layers)}));
+    if (plan.crop)
+        facts.push_back(Json::array({"crop", to_string(*plan.crop)}));
     return facts;
 }
 
 } // namespace
 
-Fingerprint fingerprint_of_run(const CapturePlan& plan, const gl::Capabilities& driver) {
-    Fingerprint run = Fingerprint::of_scene(plan.scene, plan.request.defines, plan.frames, driver);
+Fingerprint identity_of_run(const CapturePlan& plan) {
+    Fingerprint run = Fingerprint::of_scene(plan.scene, plan.request.defines, plan.frames);
     run.add("knobs", knob_facts(plan.scene));
     run.add("drawing", drawing_facts(plan));
     return run;
@@ -235,7 +237,7 @@ Result<void> StateSaver::save_buffers(int frame) {
 
 Result<void> StateSaver::save(const SavedState& state) {
     const OutputPath file = state_file(plan_.output, state.frame);
-    auto written = write_state(file, state, fingerprint_.of_frame(states_of(plan_.frames)(state.frame)));
+    auto written = write_state(file, state, plan_.identity_of(state.frame));
     if (!written)
         return written;
     if (last_)
@@ -276,16 +278,15 @@ OutputPath segment_file(const OutputName& video, size_t index) {
         fmt::format(".segment-{:04}{}", index, image::segment_extension(video.pattern())));
 }
 
-std::string note_of(const CapturePlan& plan, const VideoSegment& segment, const Fingerprint& run) {
-    const render::FrameStates states = states_of(plan.frames);
+std::string note_of(const CapturePlan& plan, const VideoSegment& segment) {
     std::vector<render::FrameState> seen;
     for (const int frame : segment.frames)
-        seen.push_back(states(frame));
-    return run.of_frames(seen).text();
+        seen.push_back(plan.states(frame));
+    return plan.identity.of_frames(seen).text();
 }
 
-Result<SegmentedVideo> SegmentedVideo::create(const CapturePlan& plan, Fingerprint run, Extent extent) {
-    SegmentedVideo video(plan, std::move(run), extent);
+Result<SegmentedVideo> SegmentedVideo::create(const CapturePlan& plan, Extent extent) {
+    SegmentedVideo video(plan, extent);
     TRY(video.claim());
     TRY(video.open_next());
     return video;
@@ -338,7 +339,7 @@ Result<void> SegmentedVideo::push(const image::Image& image) {
 }
 
 Result<void> SegmentedVideo::close() {
-    auto written = writer_->finish(note_of(plan_, plan_.segments[next_ - 1], run_));
+    auto written = writer_->finish(note_of(plan_, plan_.segments[next_ - 1]));
     writer_.reset();
     if (written)
         written_ += pushed_;
@@ -354,10 +355,10 @@ Result<void> SegmentedVideo::finish(const std::filesystem::path& sound) {
     return {};
 }
 
-Result<void> join(CapturePlan plan, const Fingerprint& run, const std::filesystem::path& sound) {
+Result<void> join(CapturePlan plan, const std::filesystem::path& sound) {
     for (VideoSegment& segment : plan.segments)
         segment.kept = true;
-    SegmentedVideo video = TRY(SegmentedVideo::create(plan, run, plan.drawing.extent));
+    SegmentedVideo video = TRY(SegmentedVideo::create(plan, plan.written));
     return video.finish(sound);
 }
 
@@ -400,13 +401,12 @@ void note(std::vector<Again>& all, fs::path file, std::string why) {
         all.push_back({std::move(why), std::move(file), 1});
 }
 
-KeptFrames leave_out_pictures(CapturePlan& plan, const Fingerprint& run) {
-    const render::FrameStates states = states_of(plan.frames);
+KeptFrames leave_out_pictures(CapturePlan& plan) {
     KeptFrames kept;
     std::vector<int> missing;
     std::vector<Again> again;
     for (const int frame : plan.frames.frames) {
-        auto objection = objection_to(files_of(plan.output, frame), run.of_frame(states(frame)));
+        auto objection = objection_to(files_of(plan.output, frame), plan.identity_of(frame));
         (objection ? missing : kept.frames).push_back(frame);
         if (!objection)
             continue;
@@ -421,7 +421,7 @@ KeptFrames leave_out_pictures(CapturePlan& plan, const Fingerprint& run) {
     return kept;
 }
 
-KeptFrames leave_out_segments(CapturePlan& plan, const Fingerprint& run) {
+KeptFrames leave_out_segments(CapturePlan& plan) {
     KeptFrames kept;
     std::vector<int> missing;
     for (size_t i = 0; i < plan.segments.size(); ++i) {
@@ -429,14 +429,14 @@ KeptFrames leave_out_segments(CapturePlan& plan, const Fingerprint& run) {
         if (segment.others)
             continue;
         const auto note = image::note_of_segment(segment_file(plan.output, i).path());
-        segment.kept = note && *note == note_of(plan, segment, run);
+        segment.kept = note && *note == note_of(plan, segment);
         std::vector<int>& into = segment.kept ? kept.frames : missing;
         into.insert(into.end(), segment.frames.begin(), segment.frames.end());
         if (note && !segment.kept)
             kept.said.push_back(fmt::format(
                 "drawing frames {} to {} again: they were drawn with {}", segment.frames.front(),
                 segment.frames.back(),
-                Fingerprint::parse(note_of(plan, segment, run)).differences(Fingerprint::parse(*note))));
+                Fingerprint::parse(note_of(plan, segment)).differences(Fingerprint::parse(*note))));
     }
     plan.frames.frames = std::move(missing);
     return kept;
@@ -464,8 +464,8 @@ std::string why_not_kept(const fs::path& file, const Fingerprint& wanted) {
     return differences.empty() ? "" : "it was drawn with " + differences;
 }
 
-KeptFrames leave_out_kept(CapturePlan& plan, const Fingerprint& run) {
-    return plan.output.video() ? leave_out_segments(plan, run) : leave_out_pictures(plan, run);
+KeptFrames leave_out_kept(CapturePlan& plan) {
+    return plan.output.video() ? leave_out_segments(plan) : leave_out_pictures(plan);
 }
 
 } // namespace tidemark::cli

@@ -1,4 +1,5 @@
-// The fingerprint that all frames of a capture share.
+// What an interrupted capture leaves for `--resume`: the identity of the run, saved states, segments of a
+// video, and the frames that are already on disk.
 #pragma once
 
 #include "base/error.hpp"
@@ -19,8 +20,9 @@
 
 namespace tidemark::cli {
 
-/// Reads the files that the scene reads.
-Fingerprint fingerprint_of_run(const CapturePlan& plan, const gl::Capabilities& driver);
+/// Returns the fingerprint that all frames of a capture share, for no device yet; for a plan of all its
+/// frames. Reads the files that the scene reads.
+Fingerprint identity_of_run(const CapturePlan& plan);
 
 // The state for continuing an interrupted capture: the buffers before a frame, and the program that draws it.
 // It is stored next to the frames as `frame_0120.png.state`, written whole or not at all, with a checksum at
@@ -58,9 +60,9 @@ std::optional<SavedState> read_state(const std::filesystem::path& file,
 
 class StateSaver {
 public:
-    /// The plan and the renderer must outlive it. `fingerprint` is that of the run.
-    StateSaver(const CapturePlan& plan, Fingerprint fingerprint, const render::Renderer& renderer)
-        : plan_(plan), fingerprint_(std::move(fingerprint)), renderer_(renderer) {}
+    /// The plan and the renderer must outlive it.
+    StateSaver(const CapturePlan& plan, const render::Renderer& renderer)
+        : plan_(plan), renderer_(renderer) {}
 
     /// Saves the result of a trial, which another run might decide differently. Call it before the first
     /// frame.
@@ -75,7 +77,6 @@ private:
     Result<void> save(const SavedState& state);
 
     const CapturePlan& plan_;
-    Fingerprint fingerprint_;
     const render::Renderer& renderer_;
     std::optional<int> last_{}; ///< frame of the newest state on disk
 };
@@ -90,13 +91,13 @@ std::vector<VideoSegment> segments_of(const std::vector<int>& frames, const Vide
 OutputPath segment_file(const OutputName& video, size_t index);
 
 /// Returns the fingerprint that a segment stores as its note.
-std::string note_of(const CapturePlan& plan, const VideoSegment& segment, const Fingerprint& run);
+std::string note_of(const CapturePlan& plan, const VideoSegment& segment);
 
 class SegmentedVideo {
 public:
     /// `plan` must outlive it. Starts the first encoder if there is anything to encode. Fails
     /// (ErrorCode::write) while another process makes the same video, or the same shard of it.
-    static Result<SegmentedVideo> create(const CapturePlan& plan, Fingerprint run, Extent extent);
+    static Result<SegmentedVideo> create(const CapturePlan& plan, Extent extent);
 
     /// Encodes the next frame of those that are not kept.
     Result<void> push(const image::Image& image);
@@ -108,8 +109,7 @@ public:
     Result<void> finish(const std::filesystem::path& sound);
 
 private:
-    SegmentedVideo(const CapturePlan& plan, Fingerprint run, Extent extent)
-        : plan_(plan), run_(std::move(run)), extent_(extent) {}
+    SegmentedVideo(const CapturePlan& plan, Extent extent) : plan_(plan), extent_(extent) {}
     Result<void> claim();
     Result<void> open_next();
     Result<void> close();
@@ -117,7 +117,6 @@ private:
     void remove_segments() const;
 
     const CapturePlan& plan_;
-    Fingerprint run_;
     Extent extent_;
     size_t next_ = 0; ///< the next segment to begin
     size_t written_ = 0;
@@ -127,7 +126,7 @@ private:
 };
 
 /// Joins segments that all exist.
-Result<void> join(CapturePlan plan, const Fingerprint& run, const std::filesystem::path& sound);
+Result<void> join(CapturePlan plan, const std::filesystem::path& sound);
 
 // Finds frames of an interrupted capture that are already on disk: `--resume` draws the plan without them. A
 // frame is kept if its file is complete and has the fingerprint that it would be drawn with.
@@ -138,7 +137,7 @@ struct KeptFrames {
 };
 
 /// Removes kept frames from the plan, and marks the kept segments of a video. Changes no file.
-KeptFrames leave_out_kept(CapturePlan& plan, const Fingerprint& run);
+KeptFrames leave_out_kept(CapturePlan& plan);
 
 /// Returns the files of a frame: one picture, or the six faces of a cube.
 std::vector<std::filesystem::path> files_of(const OutputName& output, int frame);

@@ -1,31 +1,92 @@
-// Runs `tidemark capture`: draws the frames of a plan and passes them to the encoders.
+// Runs `tidemark capture`: draws the frames of a plan and passes them to their delivery.
 #pragma once
 
-#include "cli/capture_output.hpp"
+#include "cli/capture_delivery.hpp"
 #include "cli/capture_plan.hpp"
 #include "cli/capture_resume.hpp"
-#include "host/fingerprint.hpp"
-#include "host/frame_files.hpp"
-#include "host/moment.hpp"
 #include "host/supervision.hpp"
 #include "render/frame_stepper.hpp"
 #include "render/gl_context.hpp"
+#include "render/gl_sync.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstddef>
+#include <deque>
 #include <filesystem>
-#include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tidemark::cli {
 
+// Reads frames back asynchronously: the pixels of earlier frames are copied while the driver draws the next
+// one and the encoders work.
+
+class FramesAhead {
+public:
+    /// Returns true if reading ahead is faster with this renderer. The environment variable
+    /// TIDEMARK_READ_BACK overrides it with `ahead` or `at-once`.
+    static bool pays(std::string_view renderer);
+
+    /// `renderer` and `dog` must outlive it. `limit`: seconds for a frame.
+    FramesAhead(const render::Renderer& renderer, Watchdog& dog, std::optional<double> limit);
+
+    bool empty() const { return ring_.empty(); }
+    bool full() const { return ring_.full(); }
+
+    /// Adds the frame that was just drawn, whose work began at `begun`. Returns false if the driver has no
+    /// memory for it.
+    bool add(const FrameRecord& record, Watchdog::Clock::time_point begun);
+    /// Returns the oldest frame; waits for it.
+    DrawnFrame take();
+
+private:
+    struct Waiting {
+        FrameRecord record;
+        Watchdog::Clock::time_point begun;
+    };
+
+    const render::Renderer& renderer_;
+    Watchdog& dog_;
+    std::optional<double> limit_;
+    gl::PixelRing ring_;
+    std::deque<Waiting> waiting_;
+    /// The time of a later frame counts from here at the earliest, so that waiting for an earlier one is not
+    /// included.
+    Watchdog::Clock::time_point last_taken_;
+};
+
+// Checks whether a sequence is a seamless loop: compares the frame after the last with the first, and for
+// scale the second with the first.
+
+/// Returns the frame that would come next.
+int frame_behind(const std::vector<int>& frames);
+
+class LoopCheck {
+public:
+    /// Adds a frame, one picture or six; call it for each one in order, and for the frame after the last.
+    void see(std::span<const image::Image> pictures);
+
+    /// PSNR in dB of the latest frame against the first, and of the second against the first.
+    double closing() const { return closing_; }
+    double step() const { return step_; }
+    std::string words() const;
+
+private:
+    void see(const image::Image& picture);
+
+    image::Image first_;
+    size_t seen_ = 0;
+    double step_ = 0, closing_ = 0;
+};
+
 class Capture {
 public:
     /// `plan` and `compiled` must outlive it. `sound` is a WAV file for a video; empty: silent.
-    Capture(const CapturePlan& plan, Fingerprint fingerprint, Trial& compiled,
-            std::filesystem::path sound = {});
+    Capture(const CapturePlan& plan, Trial& compiled, std::filesystem::path sound = {});
 
     /// Starts from a saved state instead of the beginning. Call it before `run`.
     void start_from(const SavedState& state) { start_ = &state; }
@@ -37,7 +98,7 @@ public:
     /// from them.
     size_t whole_frames();
 
-    const FrameRecords& records() const { return records_; }
+    const FrameRecords& records() const { return delivery_.records(); }
     /// Valid for a complete sequence.
     const LoopCheck& loop() const { return loop_; }
     /// Returns the report of `--json`.
@@ -53,8 +114,6 @@ private:
         std::optional<Watchdog::Watch> watch;
     };
 
-    bool in_bands() const;
-    bool keeps_alpha() const { return plan_.alpha != image::Alpha::where_needed; }
     void prepare(Interrupt& interrupt);
     void restore();
     bool draws_ahead() const;
@@ -64,44 +123,26 @@ private:
     Result<Outcome> hand_over_all_ahead();
     Result<bool> step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work);
     Result<bool> prepare_for(int frame, bool long_way);
-    Result<std::optional<DrawnFrame>> draw(int frame, const Interrupt& interrupt);
+    Result<std::optional<WrittenFrame>> draw(int frame, const Interrupt& interrupt);
     Result<void> check_driver(const std::string& doing);
-    void look_at(DrawnFrame& drawn);
-    Result<Outcome> hand_over(DrawnFrame drawn);
+    WrittenFrame finish(DrawnFrame drawn);
+    Result<Outcome> hand_over(WrittenFrame frame);
     Result<bool> close_loop(const Interrupt& interrupt);
     Result<Outcome> make_in_tiles(int frame, const Interrupt& interrupt);
-    Result<std::unique_ptr<BandOutput>> open_bands(const FrameRecord& record) const;
-    image::Image read_back() const;
-    std::optional<image::Image> draw_samples(int frame, const Interrupt& interrupt);
-    Result<bool> deliver(const FrameRecord& record, image::Image image);
-    std::vector<image::PictureLayer> layers_of(const FrameRecord& record, image::Image image) const;
-    image::PictureFormat format_of(const FrameRecord& record) const;
-    image::PictureFormat format_of_sheet() const;
-    Result<void> open_output();
-    Result<void> close_output();
-    Result<void> encode(std::string what, std::optional<double> limit,
-                        const std::function<Result<void>()>& work);
+    DrawnPixels read_back() const;
+    std::optional<DrawnPixels> draw_samples(int frame, const Interrupt& interrupt);
     void rescue_output();
 
     const CapturePlan& plan_;
-    Fingerprint fingerprint_; ///< of the run
     render::Renderer& renderer_;
     bool in_doubt_; ///< another run might choose another program
     gl::Capabilities driver_;
-    render::FrameStates states_;
     render::FrameStepper stepper_;
     StateSaver saver_;
     const SavedState* start_ = nullptr;
     double prepare_milliseconds_ = 0;
-    std::filesystem::path sound_;
-    std::unique_ptr<FrameWriter> writer_; ///< of pictures
-    std::optional<SegmentedVideo> video_;
-    std::atomic<bool> in_encoder_ = false; ///< the main thread is using `video_`
-    const Interrupt* interrupt_ = nullptr; ///< during `run`
-    /// If `writer_`, `video_` and `sheet_` are empty, frames go to standard output.
-    std::optional<Sheet> sheet_;
     LoopCheck loop_;
-    FrameRecords records_;
+    Delivery delivery_;
     Watchdog watchdog_; ///< its thread may use all members before it
     std::optional<FramesAhead> ahead_;
 };

@@ -3,8 +3,8 @@
 
 #include "base/error.hpp"
 #include "base/folders.hpp"
+#include "cli/capture_delivery.hpp"
 #include "cli/capture_frames.hpp"
-#include "cli/capture_output.hpp"
 #include "cli/capture_plan.hpp"
 #include "cli/capture_resume.hpp"
 #include "cli/capture_run.hpp"
@@ -38,8 +38,8 @@ struct Gathered {
     bool drawn_here = true;                  ///< by a device like this machine's
 };
 
-/// Checks the whole plan, not one shard. `run` is the fingerprint that this machine would draw with.
-Gathered gathered(const CapturePlan& plan, const Fingerprint& run, int shards);
+/// Checks the whole plan, not one shard. The plan's identity is that of this machine.
+Gathered gathered(const CapturePlan& plan, int shards);
 
 // Checks the output of a capture's shards against their common plan: whether every frame exists, is complete,
 // and was drawn by one program on one kind of device, and whether this machine draws the same. Then makes a
@@ -133,13 +133,13 @@ void count_devices(Gathered& result, std::string_view what) {
             result.wrong.push_back(fmt::format("{} {} were drawn by {}", count, what, device));
 }
 
-Gathered gathered_segments(const CapturePlan& plan, const Fingerprint& run, int shards) {
+Gathered gathered_segments(const CapturePlan& plan, int shards) {
     Gathered result;
     std::vector<Wrong> all;
     Progress progress("segments looked at", plan.segments.size());
     for (size_t i = 0; i < plan.segments.size(); ++i, progress.advance()) {
         const auto file = segment_file(plan.output, i).path();
-        const Fingerprint wanted = Fingerprint::parse(note_of(plan, plan.segments[i], run));
+        const Fingerprint wanted = Fingerprint::parse(note_of(plan, plan.segments[i]));
         if (auto what = look_at_segment(file, wanted, result); !what.empty())
             note(all, std::move(what), file.string());
     }
@@ -159,16 +159,15 @@ Gathered gathered_segments(const CapturePlan& plan, const Fingerprint& run, int 
 
 } // namespace
 
-Gathered gathered(const CapturePlan& plan, const Fingerprint& run, int shards) {
+Gathered gathered(const CapturePlan& plan, int shards) {
     if (plan.output.video())
-        return gathered_segments(plan, run, shards);
+        return gathered_segments(plan, shards);
     Gathered result;
     std::vector<Wrong> all;
-    const render::FrameStates states = states_of(plan.frames);
     Progress progress("frames looked at", plan.frames.frames.size());
     for (const int frame : plan.frames.frames) {
         for (const std::filesystem::path& file : files_of(plan.output, frame))
-            if (auto what = look_at(file, run.of_frame(states(frame)), result); !what.empty())
+            if (auto what = look_at(file, plan.identity_of(frame), result); !what.empty())
                 note(all, std::move(what), file.string());
         progress.advance();
     }
@@ -241,7 +240,7 @@ Result<CapturePlan> draw_sample(const CapturePlan& whole, int count, const fs::p
         (whole.output.six_faces() ? "%d_{}" : "%d") + whole.output.pattern().extension().string();
     plan.output = TRY(OutputName::parse((folder / name).string(), plan.frames.frames.size()));
     auto compiled = TRY(compile(plan, interrupt));
-    Capture run(plan, fingerprint_of_run(plan, gl::query_capabilities()), compiled);
+    Capture run(plan, compiled);
     if (!TRY(run.run(interrupt)))
         return fail(ErrorCode::check_failed, "interrupted before the frames were compared");
     return plan;
@@ -293,8 +292,7 @@ image::Image for_video(const image::Image& picture) {
     return rgba;
 }
 
-Result<void> make_video(const CapturePlan& pictures, const GatherOptions& options, const Fingerprint& run,
-                        Interrupt& interrupt) {
+Result<void> make_video(const CapturePlan& pictures, const GatherOptions& options, Interrupt& interrupt) {
     const std::string& name = *options.video;
     CapturePlan plan = pictures;
     plan.output = TRY(OutputName::parse(name, plan.frames.frames.size()));
@@ -314,7 +312,7 @@ Result<void> make_video(const CapturePlan& pictures, const GatherOptions& option
     for (const int frame : plan.frames.frames) {
         const image::Image picture = TRY(image::read_picture(pictures.output.of_frame(frame).path()));
         if (!video)
-            video.emplace(TRY(SegmentedVideo::create(plan, run, picture.extent)));
+            video.emplace(TRY(SegmentedVideo::create(plan, picture.extent)));
         TRY(video->push(for_video(picture)));
     }
     TRY(video->finish(sound ? sound->path() : fs::path()));
@@ -324,8 +322,7 @@ Result<void> make_video(const CapturePlan& pictures, const GatherOptions& option
 
 /// Joins the segments that the shards made. They are not drawn again for comparison, which would require
 /// decoding.
-Result<void> join_video(const GatherOptions& options, const CapturePlan& plan, const Fingerprint& run,
-                        Interrupt& interrupt) {
+Result<void> join_video(const GatherOptions& options, const CapturePlan& plan, Interrupt& interrupt) {
     const std::string name = plan.output.pattern().string();
     if (options.video)
         return fail(ErrorCode::usage,
@@ -333,7 +330,7 @@ Result<void> join_video(const GatherOptions& options, const CapturePlan& plan, c
                                 "out",
                                 *options.video, name));
     const auto sound = draw_sound_of_video(plan, interrupt);
-    TRY(join(plan, run, sound ? sound->path() : fs::path()));
+    TRY(join(plan, sound ? sound->path() : fs::path()));
     say(fmt::format("wrote {}: {} frames", name, plan.frames.frames.size()));
     StagedFile::remove_abandoned(segment_file(plan.output, 0), StagedFile::Machines::all);
     return {};
@@ -350,22 +347,22 @@ int report(const std::vector<std::string>& wrong) {
 Result<int> gather(const GatherOptions& options) {
     Interrupt interrupt;
     const ShardNote note = TRY(read_note(options.folder / k_shard_note));
-    const CapturePlan plan = TRY(shared_plan(options, note));
+    CapturePlan plan = TRY(shared_plan(options, note));
     const auto context = TRY(platform::HeadlessContext::create(plan.device));
-    const Fingerprint run = fingerprint_of_run(plan, gl::query_capabilities());
-    const Gathered found = gathered(plan, run, note.count);
+    plan.identity.set_device(gl::query_capabilities());
+    const Gathered found = gathered(plan, note.count);
     if (!found.wrong.empty())
         return report(found.wrong);
     say(fmt::format("{} frames are there, whole and with one fingerprint, drawn by {}",
                     plan.frames.frames.size(), found.devices.begin()->first));
     if (plan.output.video())
-        TRY(join_video(options, plan, run, interrupt));
+        TRY(join_video(options, plan, interrupt));
     else if (options.samples > 0)
         if (const auto wrong = TRY(compare_sample(options, plan, found.drawn_here, interrupt));
             !wrong.empty())
             return report(wrong);
     if (options.video && !plan.output.video())
-        TRY(make_video(plan, options, run, interrupt));
+        TRY(make_video(plan, options, interrupt));
     remove_states(plan.output);
     for (const OutputPath& file : {plan.output.of_frame(0), state_file(plan.output, 0)})
         StagedFile::remove_abandoned(file, StagedFile::Machines::all); // no shard is running any more

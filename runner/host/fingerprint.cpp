@@ -129,13 +129,26 @@ std::string_view words_of(std::string_view part) {
 } // namespace
 
 Fingerprint Fingerprint::of_scene(const scene::Scene& scene, const std::vector<std::string>& defines,
-                                  const FrameSequence& frames, const gl::Capabilities& driver) {
+                                  const FrameSequence& frames) {
     Fingerprint fingerprint;
     fingerprint.parts_ = {{"version", hash_of(std::string(k_version))},
-                          {std::string(k_device), hash_of(Json::array({driver.device(), driver.version}))},
+                          {std::string(k_device), ""},
                           {"text", hash_of(text_facts(scene, defines))},
                           {"inputs", hash_of(input_facts(scene, frames))}};
     return fingerprint;
+}
+
+Fingerprint Fingerprint::of_scene(const scene::Scene& scene, const std::vector<std::string>& defines,
+                                  const FrameSequence& frames, const gl::Capabilities& driver) {
+    Fingerprint fingerprint = of_scene(scene, defines, frames);
+    fingerprint.set_device(driver);
+    return fingerprint;
+}
+
+void Fingerprint::set_device(const gl::Capabilities& driver) {
+    for (auto& [part, hash] : parts_)
+        if (part == k_device)
+            hash = hash_of(Json::array({driver.device(), driver.version}));
 }
 
 void Fingerprint::add(std::string part, const Json& facts) {

@@ -17,9 +17,13 @@ namespace tidemark::cli {
 
 class Fingerprint {
 public:
-    /// Hashes a scene's texts and inputs and the driver. Reads the files that the scene reads.
+    /// Hashes a scene's texts and inputs, for no device yet. Reads the files that the scene reads.
+    static Fingerprint of_scene(const scene::Scene& scene, const std::vector<std::string>& defines,
+                                const FrameSequence& frames);
+    /// The same, for a device.
     static Fingerprint of_scene(const scene::Scene& scene, const std::vector<std::string>& defines,
                                 const FrameSequence& frames, const gl::Capabilities& driver);
+    void set_device(const gl::Capabilities& driver);
     /// Adds a hash of other facts that pictures depend on.
     void add(std::string part, const Json& facts);
     /// Returns the fingerprint of one frame of the run.

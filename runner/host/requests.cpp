@@ -195,7 +195,14 @@ Result<scene::Scene> load(const SceneRequest& request) {
 }
 
 Result<scene::Scene> load(const SceneRequest& request, const FrameSequence& sequence) {
-    auto scene = TRY(load(request));
+    return load(request, sequence, scene::load_scene(request.path, request.files));
+}
+
+Result<scene::Scene> load(const SceneRequest& request, const FrameSequence& sequence,
+                          Result<scene::Scene> files) {
+    auto scene = TRY(std::move(files));
+    say_warnings(scene.warnings, request.said);
+    TRY(apply_options(request, scene));
     if (sequence.input)
         if (auto known = check_knobs(*sequence.input, scene.knobs); !known)
             return fail(ErrorCode::usage,

@@ -65,6 +65,9 @@ struct FrameSequence {
 
 /// Loads the scene. Fails (ErrorCode::usage) if it lacks a knob that the sequence's recording sets.
 Result<scene::Scene> load(const SceneRequest& request, const FrameSequence& sequence);
+/// The same for files that `scene::load_scene` has read already; returns its error if it failed.
+Result<scene::Scene> load(const SceneRequest& request, const FrameSequence& sequence,
+                          Result<scene::Scene> files);
 
 /// Returns the state of each frame of the sequence. It depends only on the frame's number, so a frame drawn
 /// alone equals the same frame of a sequence.

@@ -304,12 +304,23 @@ std::string precision_lines(const render::Renderer& renderer) {
 }
 
 size_t count_not_finite(const render::Renderer& renderer, image::Image& picture) {
-    const scene::Pass& shown = renderer.shown_pass();
-    if (shown.kind == scene::PassKind::image || picture.type == image::SampleType::f32)
-        return image::take_non_finite(picture);
+    return count_not_finite(renderer, std::span(&picture, 1), {});
+}
+
+size_t count_not_finite(const render::Renderer& renderer, std::span<image::Image> pictures,
+                        const std::optional<Rectangle>& crop) {
+    const scene::PassKind shown = renderer.shown_pass().kind;
     size_t count = 0;
-    for (int face = 0; face < (shown.kind == scene::PassKind::cubemap ? 6 : 1); ++face) {
+    if (shown == scene::PassKind::image || pictures.front().type == image::SampleType::f32) {
+        for (image::Image& picture : pictures)
+            count += image::take_non_finite(picture);
+        return count;
+    }
+    const bool cube = shown == scene::PassKind::cubemap;
+    for (int face = 0; face < (cube ? 6 : 1); ++face) {
         image::Image floats = renderer.read_floats(renderer.shown_index(), face);
+        if (crop && !cube)
+            floats = image::cropped(std::move(floats), *crop);
         count += image::take_non_finite(floats);
     }
     return count;

@@ -73,6 +73,11 @@ std::string precision_lines(const render::Renderer& renderer);
 /// themselves, so their floats are read instead.
 size_t count_not_finite(const render::Renderer& renderer, image::Image& picture);
 
+/// The same for the pictures of a frame, which may be the faces of a cube or its panorama, cut to `crop`
+/// (nothing: whole). Where floats are read, the pixels of a cube are counted in its whole faces.
+size_t count_not_finite(const render::Renderer& renderer, std::span<image::Image> pictures,
+                        const std::optional<Rectangle>& crop);
+
 /// Returns `3 pixels of frame 7 are` or `1 pixel at 2.5 s is`, to be followed by ` not finite`.
 std::string pixels_are(size_t count, const std::string& when);
 

@@ -38,6 +38,19 @@ Image flipped(const Image& image) {
     return result;
 }
 
+Image cropped(Image image, const Rectangle& area) {
+    assert(area.within({0, 0, image.extent}) == area);
+    const size_t pixel = size_t(image.channels) * size_of(image.type), row = image.row_bytes();
+    image.extent = area.extent;
+    const size_t kept = image.row_bytes();
+    // A row moves towards the beginning, so it never overwrites a later one.
+    for (size_t y = 0; y < size_t(area.extent.height); ++y)
+        std::memmove(image.bytes.data() + y * kept,
+                     image.bytes.data() + (size_t(area.y) + y) * row + size_t(area.x) * pixel, kept);
+    image.bytes.resize(kept * size_t(area.extent.height));
+    return image;
+}
+
 bool has_opaque_alpha(const Image& image) {
     if (!image.has_alpha())
         return false;

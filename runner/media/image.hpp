@@ -55,6 +55,9 @@ struct Image {
 /// Returns the picture upside down.
 Image flipped(const Image& image);
 
+/// Returns the part of the picture that `area` covers, which must lie inside; in the same memory.
+Image cropped(Image image, const Rectangle& area);
+
 /// Returns whether the picture has an alpha channel that is 1 in every pixel.
 bool has_opaque_alpha(const Image& image);
 

@@ -282,18 +282,6 @@ Result<CubeFaces> read_cubemap(const std::vector<std::filesystem::path>& files) 
     return cube_of_faces(std::move(pictures), names);
 }
 
-Image column_of(const CubeFaces& faces) {
-    const auto& [extent, channels, type, bytes] = faces[0];
-    Image column({extent.width, 6 * extent.height}, channels, type);
-    auto to = column.bytes.end();
-    for (const Image& face : faces) {
-        const Image upright = flipped(face);
-        to -= long(upright.bytes.size());
-        std::copy(upright.bytes.begin(), upright.bytes.end(), to);
-    }
-    return column;
-}
-
 CubeFaces vflipped(const CubeFaces& faces) {
     return {flipped(faces[0]), flipped(faces[1]), flipped(faces[3]),
             flipped(faces[2]), flipped(faces[4]), flipped(faces[5])};

@@ -57,10 +57,6 @@ Result<CubeFaces> read_cubemap(const std::vector<std::filesystem::path>& files);
 Result<CubeFaces> cube_of_faces(CubeFaces pictures, const std::array<std::string, 6>& names);
 Result<CubeFaces> cube_of_picture(const Image& picture, const std::string& name = "the picture");
 
-/// Stacks all faces in one picture, 1:6, from the top, which `cube_of_picture` reads. The faces must have the
-/// same channels and type.
-Image column_of(const CubeFaces& faces);
-
 /// Applies ShaderToy's vflip: reverses the rows of every face and exchanges +Y and -Y. A direction then shows
 /// what its mirror image (x,-y,z) showed.
 CubeFaces vflipped(const CubeFaces& faces);

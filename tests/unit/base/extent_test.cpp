@@ -18,4 +18,17 @@ TEST(Extent, nothing_else) {
         EXPECT_FALSE(parse_extent(text)) << text;
 }
 
+TEST(Rectangle, left_bottom_width_and_height) {
+    EXPECT_EQ(parse_rectangle("100,50,320,180"), (Rectangle{100, 50, {320, 180}}));
+    EXPECT_EQ(parse_rectangle("-1,0,1,1"), (Rectangle{-1, 0, {1, 1}}));
+    EXPECT_EQ(to_string(Rectangle{100, 50, {320, 180}}), "100,50,320,180");
+}
+
+TEST(Rectangle, nothing_else) {
+    for (const char* text :
+         {"", "1", "1,2", "1,2,3", "1,2,3,", "1,2,3,4,", "1,2,3,4,5", "1,2,3x4", "1, 2,3,4", "1,2,0,4",
+          "1,2,3,-4", "a,2,3,4", "1.5,2,3,4", ",1,2,3,4", "1,2,3,99999999999"})
+        EXPECT_FALSE(parse_rectangle(text)) << text;
+}
+
 } // namespace tidemark::extent_test

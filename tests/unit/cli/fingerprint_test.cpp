@@ -13,10 +13,16 @@ CapturePlan plan_of(const char* text) {
     return plan;
 }
 
+Fingerprint run_of(const CapturePlan& plan, const gl::Capabilities& driver) {
+    Fingerprint run = identity_of_run(plan);
+    run.set_device(driver);
+    return run;
+}
+
 Fingerprint run_of(const CapturePlan& plan, const char* renderer = "one") {
     gl::Capabilities driver;
     driver.renderer = renderer;
-    return fingerprint_of_run(plan, driver);
+    return run_of(plan, driver);
 }
 
 TEST(Fingerprint, comes_back_from_its_text) {
@@ -33,13 +39,16 @@ TEST(Fingerprint, names_what_differs) {
     gl::Capabilities processor; // whose reciprocals are rounded otherwise
     processor.renderer = "one";
     processor.processor = "AuthenticAMD";
-    EXPECT_EQ(run.differences(fingerprint_of_run(plan_of("a"), processor)), "another device or driver");
+    EXPECT_EQ(run.differences(run_of(plan_of("a"), processor)), "another device or driver");
     CapturePlan channel = plan_of("a");
     channel.scene.passes[0].channels[2].sampling.vflip = false;
     EXPECT_EQ(run.differences(run_of(channel)), "other inputs");
     CapturePlan knob = plan_of("a");
     knob.scene.knobs.push_back({.name = "k"});
     EXPECT_EQ(run.differences(run_of(knob)), "other knobs");
+    CapturePlan crop = plan_of("a");
+    crop.crop = Rectangle{1, 2, {3, 4}};
+    EXPECT_EQ(run.differences(run_of(crop)), "other options of drawing");
     EXPECT_EQ(run.differences(Fingerprint::parse("what")),
               "another version of Tidemark, another device or driver, another text of the scene, other "
               "inputs, other "

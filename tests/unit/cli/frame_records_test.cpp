@@ -1,4 +1,4 @@
-#include "cli/capture_output.hpp"
+#include "cli/capture_delivery.hpp"
 
 #include <gtest/gtest.h>
 

@@ -26,6 +26,30 @@ TEST(Image, an_empty_picture_flips_to_itself) {
     EXPECT_EQ(flipped(Image()), Image());
 }
 
+TEST(Image, cropped_keeps_the_pixels_of_the_part) {
+    for (const int channels : {1, 2, 3, 4})
+        for (const SampleType type : {SampleType::u8, SampleType::f32})
+            for (const Rectangle& area :
+                 {Rectangle{2, 1, {3, 4}}, Rectangle{0, 0, {1, 1}}, Rectangle{6, 4, {1, 1}},
+                  Rectangle{0, 2, {7, 2}}, Rectangle{0, 0, {7, 5}}}) {
+                const Image image =
+                    type == SampleType::u8 ? patterned_u8({7, 5}, channels) : patterned_f32({7, 5}, channels);
+                const Image part = cropped(image, area);
+                EXPECT_EQ(part.extent, area.extent);
+                EXPECT_EQ(part.channels, channels);
+                EXPECT_EQ(part.type, type);
+                ASSERT_EQ(part.bytes.size(), part.samples() * size_of(type));
+                const size_t pixel = size_t(channels) * size_of(type);
+                for (size_t y = 0; y < size_t(area.extent.height); ++y)
+                    for (size_t x = 0; x < size_t(area.extent.width); ++x)
+                        EXPECT_EQ(
+                            std::memcmp(&part.bytes[(y * size_t(area.extent.width) + x) * pixel],
+                                        &image.bytes[((size_t(area.y) + y) * 7 + size_t(area.x) + x) * pixel],
+                                        pixel),
+                            0);
+            }
+}
+
 TEST(Image, alpha_is_opaque_when_every_pixel_has_one) {
     for (const int channels : {2, 4}) {
         Image bytes = opaque(patterned_u8({3, 3}, channels));

@@ -1,0 +1,436 @@
+#include "cli/capture_delivery.hpp"
+
+#include "base/error.hpp"
+#include "host/console.hpp"
+#include "host/frame_files.hpp"
+#include "host/gl_context.hpp"
+#include "host/moment.hpp"
+#include "host/scene_report.hpp"
+#include "media/file_samples.hpp"
+#include "media/image.hpp"
+#include "media/sound_file.hpp"
+#include "render/sound_renderer.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace tidemark::cli {
+namespace {
+
+void find(FrameRecords::Found& found, size_t pixels, const FrameRecord& record) {
+    if (pixels == 0)
+        return;
+    ++found.count;
+    if (!found.first)
+        found.first = record;
+}
+
+} // namespace
+
+void FrameRecords::add(FrameRecord record) {
+    ++count_;
+    if (!first_)
+        first_ = record;
+    find(not_finite_, record.not_finite, record);
+    find(no_coverage_, record.no_coverage, record);
+    if (listed_)
+        list_.push_back(record);
+    last_ = std::move(record);
+}
+
+std::vector<image::Image> laid_out(DrawnPixels pixels, bool six_faces) {
+    std::vector<image::Image> pictures;
+    if (auto* const picture = std::get_if<image::Image>(&pixels)) {
+        pictures.push_back(std::move(*picture));
+        return pictures;
+    }
+    const auto& cube = std::get<image::CubeFaces>(pixels);
+    if (!six_faces)
+        pictures.push_back(image::equirectangular_of(cube));
+    for (size_t face = 0; six_faces && face < cube.size(); ++face)
+        pictures.push_back(image::flipped(cube[face])); // the first row of a face is its top row
+    return pictures;
+}
+
+namespace {
+
+constexpr size_t k_block_bytes = 1 << 18; ///< fits a processor's cache while it is filled and written
+
+} // namespace
+
+Result<void> put_raw(const image::Image& image) {
+    const size_t row_bytes = size_t(image.extent.width) * 3;
+    const size_t rows_at_once = std::max<size_t>(1, k_block_bytes / row_bytes);
+    std::vector<std::byte> block;
+    for (int row = image.extent.height; row > 0;) {
+        const auto rows = int(std::min(rows_at_once, size_t(row)));
+        block.resize(size_t(rows) * row_bytes);
+        for (int i = 0; i < rows; ++i)
+            copy_colours(image, --row, block.data() + size_t(i) * row_bytes);
+        if (auto done = put(block); !done)
+            return done;
+    }
+    return {};
+}
+
+void add_rows(Sha256& hash, const image::Image& image) {
+    const std::span<const std::byte> bytes(image.bytes);
+    for (auto row = size_t(image.extent.height); row-- > 0;)
+        hash.add(bytes.subspan(row * image.row_bytes(), image.row_bytes()));
+}
+
+BandOutput::BandOutput(std::optional<image::PictureStream> stream, Extent drawn,
+                       std::optional<Rectangle> crop, bool hashed)
+    : stream_(std::move(stream)), rows_(drawn.height), crop_(crop) {
+    if (hashed)
+        hash_.emplace();
+}
+
+Result<image::Image> BandOutput::take(image::Image band) {
+    TRY(wait());
+    std::swap(band, band_);
+    writing_ = std::async(std::launch::async, [this] { return write(); });
+    return band;
+}
+
+Result<void> BandOutput::write() {
+    rows_ -= band_.extent.height;
+    if (crop_) {
+        const Rectangle part = crop_->within({0, rows_, band_.extent});
+        if (part.extent.pixels() == 0)
+            return {};
+        band_ = image::cropped(std::move(band_), {part.x, part.y - rows_, part.extent});
+    }
+    not_finite_ += image::take_non_finite(band_);
+    if (band_.type == image::SampleType::f32)
+        no_coverage_ += image::pixels_of_no_coverage(band_);
+    if (hash_)
+        add_rows(*hash_, band_);
+    return stream_ ? stream_->add(band_) : put_raw(band_);
+}
+
+Result<void> BandOutput::wait() {
+    return writing_.valid() ? writing_.get() : Result<void>();
+}
+
+Result<void> BandOutput::finish() {
+    return wait().and_then([&] { return stream_ ? stream_->finish() : Result<void>(); });
+}
+
+namespace {
+
+/// One picture of a pass that is not shown.
+struct Source {
+    std::string name;
+    size_t pass;
+    int face = 0;
+    bool cube = false;
+};
+
+std::vector<Source> sources(const render::Renderer& renderer) {
+    std::vector<Source> all;
+    for (const render::PlannedPass& planned : renderer.plan().passes) {
+        const scene::Pass& pass = renderer.scene().passes[planned.pass];
+        if (planned.pass == renderer.shown_index())
+            continue;
+        if (pass.kind != scene::PassKind::cubemap) {
+            all.push_back({pass.name, planned.pass});
+            continue;
+        }
+        for (int face = 0; face < int(k_face_names.size()); ++face)
+            all.push_back(
+                {fmt::format("{} {}", pass.name, k_face_names[size_t(face)]), planned.pass, face, true});
+    }
+    return all;
+}
+
+} // namespace
+
+std::vector<image::PictureLayer> other_layers(const render::Renderer& renderer, image::SampleDepth depth,
+                                              const std::optional<Rectangle>& crop) {
+    const image::PictureFormat format{
+        .depth = depth, .transfer = image::Transfer::data, .alpha = image::Alpha::straight};
+    std::vector<image::PictureLayer> layers;
+    for (const Source& source : sources(renderer)) {
+        image::Image drawn = renderer.read_floats(source.pass, source.face);
+        if (source.cube)
+            drawn = image::flipped(drawn); // the first row of a face is its top row
+        else if (crop)
+            drawn = image::cropped(std::move(drawn), *crop);
+        layers.push_back({source.name, std::move(drawn), format});
+    }
+    return layers;
+}
+
+std::vector<std::string> layer_names(const render::Renderer& renderer) {
+    std::vector<std::string> names{renderer.shown_pass().name};
+    for (const Source& source : sources(renderer))
+        names.push_back(source.name);
+    return names;
+}
+
+Delivery::Delivery(const CapturePlan& plan, const render::Renderer& renderer, const gl::Capabilities& driver,
+                   Watchdog& watchdog, std::filesystem::path sound)
+    : plan_(plan), renderer_(renderer), driver_(driver), watchdog_(watchdog), sound_(std::move(sound)),
+      records_(plan.json || plan.sheet.has_value()) {}
+
+bool Delivery::in_bands() const {
+    return renderer_.tiles() && !(plan_.exposure.several() && renderer_.tiles()->count() == 1);
+}
+
+Result<void> Delivery::open(const Interrupt& interrupt) {
+    interrupt_ = &interrupt;
+    if (plan_.output.video()) {
+        video_.emplace(TRY(SegmentedVideo::create(plan_, plan_.written)));
+    } else if (plan_.sheet) {
+        sheet_.emplace(*plan_.sheet);
+    } else if (!plan_.output.standard_output() && !in_bands()) {
+        // Two encoders are enough: the driver keeps the cores busy while it draws.
+        const auto encoders = unsigned(std::min<size_t>(2, plan_.frames.frames.size()));
+        // Frames with all passes are large, so fewer wait.
+        writer_ = std::make_unique<FrameWriter>(encoders, plan_.layers ? 1 : encoders + 1);
+    }
+    return {};
+}
+
+Result<void> Delivery::close() {
+    if (video_ && plan_.shard)
+        return {}; // `gather` joins it
+    if (video_)
+        return encode("joining the video", {}, [&] { return video_->finish(sound_); });
+    if (sheet_)
+        return image::write_picture(plan_.output.of_frame(plan_.frames.frames.front()), sheet_->picture(),
+                                    format_of_sheet());
+    return writer_ ? writer_->finish() : Result<void>();
+}
+
+Result<void> Delivery::stop() {
+    if (video_)
+        video_->drop();
+    return writer_ ? writer_->finish() : Result<void>();
+}
+
+void Delivery::rescue() {
+    // Otherwise the main thread is using it, and its encoder ends with our process.
+    if (video_ && !in_encoder_)
+        video_->drop();
+    if (writer_)
+        (void)writer_->finish();
+}
+
+size_t Delivery::written() {
+    constexpr size_t k_faces = 6;
+    return video_    ? video_->written()
+           : sheet_  ? size_t{0}
+           : writer_ ? writer_->written() / (plan_.output.six_faces() ? k_faces : 1)
+                     : records_.count();
+}
+
+WrittenFrame Delivery::prepare(DrawnFrame drawn) const {
+    WrittenFrame frame{std::move(drawn.record), laid_out(std::move(drawn.pixels), plan_.output.six_faces())};
+    auto& [record, pictures] = frame;
+    if (plan_.crop)
+        for (image::Image& picture : pictures)
+            picture = image::cropped(std::move(picture), *plan_.crop);
+    record.not_finite = count_not_finite(renderer_, pictures, plan_.crop);
+    for (image::Image& picture : pictures)
+        if (plan_.keeps_alpha())
+            record.no_coverage += image::pixels_of_no_coverage(picture);
+        else if (plan_.depth == image::SampleDepth::u8)
+            picture = image::in_bytes(std::move(picture));
+    return frame;
+}
+
+Result<bool> Delivery::deliver(WrittenFrame frame) {
+    auto& [record, pictures] = frame;
+    if (plan_.json) {
+        Sha256 hash;
+        for (const image::Image& picture : pictures)
+            add_rows(hash, picture);
+        record.sha256 = hash.digits();
+    }
+    const bool wanted = TRY(write(record, std::move(pictures)));
+    if (wanted)
+        records_.add(std::move(record));
+    return wanted;
+}
+
+Result<bool> Delivery::write(const FrameRecord& record, std::vector<image::Image> pictures) {
+    image::Image& first = pictures.front();
+    if (video_) {
+        auto encoded = encode(fmt::format("encoding frame {}", record.frame), plan_.timeout,
+                              [&] { return video_->push(first); });
+        return encoded.map([] { return true; }).map_error([&](Error error) {
+            error.message += fmt::format(" (in frame {})", record.frame);
+            return error;
+        });
+    }
+    if (sheet_) {
+        sheet_->add(first);
+        return true;
+    }
+    if (!writer_)
+        return put_raw(first).map([] { return true; });
+    if (plan_.layers)
+        return writer_->push(
+            {record.frame, plan_.output.of_frame(record.frame), {}, {}, layers_of(record, std::move(first))});
+    bool wanted = true;
+    for (size_t i = 0; wanted && i < pictures.size(); ++i)
+        wanted = writer_->push({record.frame,
+                                plan_.output.six_faces() ? plan_.output.of_face(record.frame, i)
+                                                         : plan_.output.of_frame(record.frame),
+                                std::move(pictures[i]), format_of(record.frame)});
+    return wanted;
+}
+
+/// Runs work that waits for ffmpeg, which may hang: Ctrl-C then ends the process.
+Result<void> Delivery::encode(std::string what, std::optional<double> limit,
+                              const std::function<Result<void>()>& work) {
+    const Watchdog::Watch watch(watchdog_, {.what = std::move(what),
+                                            .limit_seconds = limit,
+                                            .unwanted = [this] { return interrupt_->requested(); }});
+    in_encoder_ = true;
+    auto outcome = work();
+    in_encoder_ = false;
+    return outcome;
+}
+
+Result<std::unique_ptr<BandOutput>> Delivery::open_bands(int frame) const {
+    std::optional<image::PictureStream> stream;
+    if (!plan_.output.standard_output()) {
+        const bool alpha = plan_.keeps_alpha() || renderer_.shown_pass().kind != scene::PassKind::image;
+        stream.emplace(TRY(image::PictureStream::create(plan_.output.of_frame(frame), plan_.written, alpha,
+                                                        format_of(frame))));
+    }
+    return std::make_unique<BandOutput>(std::move(stream), renderer_.extent(), plan_.crop, plan_.json);
+}
+
+void Delivery::add(FrameRecord record, BandOutput& bands) {
+    record.sha256 = bands.sha256();
+    record.not_finite = bands.not_finite();
+    record.no_coverage = plan_.keeps_alpha() ? bands.no_coverage() : 0;
+    records_.add(std::move(record));
+}
+
+std::vector<image::PictureLayer> Delivery::layers_of(const FrameRecord& record, image::Image picture) const {
+    std::vector<image::PictureLayer> layers;
+    layers.push_back({renderer_.shown_pass().name, std::move(picture), format_of(record.frame)});
+    std::ranges::move(other_layers(renderer_, *plan_.layers, plan_.crop), std::back_inserter(layers));
+    return layers;
+}
+
+image::PictureFormat Delivery::format_of(int frame) const {
+    const render::FrameState state = plan_.states(frame);
+    // The fingerprint goes first: a JPEG without room for all metadata keeps the first entries.
+    image::PictureFormat format{
+        plan_.depth, {{k_fingerprint, plan_.identity.of_frame(state).text()}}, plan_.transfer, plan_.alpha};
+    for (auto& fact : metadata_of(renderer_.scene(), moment_of(plan_.request, plan_.frames, state)))
+        format.metadata.push_back(std::move(fact));
+    const Extent extent = renderer_.extent();
+    format.metadata.insert(format.metadata.end(),
+                           {{"Size", fmt::format("{}x{}", extent.width, extent.height)},
+                            {"Pass", renderer_.shown_pass().name},
+                            {"Precision", name_of(renderer_.precision())},
+                            {"Driver", fmt::format("{}, OpenGL {}", driver_.device(), driver_.version)}});
+    if (plan_.keeps_alpha())
+        format.metadata.emplace_back("Alpha",
+                                     plan_.alpha == image::Alpha::straight ? "straight" : "premultiplied");
+    if (plan_.crop)
+        format.metadata.emplace_back(k_crop, to_string(*plan_.crop));
+    if (plan_.exposure.several())
+        format.metadata.emplace_back("Samples", std::to_string(plan_.exposure.samples));
+    if (plan_.exposure.shutter > 0)
+        format.metadata.emplace_back("Shutter", fmt::format("{}", plan_.exposure.shutter));
+    if (!plan_.request.defines.empty())
+        format.metadata.emplace_back("Defines", fmt::format("{}", fmt::join(plan_.request.defines, "; ")));
+    return format;
+}
+
+/// Returns the metadata that the sheet's moments share, and the list of moments.
+image::PictureFormat Delivery::format_of_sheet() const {
+    image::PictureFormat format = format_of(records_.first().frame);
+    constexpr std::string_view k_of_one[] = {k_fingerprint, k_moment, "Frame", "iTime", "iMouse", "Camera"};
+    std::erase_if(format.metadata, [&](const auto& fact) {
+        return std::ranges::find(k_of_one, fact.first) != std::end(k_of_one);
+    });
+    std::vector<int> frames;
+    std::vector<double> times;
+    for (const FrameRecord& record : records_.list()) {
+        frames.push_back(record.frame);
+        times.push_back(plan_.states(record.frame).seconds());
+    }
+    format.metadata.emplace_back("Sheet", fmt::format("{}x{}", plan_.sheet->columns, plan_.sheet->rows));
+    format.metadata.emplace_back("Frames", fmt::format("{}", fmt::join(frames, ",")));
+    format.metadata.emplace_back("Times", fmt::format("{}", fmt::join(times, ",")));
+    return format;
+}
+
+Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precision precision, double start,
+                                        double duration, const Interrupt& interrupt) {
+    if (constexpr double k_last = render::SoundRenderer::k_longest_seconds; start + duration > k_last)
+        return fail(ErrorCode::usage,
+                    fmt::format("sound ends at {} s: iSampleOffset counts its samples in an int", k_last));
+    auto renderer = TRY(render::SoundRenderer::create(scene, render::Date{}, precision));
+    const auto count = 2 * size_t(std::llround(duration * render::k_sample_rate));
+    const auto first = int(std::llround(start * render::k_sample_rate));
+    const auto block = 2 * size_t(render::SoundRenderer::block_samples());
+    std::vector<int16_t> samples;
+    Progress progress("blocks of sound", (count + block - 1) / block);
+    while (samples.size() < count && !interrupt.requested()) {
+        const std::vector<int16_t> drawn = renderer.draw(first + int(samples.size() / 2));
+        samples.insert(samples.end(), drawn.begin(), drawn.end());
+        progress.advance();
+    }
+    samples.resize(count);
+    return samples;
+}
+
+std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const Interrupt& interrupt) {
+    if (!plan.output.video() || plan.shard) // `gather` draws it
+        return std::nullopt;
+    const std::vector<int>& frames = plan.frames.frames;
+    const VideoPace& pace = plan.pace;
+    const bool heard = plan.output.pattern().extension() != ".gif" && plan.scene.find(scene::PassKind::sound);
+    if (!pace.not_in_time.empty())
+        say(fmt::format("the video does not go by the scene's time: {}, {:.4g} a second{}", pace.not_in_time,
+                        pace.fps, heard ? "; it is silent" : ""));
+    if (pace.holds)
+        say(fmt::format("its frames are not evenly apart: the video shows each until the next one is due, "
+                        "{:.4g} a second",
+                        pace.fps));
+    if (!heard || !pace.not_in_time.empty())
+        return std::nullopt;
+    const std::vector<int> shown = ticks_of(frames, pace);
+    const auto ticks = std::accumulate(shown.begin(), shown.end(), size_t{0});
+    const double first = plan.frames.state.at_frame(frames.front()).seconds();
+    auto samples = draw_sound(plan.scene, plan.drawing.precision, std::max(0.0, first),
+                              double(ticks) / pace.fps, interrupt);
+    auto file = StagedFile::create(plan.output.of_frame(0), ".wav");
+    Result<void> written = !file      ? fail(std::move(file.error()))
+                           : !samples ? fail(std::move(samples.error()))
+                                      : sound::write_wav(file->path(), int(render::k_sample_rate), *samples);
+    if (written)
+        return *std::move(file);
+    say("the video is silent: " + to_string(written.error()));
+    return std::nullopt;
+}
+
+Result<int> capture_sound(const SoundPlan& plan) {
+    const Interrupt interrupt;
+    const auto context = TRY(platform::HeadlessContext::create(plan.device));
+    const auto samples = TRY(draw_sound(plan.scene, plan.precision, 0, plan.duration, interrupt));
+    if (interrupt.requested())
+        return Interrupt::k_exit_code;
+    TRY(sound::write_wav(plan.output, int(render::k_sample_rate), samples));
+    say(fmt::format("wrote {}", plan.output.string()));
+    return 0;
+}
+
+} // namespace tidemark::cli
