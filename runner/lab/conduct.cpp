@@ -118,7 +118,7 @@ private:
             return {};
         }
         if (!(study().proof_seconds > 0)) {
-            why_no_proof_ = "none was asked for";
+            why_no_proof_ = "no proof was requested";
             return {};
         }
         watch_.begin("rays proved", 1);
@@ -126,7 +126,7 @@ private:
         watch_.advance();
         why_no_proof_ = std::move(proved.why_not);
         if (!proved.truth && proved.marches && !glsl::hit_scene(scene_))
-            remark("where rays end is not measured: " + why_no_proof_);
+            remark("hit errors are not measured: " + why_no_proof_);
         if (!proved.truth)
             return {};
         set().hit_standard = std::move(proved.truth->standard);
@@ -214,10 +214,12 @@ private:
 
     /// Takes the hits to which the scene itself converges as the truth, if no march is proved.
     void take_drawn_hits(PictureTruth& drawn) {
-        remark("no proof holds the hits: " + why_no_proof_ +
-               (drawn.hit_standard.none.empty() ? "; they are held against the scene's own" : ""));
+        remark("the hits are not proved: " + why_no_proof_ +
+               (drawn.hit_standard.none.empty()
+                    ? "; they are compared with hits that the scene itself converges to"
+                    : ""));
         if (!drawn.hit_standard.none.empty()) {
-            remark("there is no truth about the hits: " + drawn.hit_standard.none);
+            remark("no reference for the hits: " + drawn.hit_standard.none);
             return;
         }
         set().hit_standard = std::move(drawn.hit_standard);
@@ -238,7 +240,7 @@ private:
         const double rounding = 0x1p-24 * std::sqrt(squares / double(std::max<size_t>(1, count)));
         if (standard.uncertainty)
             standard.uncertainty = std::max(*standard.uncertainty, rounding);
-        standard.check += fmt::format("; distances are read back as floats, to {:.2g}", rounding);
+        standard.check += fmt::format("; distances are read back as floats, precise to {:.2g}", rounding);
     }
 
     /// If hits are proved, compares the rays of the pictures' reference with them.
@@ -246,13 +248,14 @@ private:
         if (hits.empty())
             return;
         const HitErrors errors = hit_errors(joined(truth_.hits), joined(hits), joined(truth_.footprints));
-        set().picture_standard.check += fmt::format(
-            "; its rays against the proved hits: RMS {:.2g}, {:.2g} % wrong", errors.rms, errors.wrong_tenth);
+        set().picture_standard.check +=
+            fmt::format("; its rays compared with the proved hits: RMS {:.2g}, {:.2g} % wrong", errors.rms,
+                        errors.wrong_tenth);
     }
 
     void hold_against_truth() {
         const size_t views = study().views.size();
-        watch_.begin("points judged", set().points.size());
+        watch_.begin("points compared", set().points.size());
         findings_.evidence.causes.resize(set().points.size());
         for (size_t i = 0; i < set().points.size(); ++i) {
             WorkPrecision& point = set().points[i];
@@ -273,7 +276,7 @@ private:
     void take_sources_away() {
         if ((study().sources.empty() && study().model.empty()) || truth_.pictures.empty())
             return;
-        watch_.begin("points taken apart", set().points.size());
+        watch_.begin("points split by error source", set().points.size());
         const Sight true_sight{truth_.pictures, truth_.hits};
         const std::optional<Share> model = model_share(true_sight);
         for (size_t i = 0; i < set().points.size() && going(); ++i) {
@@ -348,9 +351,8 @@ public:
         findings_.set.study.series = {{"changed", Trust::unknown, {}, {}}};
         findings_.set.circumstances = circumstances;
         findings_.set.words.defaults = "the scene as it is";
-        findings_.set.picture_standard = {
-            "the scene as it is", 0.0,
-            "none of its own: what is asked is how far a changed scene is from it"};
+        findings_.set.picture_standard = {"the scene as it is", 0.0,
+                                          "exact: changed scenes are compared with the scene itself"};
     }
 
     void add(const std::string& label, const scene::Scene& scene, bool own) {
@@ -412,7 +414,7 @@ Result<Truth> truth_of(std::vector<image::Image> pictures) {
         pixels += mask.size();
     }
     if (const std::string why = too_blind(blind, pixels); !why.empty())
-        return fail(ErrorCode::check_failed, "nothing can be held against the scene's picture: " + why);
+        return fail(ErrorCode::check_failed, "nothing can be compared with the scene's picture: " + why);
     return truth;
 }
 

@@ -29,7 +29,7 @@ Result<ExpectedJson> read_expected(const fs::path& project) {
     auto expected = ExpectedJson::parse(text, nullptr, false);
     if (!expected.is_object())
         return fail(ErrorCode::load,
-                    fmt::format("'{}' is no JSON object", (project / "expected.json").string()));
+                    fmt::format("'{}' is not a JSON object", (project / "expected.json").string()));
     return expected;
 }
 
@@ -153,7 +153,8 @@ Result<void> is_drawn_as_expected(const fs::path& project, render::RenderOptions
     auto renderer = TRY(Renderer::create(std::move(scene), options));
     const ExpectedJson frames = expected.value("frames", ExpectedJson::array());
     if (frames.empty() && !expected.contains("sound"))
-        return fail(ErrorCode::load, fmt::format("'{}' expects nothing", project.string()));
+        return fail(ErrorCode::load,
+                    fmt::format("'{}' states no expected pixels or sound", project.string()));
     return frames_are(renderer, frames);
 }
 
@@ -185,19 +186,19 @@ Result<void> conforms(const fs::path& project, render::RenderOptions options) {
 Result<DeviceAnswer> ask_conformance() {
     const auto projects = conformance_projects(conformance_folder());
     if (projects.empty())
-        return DeviceAnswer{Verdict::warn, fmt::format("not asked: there are no projects in '{}'",
-                                                       conformance_folder().string())};
+        return DeviceAnswer{Verdict::warn,
+                            fmt::format("not run: no projects in '{}'", conformance_folder().string())};
     std::vector<std::string> others;
     for (const auto& project : projects)
         if (const auto drawn = conforms(project); !drawn)
             others.push_back(fmt::format("{}: {}", project.filename().string(), to_string(drawn.error())));
     if (!others.empty())
         return DeviceAnswer{Verdict::fail,
-                            fmt::format("{} of {} projects are not as ShaderToy's rules have them: {}",
+                            fmt::format("{} of {} projects do not follow ShaderToy's rules: {}",
                                         others.size(), projects.size(), fmt::join(others, "; "))};
-    return DeviceAnswer{
-        Verdict::pass,
-        fmt::format("{} projects have the pixels and sounds of ShaderToy's rules", projects.size())};
+    return DeviceAnswer{Verdict::pass,
+                        fmt::format("{} projects give the pixels and sounds that ShaderToy's rules require",
+                                    projects.size())};
 }
 
 } // namespace tidemark::lab

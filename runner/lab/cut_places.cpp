@@ -98,17 +98,16 @@ private:
         auto text = read_text(renderer, pass, true);
         if (!text) {
             found_.left.push_back(
-                fmt::format("{}: the text cannot be followed: {}", name, to_string(text.error())));
+                fmt::format("{}: the text cannot be analysed: {}", name, to_string(text.error())));
             return;
         }
         const Followed& followed = followed_.try_emplace(pass, *std::move(text)).first->second;
         const auto& [parsed, facts, cutter] = followed;
         for (const glsl::NodeId loop : cutter.endless()) {
             const SourceLocation where = parsed->spelled(parsed->tree()[loop].begin);
-            found_.left.push_back(
-                fmt::format("{}:{}: nothing in the head of this loop ends it for certain: what is "
-                            "in it, and what it calls, is left alone",
-                            where.file, where.line));
+            found_.left.push_back(fmt::format("{}:{}: this loop may be endless by its head: its body and the "
+                                              "functions that it calls are left unchanged",
+                                              where.file, where.line));
         }
         for (glsl::Cut& cut : cutter.cuts())
             add(std::move(cut));
@@ -156,7 +155,7 @@ private:
         all.resize(std::min(all.size(), k_most_replaced));
         const auto means = means_of(renderer, pass, text, all);
         if (!means) {
-            found_.left.push_back(fmt::format("{}: no number was tried in the place of an expression: {}",
+            found_.left.push_back(fmt::format("{}: no expression was replaced by a number: {}",
                                               scene_.passes[pass].name, to_string(means.error())));
             return;
         }

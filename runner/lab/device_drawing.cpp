@@ -87,9 +87,8 @@ Result<DeviceAnswer> ask_read_back() {
     const size_t floats = 3 * samples.size();
     if (wrong > 0)
         return DeviceAnswer{Verdict::fail,
-                            fmt::format("{} of {} floats are not read as they were written", wrong, floats)};
-    return DeviceAnswer{Verdict::pass,
-                        fmt::format("{} floats are read bit by bit as they were written", floats)};
+                            fmt::format("{} of {} floats are read back with other bits", wrong, floats)};
+    return DeviceAnswer{Verdict::pass, fmt::format("{} floats are read back bit for bit", floats)};
 }
 
 Result<DeviceAnswer> ask_read_ahead() {
@@ -109,19 +108,20 @@ Result<DeviceAnswer> ask_read_ahead() {
         if (ring.full())
             take();
         if (!renderer.read_ahead(ring))
-            return DeviceAnswer{Verdict::warn,
-                                "the driver has no memory to read pictures behind the drawing"};
+            return DeviceAnswer{Verdict::warn, "the driver has no memory for asynchronous read-back"};
     }
     while (!ring.empty())
         take();
     if (wrong > 0)
-        return DeviceAnswer{Verdict::fail,
-                            fmt::format("{} of {} pictures that are read behind the drawing have other bytes "
-                                        "(TIDEMARK_READ_BACK=at-once does without)",
-                                        wrong, k_frames)};
+        return DeviceAnswer{
+            Verdict::fail,
+            fmt::format(
+                "{} of {} pictures read back asynchronously have other bytes; set TIDEMARK_READ_BACK=at-once",
+                wrong, k_frames)};
     return DeviceAnswer{
         Verdict::pass,
-        fmt::format("{} pictures read behind the drawing have the bytes of those read at once", k_frames)};
+        fmt::format("{} pictures read back asynchronously have the same bytes as those read at once",
+                    k_frames)};
 }
 
 /// Checks rounding to bytes. OpenGL allows either neighbour for a colour between two levels. NVIDIA's H100
@@ -136,10 +136,9 @@ Result<DeviceAnswer> ask_bytes() {
     for (int k = 0; k < 256; ++k)
         for (size_t channel = 0; channel < 3; ++channel)
             if (const int got = picture.u8()[size_t(4 * k) + channel]; got != k)
-                return DeviceAnswer{Verdict::fail, fmt::format("{}/255 is kept as {}/255", k, got)};
-    return DeviceAnswer{
-        Verdict::pass,
-        "colours within 0.4 of one of 256 levels are kept as that level, and nothing is done to them"};
+                return DeviceAnswer{Verdict::fail, fmt::format("{}/255 is stored as {}/255", k, got)};
+    return DeviceAnswer{Verdict::pass,
+                        "colours within 0.4 of an 8-bit level are stored as that level, without conversion"};
 }
 
 Result<DeviceAnswer> ask_repeatability() {
@@ -170,8 +169,8 @@ Result<DeviceAnswer> ask_tiles() {
     renderer.draw({});
     if (!same_bytes(whole, draw_in_tiles(renderer, {})))
         return DeviceAnswer{Verdict::fail,
-                            "a frame drawn in tiles has other bytes than the same frame drawn whole"};
-    return DeviceAnswer{Verdict::pass, "a frame drawn in tiles has the bytes of one drawn whole"};
+                            "a frame drawn in tiles does not have the same bytes as one drawn whole"};
+    return DeviceAnswer{Verdict::pass, "a frame drawn in tiles has the same bytes as one drawn whole"};
 }
 
 Result<DeviceAnswer> ask_loops() {
@@ -186,12 +185,12 @@ Result<DeviceAnswer> ask_loops() {
     for (int n = 0; n < k_turns; ++n)
         state = state * 1664525U + 1013904223U;
     if (counted[0] < k_turns)
-        return DeviceAnswer{Verdict::warn, fmt::format("loops are cut off: {:.0f} of {} turns were made",
+        return DeviceAnswer{Verdict::warn, fmt::format("loops are cut off: {:.0f} of {} iterations ran",
                                                        counted[0], k_turns)};
     if (counted[0] != k_turns || counted[1] != float(state & 0xFFFFU))
         return DeviceAnswer{Verdict::fail,
-                            fmt::format("a loop of {} turns counts {:.0f}", k_turns, counted[0])};
-    return DeviceAnswer{Verdict::pass, fmt::format("a loop of {} turns is made whole", k_turns)};
+                            fmt::format("a loop of {} iterations counts {:.0f}", k_turns, counted[0])};
+    return DeviceAnswer{Verdict::pass, fmt::format("a loop of {} iterations runs to its end", k_turns)};
 }
 
 Result<DeviceAnswer> ask_program_cache() {
@@ -199,10 +198,12 @@ Result<DeviceAnswer> ask_program_cache() {
         "void mainImage(out vec4 c, in vec2 p) { c = vec4(p, iTime, 1.0); }", {.extent = {8, 8}}));
     const gl::ProgramBinary binary = renderer.program(renderer.shown_index()).binary();
     if (binary.bytes.empty())
-        return DeviceAnswer{Verdict::pass, "the driver writes no programs down: each is compiled anew"};
+        return DeviceAnswer{Verdict::pass,
+                            "the driver offers no program binaries: every start compiles again"};
     if (!gl::Program::load(binary))
-        return DeviceAnswer{Verdict::warn, "a program that the driver wrote down does not link again"};
-    return DeviceAnswer{Verdict::pass, fmt::format("a program of {} bytes links again", binary.bytes.size())};
+        return DeviceAnswer{Verdict::warn, "a saved program binary does not load again"};
+    return DeviceAnswer{Verdict::pass,
+                        fmt::format("a saved program binary of {} bytes loads again", binary.bytes.size())};
 }
 
 Result<DeviceAnswer> ask_timer() {
@@ -224,7 +225,7 @@ Result<DeviceAnswer> ask_timer() {
             glFinish();
             const auto told = timer.milliseconds();
             if (!told)
-                return DeviceAnswer{Verdict::warn, "the driver has no timer: times are by the wall clock"};
+                return DeviceAnswer{Verdict::warn, "the driver has no timer: times come from the wall clock"};
             if (frame > 0) // the first frame includes compilation
                 clocks.add(*told, watch.elapsed().wall);
         }
@@ -232,18 +233,17 @@ Result<DeviceAnswer> ask_timer() {
     return DeviceAnswer{
         clocks.agree() ? Verdict::pass : Verdict::warn,
         fmt::format("the driver's timer is {:.2f} to {:.2f} times the wall clock around glFinish{}",
-                    clocks.least, clocks.most, clocks.agree() ? "" : ": times are by the wall clock")};
+                    clocks.least, clocks.most, clocks.agree() ? "" : ": times come from the wall clock")};
 }
 
 Result<DeviceAnswer> ask_reset() {
     if (gl::tells_resets())
         return DeviceAnswer{Verdict::pass,
-                            "the driver says when it was reset: what it drew is not taken for a picture"};
+                            "the driver reports resets, so pictures that a reset damaged are discarded"};
     if (is_software_renderer(gl::query_capabilities().renderer))
-        return DeviceAnswer{Verdict::pass, "the processor draws: there is no driver to be reset"};
-    return DeviceAnswer{
-        Verdict::warn,
-        "the driver does not say when it was reset: pictures drawn after that are not what they seem"};
+        return DeviceAnswer{Verdict::pass, "the CPU draws: there is no GPU driver to be reset"};
+    return DeviceAnswer{Verdict::warn,
+                        "the driver does not report resets: pictures drawn after one may be wrong"};
 }
 
 } // namespace tidemark::lab

@@ -132,7 +132,7 @@ Result<DeviceAnswer> ask_special_values() {
         TRY(samples_of("c.r = uintBitsToFloat(0x00400000u + uint(iTime)) * (1.0 + iTime);", 1))[0];
     const bool negative_zero = std::signbit(kept[2]);
     if (told[0] != 1 || told[2] != 1 || !std::isnan(kept[0]) || !std::isinf(kept[1]))
-        return DeviceAnswer{Verdict::fail, "NaN or infinity is lost: what is not finite is not found here"};
+        return DeviceAnswer{Verdict::fail, "NaN or infinity is lost: probes cannot find them on this device"};
     return DeviceAnswer{told[1] == 1 && negative_zero ? Verdict::pass : Verdict::warn,
                         fmt::format("NaN and infinity stay; NaN {} itself; -0 {}; denormals {}",
                                     told[1] == 1 ? "differs from" : "equals",
@@ -145,7 +145,7 @@ Result<DeviceAnswer> ask_arithmetic() {
     const int products = TRY(wrongly_rounded("a * b", [](float a, float b) { return a * b; }));
     if (sums + products > 0)
         return DeviceAnswer{Verdict::fail,
-                            fmt::format("{} of {} sums and {} products are not rounded as IEEE 754 asks",
+                            fmt::format("{} of {} sums and {} products are not rounded as IEEE 754 requires",
                                         sums, k_number_samples, products)};
     const double quotient = TRY(largest_float_error("a / b", [](double a, double b) { return a / b; }));
     const double root =
@@ -171,10 +171,10 @@ Result<DeviceAnswer> ask_contraction() {
     }
     if (neither > 0)
         return DeviceAnswer{Verdict::fail, "a * b + c is rounded neither once nor twice"};
-    return DeviceAnswer{Verdict::pass,
-                        fmt::format("a * b + c is rounded {}", once == 0    ? "twice"
-                                                               : twice == 0 ? "once (fused)"
-                                                                            : "now once, now twice")};
+    return DeviceAnswer{Verdict::pass, fmt::format("a * b + c is rounded {}",
+                                                   once == 0    ? "twice"
+                                                   : twice == 0 ? "once (fused)"
+                                                                : "sometimes once, sometimes twice")};
 }
 
 Result<DeviceAnswer> ask_doubles() {
@@ -266,9 +266,9 @@ Result<DeviceAnswer> ask_functions() {
         }
     }
     if (!outside.empty())
-        return DeviceAnswer{Verdict::warn, "beyond the precision that Vulkan asks for: " + outside};
+        return DeviceAnswer{Verdict::warn, "less precise than Vulkan requires: " + outside};
     return DeviceAnswer{Verdict::pass,
-                        "within the precision that Vulkan asks for; nearest to its bound: " + nearest};
+                        "within the precision that Vulkan requires; nearest to its bound: " + nearest};
 }
 
 Result<DeviceAnswer> ask_large_sines() {
@@ -284,9 +284,10 @@ Result<DeviceAnswer> ask_large_sines() {
         sentence += fmt::format("{}{:.2g} up to |x| = {:g}", sentence.empty() ? "sin(x) is off by " : ", ",
                                 error, range);
     }
-    return DeviceAnswer{
-        verdict,
-        sentence + (verdict == Verdict::pass ? "" : "; hashes made of sines differ from other devices'")};
+    return DeviceAnswer{verdict,
+                        sentence + (verdict == Verdict::pass
+                                        ? ""
+                                        : "; hashes made of sines differ from those of other devices")};
 }
 
 } // namespace tidemark::lab

@@ -268,10 +268,8 @@ void add_rounding(ProbeBench& bench, CurableFindings& found, const std::vector<P
     }
     found.all.push_back(
         {Finding::Kind::rounding,
-         fmt::format(
-             "at {:.6g} s the picture in float is off by {:.3g} or more from that in double, in 1 % of "
-             "the pixels",
-             horizon->mismatch->state.seconds(), horizon->mismatch->difference),
+         fmt::format("at {:.6g} s float and double differ by {:.3g} or more in 1 % of the pixels",
+                     horizon->mismatch->state.seconds(), horizon->mismatch->difference),
          horizon->mismatch->state, std::move(cures), horizon->good == 0});
 }
 
@@ -284,7 +282,7 @@ void add_hashes(CurableFindings& found, const std::vector<PassText>& texts) {
                 places.push_back(
                     fmt::format("{}:{}", cure.wraps[i].first.where.file, cure.wraps[i].first.where.line));
             add_once(found, found_in_text(Finding::Kind::hash,
-                                          "fract of a large sine gives other numbers on every GPU: " +
+                                          "fract of a large sine gives different numbers on each GPU: " +
                                               listed(places),
                                           std::move(cure)));
         }
@@ -296,7 +294,7 @@ Result<CurableFindings> find_curable(ProbeBench& bench, bool hashes) {
     const auto written = read_texts(bench, true), linked = read_texts(bench, false);
     if (!written || !linked)
         return CurableFindings{
-            {}, {}, "the text cannot be followed: " + to_string((written ? linked : written).error())};
+            {}, {}, "the text cannot be analysed: " + to_string((written ? linked : written).error())};
     CurableFindings found = TRY(Finder(bench, *linked).run());
     for (const PassText& pass : *written) {
         add_without_value(found, pass);

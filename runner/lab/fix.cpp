@@ -88,7 +88,7 @@ Result<double> undefined_percent(ProbeBench& bench, const std::vector<PictureVie
 Result<double> proved_wrong_percent(ProbeBench& bench) {
     const auto pass = TRY(marching_pass(bench));
     if (!pass)
-        return fail(ErrorCode::check_failed, "its march is not found any more");
+        return fail(ErrorCode::check_failed, "its march is no longer found");
     return wrong_percent(TRY(count_proved(bench, *pass)));
 }
 
@@ -96,13 +96,13 @@ std::string name_of(Kind kind) {
     switch (kind) {
     case Kind::no_value: return "reads without a value";
     case Kind::not_finite: return "pixels that are not finite";
-    case Kind::undefined: return "percent of the pixels that show what is undefined";
+    case Kind::undefined: return "percent of the pixels that show an undefined result";
     case Kind::first_hit: return "percent of the rays that step over their first hit or miss it";
     case Kind::budget: return "percent of the rays that run out of steps";
     case Kind::hash: return "hashes of large sines";
     case Kind::counter: return "loops that miscount";
     case Kind::divergence: return "derivatives where neighbours may have taken another branch";
-    case Kind::rounding: return "percent of the pixels that are visibly off from those in double";
+    case Kind::rounding: return "percent of the pixels that visibly differ from double precision";
     }
     return {};
 }
@@ -331,7 +331,7 @@ public:
             refused_.clear();
             const CurableFindings found = TRY(find_curable(now_->bench(), mending_.hashes));
             if (!found.left_out.empty())
-                refused_[found.left_out] = "nothing was looked at";
+                refused_[found.left_out] = "nothing was searched";
             if (!TRY(mend_all(found)))
                 break;
         }
@@ -359,14 +359,14 @@ private:
 
     Result<std::optional<Offer>> first_better(const Finding& finding, const std::vector<PictureView>& views) {
         std::string& why = refused_[finding.sentence];
-        why = finding.cures.empty() ? "no cure is known for it, or its words cannot be changed" : "";
+        why = finding.cures.empty() ? "no fix is known, or its text cannot be changed" : "";
         for (const glsl::Cure& cure : finding.cures) {
             cures_.push_back(cure);
             auto scene = changed(scene_, cures_);
             if (!scene || !mending_.can_be_written(cures_)) {
                 why = cures_.size() > 1
-                          ? "a cure before it changed its words: write that one, then look again"
-                          : "its words are not found in a file of the scene";
+                          ? "an earlier fix changed the same text: write that one, then run again"
+                          : "its text is not found in a file of the scene";
             } else {
                 auto next = std::make_unique<DrawnScene>(*std::move(scene), promises_);
                 const auto judgement = judge(*now_, *next, finding, views);
@@ -375,8 +375,8 @@ private:
                     now_ = std::move(next);
                     return Offer{finding.sentence, **judgement};
                 }
-                why = judgement ? "no known cure makes it better without changing the rest"
-                                : "the cured text is refused: " + to_string(judgement.error());
+                why = judgement ? "no known fix helps without changing the rest"
+                                : "the fixed text is refused: " + to_string(judgement.error());
             }
             cures_.pop_back();
         }

@@ -380,7 +380,7 @@ glsl::MarchLines lines_of(const PassFunction& image, const ir::MarchingLoop& loo
 
 Result<Recording> record_hits(const scene::Scene& scene, const PassFunction& image) {
     if (image.loops().empty())
-        return fail(ErrorCode::load, "no loop of Image is found to march along a ray");
+        return fail(ErrorCode::load, "no ray-marching loop found in Image");
     const std::vector<glsl::MarchLines> marches = marches_of(image);
     Recording recording{scene, std::ranges::all_of(marches, &glsl::MarchLines::stops_before),
                         std::ranges::all_of(marches, &glsl::MarchLines::fixed_steps)};
@@ -426,11 +426,11 @@ RecordingCheck check_recording(render::Renderer& plain, render::Renderer& record
 
 std::string refusal_of(const RecordingCheck& check) {
     if (check.other_pixels > 0)
-        return fmt::format("the text that records draws {} other pixels", check.other_pixels);
+        return fmt::format("the instrumented text changes {} pixels", check.other_pixels);
     if (check.rays == 0)
-        return "no ray comes to the loop that marches";
+        return "no ray reaches the marching loop";
     if (double(check.agree) < k_least_agreeing * double(check.compared()))
-        return fmt::format("of {} rays only {} are recorded as they are computed from the text",
+        return fmt::format("of {} recorded rays only {} agree with those computed from the text",
                            check.compared(), check.agree);
     return {};
 }

@@ -44,7 +44,7 @@ public:
             if (operands_[i] && !operands_[i]->finite())
                 return {OriginCause::carried, {}, i};
         if (name_.starts_with("uintBits") || name_.starts_with("intBits") || name_.starts_with("unpack"))
-            return {OriginCause::operation, "the bits are those of no finite number"};
+            return {OriginCause::operation, "the bits do not encode a finite number"};
         if (auto reason = of_vectors(); !reason.empty())
             return {OriginCause::operation, std::move(reason)};
         if (!by_number())

@@ -89,7 +89,7 @@ private:
         if (is_finite(reading.colour) != is_finite(trace_.colour) ||
             (!half && !same(reading.colour, trace_.colour)))
             trace_.notes.push_back(fmt::format(
-                "the instrumented shader draws this pixel otherwise: {} as drawn, {} instrumented",
+                "the instrumented shader gives this pixel another value: {} as drawn, {} instrumented",
                 to_text(trace_.colour), to_text(reading.colour)));
     }
 

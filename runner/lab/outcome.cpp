@@ -204,9 +204,9 @@ ObservedOrder order_of(const Curve& curve, const std::string& knob, double truth
     order.knob = knob;
     order.fixed = curve.fixed;
     if (curve.knob.size() < k_fewest_points) {
-        order.how = fmt::format("{} of {} points have an error that can be told from the truth's own, and it "
-                                "takes {}",
-                                curve.knob.size(), curve.points, k_fewest_points);
+        order.how =
+            fmt::format("{} of {} points have an error clearly above the reference's own; {} are needed",
+                        curve.knob.size(), curve.points, k_fewest_points);
         return order;
     }
     double least = INFINITY, most = -INFINITY;
@@ -219,7 +219,7 @@ ObservedOrder order_of(const Curve& curve, const std::string& knob, double truth
     const double allowed = std::max(k_spread, k_spread * std::abs(slope));
     if (!(most - slope <= allowed && slope - least <= allowed)) {
         order.how =
-            fmt::format("no one power: between neighbours it is {:.2f} to {:.2f}",
+            fmt::format("no single power: between neighbouring points it is {:.2f} to {:.2f}",
                         std::min(towards * least, towards * most), std::max(towards * least, towards * most));
         return order;
     }

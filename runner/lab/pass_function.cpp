@@ -73,7 +73,7 @@ Result<PassFunction> PassFunction::create(const scene::Scene& scene, const scene
                                           ir::Names names) {
     const glsl::ShaderSource source = glsl::assemble(scene, pass);
     if (!glsl::driver_load(source).modest())
-        return fail(ErrorCode::load, "its text is too large to be followed");
+        return fail(ErrorCode::load, "its text is too large to analyse");
     std::string text = source.text();
     if (names == ir::Names::keep)
         text = glsl::assign_globals_in_main(*TRY(glsl::ParsedText::read(source, k_macros, false)));
@@ -198,11 +198,11 @@ Result<PixelWork> count_work(const render::Renderer& renderer, size_t pass,
                              const render::FrameInputs& inputs) {
     const scene::Scene& scene = renderer.scene();
     if (scene.passes[pass].kind == scene::PassKind::cubemap)
-        return fail(ErrorCode::load, "those of a cubemap pass are not followed");
+        return fail(ErrorCode::load, "operations of a cubemap pass are not counted");
     const auto function = TRY(PassFunction::create(scene, scene.passes[pass]));
     const ir::TextureSet textures = textures_of(renderer, pass);
     if (takes_derivatives(function.function()) || !knows_all(function.function(), textures))
-        return fail(ErrorCode::load, "it takes derivatives, or reads what is not at hand");
+        return fail(ErrorCode::load, "it takes derivatives, or reads a texture that is not available");
     ir::FloatEvaluator start = function.frame(renderer, pass, inputs);
     start.textures = ir::textures_in<ir::Point<float>>(textures);
     const Extent extent = renderer.extent();

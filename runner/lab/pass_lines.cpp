@@ -169,18 +169,17 @@ Result<int> PassLines::compiled_line(const SourceLocation& asked) const {
         return found->second;
     if (with_code.empty())
         return fail(ErrorCode::usage,
-                    fmt::format("--line {}:{}: the pass has no code from that file; from {} it has", file,
-                                asked.line, main_file()));
+                    fmt::format("--line {}:{}: the pass has no code from that file; it has code from {}",
+                                file, asked.line, main_file()));
     const auto above = with_code.lower_bound(asked.line);
     std::vector<int> nearest;
     if (above != with_code.begin())
         nearest.push_back(std::prev(above)->first);
     if (above != with_code.end())
         nearest.push_back(above->first);
-    return fail(
-        ErrorCode::usage,
-        fmt::format("--line {}: nothing is computed on that line of {}; the nearest that computes: {}",
-                    asked.line, file, fmt::join(nearest, ", ")));
+    return fail(ErrorCode::usage,
+                fmt::format("--line {}: that line of {} computes nothing; the nearest line that does: {}",
+                            asked.line, file, fmt::join(nearest, ", ")));
 }
 
 } // namespace tidemark::lab

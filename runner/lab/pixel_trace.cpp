@@ -442,9 +442,9 @@ Error not_followed(const PassFunction& function, ir::Value value) {
     const ir::Instruction& instruction = function.function().instructions[value];
     return error_at(function.locate(instruction.line),
                     instruction.op == Op::texel
-                        ? "the pixel reads a texture here that is not at hand: of the frame before, or too "
-                          "large, or by textureGather or textureQueryLod"
-                        : "the pixel takes a derivative here: neighbours are not followed yet");
+                        ? "cannot evaluate this texture read: the texture is of the previous frame or too "
+                          "large, or the read is textureGather or textureQueryLod"
+                        : "cannot evaluate this derivative: neighbouring pixels are not evaluated");
 }
 
 void read_colour(const ir::LockstepEvaluator& evaluator, const ir::Function& function, PixelTrace& trace) {

@@ -137,7 +137,7 @@ std::string ProbeBench::try_main_hit() {
 std::string ProbeBench::try_recording() {
     const auto& function = image_function();
     if (!function)
-        return "the text cannot be followed: " + function.error().message;
+        return "the text cannot be analysed: " + function.error().message;
     const auto recording = record_hits(scene_, *function);
     if (!recording)
         return recording.error().message;
@@ -146,7 +146,7 @@ std::string ProbeBench::try_recording() {
     const auto plain = renderer(plain_state(), Entry::picture, glsl::Precision::single);
     const auto recorder = renderer(plain_state(), Entry::recording, glsl::Precision::single);
     if (!plain || !recorder)
-        return "the text that records does not compile";
+        return "the instrumented text does not compile";
     return refusal_of(check_recording(**plain, **recorder, *function, plain_state()));
 }
 

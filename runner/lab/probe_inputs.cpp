@@ -65,9 +65,9 @@ std::string take_ranges(Promises& promises, const Json& ranges) {
 std::string take_number(Promises& promises, const std::string& name, const Json& value) {
     const auto field = std::ranges::find(k_fields, name, &Field::name);
     if (field == std::end(k_fields))
-        return fmt::format("'{}' is nothing that a scene can promise; there are {}", name, names());
+        return fmt::format("'{}' is not a known promise; there are {}", name, names());
     if (!value.is_number() || !(value.get<double>() >= 0))
-        return fmt::format("'{}' takes a number from 0", name);
+        return fmt::format("'{}' takes a number of 0 or more", name);
     promises.*(field->value) = value.get<double>();
     promises.stated.insert(name);
     return {};
@@ -115,7 +115,7 @@ Result<Promises> parse_promises(std::string_view text, const std::string& file,
                                 const DefinitionOf& definition_of) {
     const Json json = Json::parse(text, nullptr, false, true);
     if (!json.is_object())
-        return fail(ErrorCode::load, fmt::format("{}: this is no JSON object", file));
+        return fail(ErrorCode::load, fmt::format("{}: not a JSON object", file));
     Promises promises;
     if (const std::string wrong = take_all(promises, json, definition_of); !wrong.empty())
         return fail(ErrorCode::load, fmt::format("{}: {}", file, wrong));

@@ -118,7 +118,7 @@ std::string kinds(const image::FiniteCensus& census) {
 Result<std::optional<Answer>> known_before(ProbeBench& bench) {
     const auto passes = TRY(bench.passes(plain_state()));
     if (not_finite(bench, plain_state(), passes))
-        return Answer{Verdict::not_applicable, "NaN or infinity in the scene as it stands: see times"};
+        return Answer{Verdict::not_applicable, "NaN or infinity in the unchanged scene: see times"};
     return std::optional<Answer>{};
 }
 

@@ -79,8 +79,9 @@ Answer without_hits(const ProbeBench& bench, bool warns) {
 }
 
 Answer without_sign() {
-    return {Verdict::not_applicable,
-            "the march goes in fixed steps or waits for a sample below the surface: none proves anything"};
+    return {
+        Verdict::not_applicable,
+        "the march has fixed steps or waits for a sample below the surface, so such a sample is no fault"};
 }
 
 Verdict fault(const ProbeBench& bench) {
@@ -146,8 +147,8 @@ Result<std::optional<MarchingPass>> marching_pass(ProbeBench& bench) {
 
 Answer without_march(ProbeBench& bench) {
     const auto& image = bench.image_function();
-    return {Verdict::not_applicable, image ? "no loop of a pass is found to march along a ray"
-                                           : "the text cannot be followed: " + image.error().message};
+    return {Verdict::not_applicable, image ? "no ray-marching loop found in any pass"
+                                           : "the text cannot be analysed: " + image.error().message};
 }
 
 Result<RayCounts> count_proved(ProbeBench& bench, const MarchingPass& pass) {

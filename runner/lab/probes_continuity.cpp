@@ -105,10 +105,9 @@ namespace {
 Answer answer_of(const Jump& jump, double moment, bool promised) {
     const std::string elsewhere =
         std::isinf(jump.elsewhere) ? "no change" : fmt::format("{:.1f} dB", jump.elsewhere);
-    const char* const consequence = jump.wraps ? " back to the one of 0 s"
-                                    : promised
-                                        ? ""
-                                        : "; a scene that cuts may say so: \"skip\" in its .check.json";
+    const char* const consequence = jump.wraps ? " back to the picture of 0 s"
+                                    : promised ? ""
+                                               : "; if the cut is intended, add \"skip\" to its .check.json";
     return {jump.wraps || promised ? Verdict::fail : Verdict::warn,
             fmt::format("the picture jumps at {:g} s (PSNR {:.1f} dB between neighbouring instants, {} "
                         "elsewhere){}",
@@ -152,7 +151,8 @@ Result<Answer> ask_hashes(ProbeBench& bench) {
     }
     if (found.empty())
         return Answer{Verdict::pass, "no random numbers from large sines"};
-    return Answer{Verdict::warn, "fract of a large sine gives other numbers on every GPU: " + listed(found)};
+    return Answer{Verdict::warn,
+                  "fract of a large sine gives different numbers on each GPU: " + listed(found)};
 }
 
 // Checks whether a picture repeats exactly, with one thread too, and whether it changes evenly with the
@@ -184,13 +184,13 @@ Result<Answer> ask_repeats(ProbeBench& bench) {
     if (!same(bench.picture(state)))
         return say_no("after another frame");
     if (!same(bench.fresh_picture(state)))
-        return say_no("after compiling anew");
-    return Answer{Verdict::pass, "the same bytes again, after another frame and compiled anew"};
+        return say_no("after recompiling");
+    return Answer{Verdict::pass, "the same bytes again, after another frame and after recompiling"};
 }
 
 Result<Answer> ask_threads(ProbeBench& bench) {
     if (!bench.with_one_thread())
-        return Answer{Verdict::not_applicable, "this driver does not let us choose its number of threads"};
+        return Answer{Verdict::not_applicable, "this driver has no setting for its number of threads"};
     // Drivers distribute squares of 64 pixels to their threads, so the picture needs several.
     const FrameState state = state_at(2, {200, 136});
     const auto alone = bench.with_one_thread()(state);
@@ -203,7 +203,7 @@ Result<Answer> ask_threads(ProbeBench& bench) {
                       fmt::format("{} of {} pixels differ when one thread draws them all{}", different,
                                   state.extent.pixels(), bench.see_bounds()),
                       state, std::move(together)};
-    return Answer{Verdict::pass, "the same bytes whether many threads draw or one"};
+    return Answer{Verdict::pass, "the same bytes with one thread and with many"};
 }
 
 namespace {
@@ -296,11 +296,10 @@ Result<Answer> ask_camera(ProbeBench& bench) {
     }
     if (!changes)
         return Answer{Verdict::not_applicable, "the mouse changes nothing"};
-    return Answer{
-        Verdict::pass,
-        fmt::format("the picture turns evenly: the PSNR of a step of the mouse by a pixel is at most "
-                    "{:.1f} dB less than for the steps beside it",
-                    most)};
+    return Answer{Verdict::pass,
+                  fmt::format("the picture moves evenly with the mouse: the PSNR of a one-pixel step is at "
+                              "most {:.1f} dB less than for the steps beside it",
+                              most)};
 }
 
 Result<Answer> ask_mouse_edge(ProbeBench& bench) {
@@ -331,12 +330,13 @@ Result<Answer> ask_mouse_edge(ProbeBench& bench) {
         return fail(!untouched ? untouched.error() : corner.error());
     if (image::compare(*untouched, *corner)->equal())
         return Answer{Verdict::not_applicable, "a click changes nothing"};
-    return Answer{Verdict::pass, "a click at the edge is taken for a click; one in the corner changes the "
-                                 "picture: " +
-                                     alikeness(*untouched, *corner)};
+    return Answer{Verdict::pass,
+                  "a click at the edge counts as a click; one in the corner changes the picture: " +
+                      alikeness(*untouched, *corner)};
 }
 
-// Checks whether a picture drawn in tiles, as large ones are (render/picture_parts.hpp), equals one drawn whole.
+// Checks whether a picture drawn in tiles, as large ones are (render/picture_parts.hpp), equals one drawn
+// whole.
 
 namespace {
 
@@ -359,7 +359,7 @@ Result<Answer> ask_tiles(ProbeBench& bench) {
     };
     auto cut = TRY(drawn(k_tile));
     if (!cut.tiles())
-        return Answer{Verdict::not_applicable, "a pass reads the picture, which is drawn whole at any size"};
+        return Answer{Verdict::not_applicable, "a pass reads the picture, so it is never drawn in tiles"};
     const image::Image tiled = render::draw_in_tiles(cut, inputs);
     const auto whole = TRY(drawn(std::nullopt));
     const image::Image uncut = whole.read_back();
@@ -367,7 +367,7 @@ Result<Answer> ask_tiles(ProbeBench& bench) {
     // Mesa 25 reads texture levels slightly differently in each tile.
     if (const auto gap = image::compare(uncut, tiled); different > 0 && gap && gap->psnr >= k_same_to_the_eye)
         return Answer{Verdict::pass,
-                      fmt::format("{} of {} pixels differ in {} tiles, by less than shows: {:.0f} dB",
+                      fmt::format("{} of {} pixels differ in {} tiles, too little to be visible: {:.0f} dB",
                                   different, tiled.extent.pixels(), cut.tiles()->count(), gap->psnr)};
     if (different > 0)
         return Answer{Verdict::fail,

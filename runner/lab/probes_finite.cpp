@@ -52,7 +52,7 @@ Result<Answer> ask_frames(ProbeBench& bench) {
         fault->sentence = fmt::format("from frame {} on: {}", seen, fault->sentence);
     return fault ? *std::move(fault)
                  : Answer{Verdict::pass, fmt::format("no NaN or infinity in the first {} frames{}", seen,
-                                                     seen < k_frames ? ": no more were drawn in 5 s" : "")};
+                                                     seen < k_frames ? ", stopped after 5 s" : "")};
 }
 
 Result<Answer> ask_mouse(ProbeBench& bench) {
@@ -103,15 +103,14 @@ Result<Answer> ask_search(ProbeBench& bench) {
     const std::string unread =
         (explored)->left_out.empty()
             ? ""
-            : "; at random alone, as the text cannot be followed: " + (explored)->left_out;
+            : "; at random only, as the text cannot be analysed: " + (explored)->left_out;
     if ((explored)->not_finite.empty())
         return Answer{Verdict::pass, "no NaN or infinity; " + (explored)->sentence + unread};
     const FrameState& where = (explored)->not_finite.front();
     const auto passes = TRY(bench.passes(where));
     auto fault = not_finite(bench, where, passes);
     if (!fault)
-        return Answer{Verdict::warn, "a pixel was NaN or infinite, and finite when it was drawn again",
-                      where};
+        return Answer{Verdict::warn, "a pixel was NaN or infinite, but finite when drawn again", where};
     fault->sentence += "; " + (explored)->sentence + unread;
     return *std::move(fault);
 }
@@ -207,7 +206,7 @@ std::string operation(const ir::Function& function, const ir::PartialOperation& 
     const ir::Interval& b = what.operands.back();
     switch (function.instructions[what.value].op) {
     case ir::Op::sqrt: return "sqrt of " + range(a);
-    case ir::Op::inverse_sqrt: return "normalize or inversesqrt, of a square that is in " + range(a);
+    case ir::Op::inverse_sqrt: return "normalize or inversesqrt of a square in " + range(a);
     case ir::Op::divide: return "a division by " + range(b);
     case ir::Op::modulo: return "mod by " + range(b);
     case ir::Op::log:
@@ -216,7 +215,7 @@ std::string operation(const ir::Function& function, const ir::PartialOperation& 
     case ir::Op::asin:
     case ir::Op::acos: return "asin or acos of " + range(a);
     case ir::Op::atan2: return fmt::format("atan of {} and {}", range(a), range(b));
-    case ir::Op::texel: return "a texture that is not followed";
+    case ir::Op::texel: return "a texture that is not analysed";
     default: return "an operation on " + range(a);
     }
 }
@@ -226,13 +225,13 @@ Result<std::string> doubt_of(const render::Renderer& renderer, size_t index, con
                              double seconds) {
     const scene::Pass& pass = renderer.scene().passes[index];
     if (pass.kind == scene::PassKind::cubemap)
-        return pass.name + " is a cubemap, which is not followed";
+        return pass.name + " is a cubemap, which is not analysed";
     const auto function = PassFunction::create(renderer.scene(), pass);
     if (!function)
-        return "the text cannot be followed: " + function.error().message;
+        return "the text cannot be analysed: " + function.error().message;
     const ir::ValueRanges ranges = ranges_of({*function, renderer, index, render::inputs_of(state)}, seconds);
     if (!ranges.settled)
-        return pass.name + " has too many loops in each other";
+        return pass.name + " has too deeply nested loops";
     for (const ir::Variable& variable : function->function().variables) {
         if (variable.kind != ir::Variable::Kind::output)
             continue;
@@ -260,15 +259,13 @@ Result<Answer> ask_no_nan(ProbeBench& bench) {
     const render::Renderer& renderer = *TRY(bench.drawn(state));
     for (const render::PlannedPass& planned : renderer.plan().passes)
         if (const std::string doubt = TRY(doubt_of(renderer, planned.pass, state, seconds)); !doubt.empty())
-            return Answer{Verdict::not_applicable, "not excluded: " + doubt};
+            return Answer{Verdict::not_applicable, "NaN cannot be excluded: " + doubt};
     if (!is_finite(renderer.read_back()))
         return Answer{Verdict::not_applicable, "a picture contradicts its proof: please report this scene"};
-    return Answer{
-        Verdict::pass,
-        fmt::format("no operation can leave its domain, in any pixel of {}x{}, from 0 to {:g} s, with "
-                    "every knob anywhere in its range; only what is too large for a float is not "
-                    "looked at",
-                    k_usual_size.width, k_usual_size.height, seconds)};
+    return Answer{Verdict::pass,
+                  fmt::format("no operation can leave its domain in any pixel of {}x{}, from 0 to {:g} s, at "
+                              "any knob values; overflow of floats is not checked",
+                              k_usual_size.width, k_usual_size.height, seconds)};
 }
 
 } // namespace tidemark::lab

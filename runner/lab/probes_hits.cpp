@@ -213,8 +213,7 @@ Result<Answer> ask_epsilon(ProbeBench& bench) {
     }
     if (most > std::max(bench.promises().most_exhausted_percent, k_same)) {
         answer.verdict = fault(bench);
-        answer.sentence +=
-            ": the solver waits for a value below the rounding error of its field; raise its hit distance";
+        answer.sentence += ": the hit threshold is below the rounding error of the field; raise it";
     } else {
         answer.where.reset();
         answer.picture.reset();
@@ -289,7 +288,7 @@ Result<Answer> ask_count(ProbeBench& bench, const Count& count) {
                     count.name, extremes.most, both->mismatched_percent)};
     if (both->mismatched_percent > k_same) {
         answer.verdict = extremes.stated ? fault(bench) : Verdict::warn;
-        answer.sentence += ": the coordinates of the finest octave are beyond what floats hold";
+        answer.sentence += ": the coordinates of the finest octave are beyond float precision";
         answer.where = state;
         answer.picture = both->map;
     }
@@ -302,7 +301,7 @@ Result<Answer> ask_octaves(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);
     const std::vector<Count> counts = counts_of_octaves(bench.scene());
-    Answer all{Verdict::not_applicable, "no definition and no knob is a number of octaves"};
+    Answer all{Verdict::not_applicable, "no knob or definition sets a number of octaves"};
     for (const Count& count : counts) {
         auto answer = ask_count(bench, count);
         if (!answer || answer->verdict != Verdict::pass)
@@ -326,7 +325,7 @@ Result<Answer> ask_self_intersection(ProbeBench& bench) {
             sum += std::abs(part);
     // A steepness that moves no ray on its own may belong to something else, such as foam.
     if (sum == 0)
-        return Answer{Verdict::not_applicable, "no knob is a steepness of waves"};
+        return Answer{Verdict::not_applicable, "no knob sets the steepness of waves"};
     const auto as_is = TRY(bench.hits(typical_view()));
     bool moves = false;
     double calm = 0;
@@ -403,7 +402,7 @@ Drift drift_of(const Hits& written, const Hits& recorded, Extent extent) {
 
 Result<Answer> ask_drift(ProbeBench& bench) {
     if (!bench.has_main_hit())
-        return Answer{Verdict::not_applicable, "the scene has no mainHit to drift"};
+        return Answer{Verdict::not_applicable, "the scene has no mainHit to compare"};
     if (!bench.has_hits())
         return without_hits(bench);
     if (const std::string& problem = bench.recording_problem(); !problem.empty())
@@ -411,7 +410,7 @@ Result<Answer> ask_drift(ProbeBench& bench) {
     if (bench.fixed_steps())
         return Answer{
             Verdict::not_applicable,
-            "the march goes in fixed steps, and what mainHit interpolates between two is not recorded"};
+            "the march goes in fixed steps, and mainHit's interpolation between them is not recorded"};
     Drift all;
     Answer answer;
     for (const FrameState& view : usual_views()) {
@@ -428,11 +427,11 @@ Result<Answer> ask_drift(ProbeBench& bench) {
         all.largest = std::max(all.largest, drift.largest);
     }
     if (all.entered == 0)
-        return Answer{Verdict::not_applicable, "no ray comes to the loop that marches"};
+        return Answer{Verdict::not_applicable, "no ray reaches the marching loop"};
     answer.sentence =
-        fmt::format("mainHit and the march of mainImage part in {} of {} rays", all.differing, all.entered);
+        fmt::format("mainHit and the march of mainImage differ in {} of {} rays", all.differing, all.entered);
     if (all.largest > 0)
-        answer.sentence += fmt::format(", by up to {:.3g} where both meet something", all.largest);
+        answer.sentence += fmt::format(", by up to {:.3g} where both hit", all.largest);
     if (100.0 * double(all.differing) > k_same * double(all.entered))
         answer.verdict = Verdict::warn;
     else {

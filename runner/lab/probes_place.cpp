@@ -187,10 +187,11 @@ Result<Answer> along_the_rays(ProbeBench& bench) {
     for (const double units : {1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
         const FarAway seen = far_away(*field, units);
         if (seen.known == 0)
-            return Answer{
-                good > 0 ? Verdict::pass : Verdict::not_applicable,
-                fmt::format("float and double agree to {:g} units along the rays; further out {}", good,
-                            seen.ended == field->rays() ? "no march goes" : "the field cannot be bounded")};
+            return Answer{good > 0 ? Verdict::pass : Verdict::not_applicable,
+                          fmt::format("float and double agree to {:g} units along the rays; further out {}",
+                                      good,
+                                      seen.ended == field->rays() ? "no ray is marched"
+                                                                  : "the field cannot be bounded")};
         if (seen.not_finite > 0)
             return Answer{fault(bench),
                           fmt::format("{:g} units along {} of {} rays the distance is NaN or infinite", units,
@@ -233,7 +234,7 @@ Result<Answer> ask_grazing(ProbeBench& bench) {
     if (const auto level = level_view(bench.scene()))
         views.push_back(*level);
     if (views.empty())
-        return Answer{Verdict::not_applicable, "the horizon is in sight at no height of the mouse"};
+        return Answer{Verdict::not_applicable, "the horizon is not visible at any mouse height"};
     Answer answer;
     double most = -1;
     for (const FrameState& view : views) {
@@ -313,7 +314,7 @@ Result<Answer> ask_far(ProbeBench& bench) {
     const auto far = far_plane(bench);
     if (!far)
         return Answer{Verdict::not_applicable,
-                      "no knob far_distance to move, and no definition that is the limit of the march"};
+                      "no knob far_distance to move, and no definition that limits the march"};
     double most = -1, beyond = 0;
     Answer answer;
     for (FrameState view : usual_views()) {
@@ -335,10 +336,9 @@ Result<Answer> ask_far(ProbeBench& bench) {
         most = flickers;
         answer.where = view;
     }
-    answer.sentence =
-        fmt::format("{:.3g} % of the rays hit something else before the far plane when it moves by "
-                    "a thousandth",
-                    most);
+    answer.sentence = fmt::format(
+        "{:.3g} % of the rays hit something else nearer than the far plane when it moves by a thousandth",
+        most);
     if (beyond > 0)
         answer.sentence += "; some hit something beyond it";
     answer.verdict = most > k_same || beyond > 0 ? fault(bench) : Verdict::pass;

@@ -140,7 +140,7 @@ Result<Answer> ask_rounding(ProbeBench& bench) {
         {glsl::vary_inputs, {{1, "iTime, iResolution and iMouse a unit in the last place larger"}}},
         {glsl::vary_precision, {{0, "everything `precise`"}}},
         {glsl::vary_contraction, {{1, "fused multiply-add"}}},
-        {glsl::vary_order, {{0, "sums added up from the other end"}}},
+        {glsl::vary_order, {{0, "sums added in reverse order"}}},
         {glsl::vary_rounding, {{1, "quotients, roots, powers and logarithms a unit off"}}},
     };
     std::vector<std::string> left_out;
@@ -161,7 +161,7 @@ Result<Answer> ask_rounding(ProbeBench& bench) {
 Result<Answer> ask_mediump(ProbeBench& bench) {
     PortabilityProbe probe(bench);
     if (auto done = probe.add(
-            {glsl::vary_halves, {{1, "sums and products in half floats, as phones have `mediump`"}}});
+            {glsl::vary_halves, {{1, "sums and products in half floats, as with `mediump` on phones"}}});
         !done)
         return Answer{Verdict::not_applicable, to_string(done.error())};
     if (!probe.asked())

@@ -23,18 +23,18 @@ Answer none(std::string why) {
 }
 
 std::string sentence_of(const PassFunction& function, const RayCounts& counts) {
-    std::string text = fmt::format(
-        "{:.3g} % of {} rays are decided: {:.3g} % of these step over their first hit, {:.3g} % miss it",
-        percent(counts.decided(), counts.rays), counts.rays, percent(counts.step_over, counts.decided()),
-        percent(counts.miss, counts.decided()));
+    std::string text =
+        fmt::format("{2:.3g} % of the decided rays step over their first hit, {3:.3g} % miss it; {0:.3g} % "
+                    "of {1} rays are decided",
+                    percent(counts.decided(), counts.rays), counts.rays,
+                    percent(counts.step_over, counts.decided()), percent(counts.miss, counts.decided()));
     if (counts.undecided > 0)
-        text += fmt::format("; of {:.3g} % it is not known ({})", percent(counts.undecided, counts.rays),
+        text += fmt::format(", {:.3g} % are not ({})", percent(counts.undecided, counts.rays),
                             to_string(counts.commonest()));
     if (counts.at_base_level > 0)
-        text +=
-            fmt::format("; {:.3g} % of the rays are looked at with the base level of textures whose mipmap "
-                        "the device chooses",
-                        percent(counts.at_base_level, counts.rays));
+        text += fmt::format("; for {:.3g} % of the rays a texture is read at its base level, where the "
+                            "device would choose a mipmap",
+                            percent(counts.at_base_level, counts.rays));
     if (counts.wrong_loop) {
         const SourceLocation where = function.locate(function.loops()[*counts.wrong_loop].line);
         text += fmt::format("; {}:{} tests the distance: {} there", where.file, where.line,
@@ -51,11 +51,11 @@ Result<Answer> ask_first_hit(ProbeBench& bench) {
         return without_march(bench);
     const RayCounts counts = TRY(count_proved(bench, *pass));
     if (counts.rays == 0)
-        return none("no ray comes to the loop that marches");
+        return none("no ray reaches the marching loop");
     if (counts.unknown_texture == counts.rays)
-        return none("the march reads the frame before, which is gone, or a texture that is too large");
+        return none("the march reads the previous frame, or a texture that is too large");
     if (counts.unfaithful == counts.rays)
-        return none("the march remembers more than its place on the ray");
+        return none("the march keeps more state than its place on the ray");
     if (counts.decided() == 0)
         return none(
             fmt::format("none of {} rays is decided: {}", counts.rays, to_string(counts.commonest())));
@@ -146,10 +146,10 @@ std::string areas_sentence(const AreaSlopes& areas) {
     std::string text = fmt::format(
         "; between the rays the slope is bounded on {:.3g} % of the way to the surface", 100 * bounded / way);
     if (bounded > 0)
-        text += fmt::format(": the distance falls by {:.3g} a unit at most, by {:.3g} on 95 % of it",
+        text += fmt::format(": the distance falls by at most {:.3g} per unit, by {:.3g} on 95 % of it",
                             areas.falls_on(1), areas.falls_on(0.95));
     if (areas.may_jump > 0)
-        text += fmt::format(", beside jumps that are not excluded on {:.3g} %", 100 * areas.may_jump / way);
+        text += fmt::format(", apart from possible jumps on {:.3g} %", 100 * areas.may_jump / way);
     if (areas.not_finite > 0)
         text += fmt::format("; on {:.3g} % it may be NaN or infinite", 100 * areas.not_finite / way);
     return text;
@@ -166,10 +166,10 @@ std::string scales_sentence(const Scales& scales) {
         text += fmt::format("{}on {} of {} rays the field cannot be bounded", text.empty() ? "" : "; ",
                             unknown, scales.hits);
     if (scales.least.unsafe < ir::k_longest_scale)
-        text += fmt::format("; {:.2g} x steps over the hit from {:.4g} on the ray of pixel {},{} at {:g} s",
-                            scales.least.unsafe, scales.least.at, scales.pixel.x, scales.pixel.y,
-                            scales.state.seconds());
-    return text + fmt::format("; its own steps are {:.2g} x in the median", median(scales.own)) +
+        text += fmt::format(
+            "; a step of {:.2g} x from {:.4g} passes the hit, on the ray of pixel {},{} at {:g} s",
+            scales.least.unsafe, scales.least.at, scales.pixel.x, scales.pixel.y, scales.state.seconds());
+    return text + fmt::format("; the march's own steps are {:.2g} x in the median", median(scales.own)) +
            areas_sentence(scales.areas);
 }
 
@@ -184,10 +184,10 @@ Result<Answer> ask_step_scale(ProbeBench& bench) {
         return loop.kind == ir::MarchingLoop::Kind::fixed_step;
     };
     if (std::ranges::all_of(loops, fixed))
-        return none("the march goes in steps that the distance does not choose");
+        return none("the march's steps do not depend on the distance");
     const Scales scales = TRY(scales_of(bench, *pass));
     if (scales.hits == 0)
-        return none("no ray is proved to come to a zero of the distance");
+        return none("no ray is proved to reach a zero of the distance");
     // A march that waits for a sample below the surface returns from it, so its steps are never too long.
     const bool too_long =
         loops[scales.loop].stops_before && median(scales.own) > scales.least.unsafe * k_rounded;
@@ -337,17 +337,18 @@ private:
 };
 
 std::string turns_sentence(const PassFunction& function, const TurnCounts& counts) {
-    std::string text = fmt::format("{:.3g} % of {} rays run out of the loop's {} turns",
+    std::string text = fmt::format("{:.3g} % of {} rays run out of the loop's {} iterations",
                                    share(double(counts.out), double(counts.rays)), counts.rays, counts.turns);
     if (counts.out > 0) {
         const SourceLocation where = function.locate(counts.line);
         text += fmt::format(", as pixel {},{} at {:g} s: {}:{} tests the distance", counts.pixel.x,
                             counts.pixel.y, counts.state.seconds(), where.file, where.line);
     }
-    text += fmt::format("; the others need {} at most; of {} rays {:.3g} % are proved not to", counts.needed,
-                        counts.looked_at, share(double(counts.proved), double(counts.looked_at)));
+    text +=
+        fmt::format("; the others need at most {0}; {2:.3g} % of {1} rays are proved not to run out",
+                    counts.needed, counts.looked_at, share(double(counts.proved), double(counts.looked_at)));
     if (counts.unfollowed > 0)
-        text += fmt::format(" (what {:.3g} % add to their way is not followed)",
+        text += fmt::format(" ({:.3g} % could not be followed)",
                             share(double(counts.unfollowed), double(counts.looked_at)));
     if (counts.proved > 0 && counts.rays_over_time > 0)
         text +=
@@ -377,7 +378,7 @@ Result<Answer> ask_turns(ProbeBench& bench) {
     }
     if (counts.rays == 0)
         return Answer{Verdict::not_applicable,
-                      "no ray comes to a loop that steps by a distance, and counts its turns up to a number"};
+                      "no ray reaches a loop that steps by a distance and has a fixed number of iterations"};
     if (counts.contradicted > 0)
         return Answer{
             Verdict::not_applicable,

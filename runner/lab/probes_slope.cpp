@@ -224,7 +224,7 @@ constexpr double k_float_slack = 1.05;
 constexpr std::string_view k_too_long = ": steps that rely on that bound are too long";
 
 std::string bound_of(double stated) {
-    return std::isinf(stated) ? "; the scene states no bound (largest_slope in NAME.check.json),"
+    return std::isinf(stated) ? ", where the scene states no bound (largest_slope in NAME.check.json),"
                               : fmt::format(", where the scene states at most {:g},", stated);
 }
 
@@ -262,7 +262,7 @@ Result<Answer> ask_recorded_march(ProbeBench& bench) {
     }
     return judged(
         bench,
-        fmt::format("the distance falls by up to {:.3g} a unit between two samples of a ray", found.slope),
+        fmt::format("the distance falls by up to {:.3g} per unit between two samples of a ray", found.slope),
         found, k_float_slack);
 }
 
@@ -368,16 +368,16 @@ std::optional<Answer> fault_of_own(const ProbeBench& bench, const SlopesOver& in
         if (!angle)
             return Answer{
                 fault(bench),
-                fmt::format("every slope over the scene's own {:g} is NaN or infinite; best is {:g}", step,
-                            best_step),
+                fmt::format(
+                    "every slope over the scene's own step {:g} is NaN or infinite; the best step is {:g}",
+                    step, best_step),
                 typical_view()};
         if (*angle > k_visible_angle)
-            return Answer{
-                fault(bench),
-                fmt::format("over the scene's own {:g} half of the slopes along the rays are off by {:.2g} "
-                            "degrees and more; best is {:g}",
-                            step, *angle, best_step),
-                typical_view()};
+            return Answer{fault(bench),
+                          fmt::format("over the scene's own step {:g} half of the slopes along the rays are "
+                                      "off by {:.2g} degrees or more; the best step is {:g}",
+                                      step, *angle, best_step),
+                          typical_view()};
     }
     return std::nullopt;
 }
@@ -404,10 +404,11 @@ Answer judged(const ProbeBench& bench, const SlopesOver& in_float, const SlopesO
     }
     if (auto answer = fault_of_own(bench, in_float, truth, best_step))
         return *std::move(answer);
-    return {best > k_visible_angle ? Verdict::warn : Verdict::pass,
-            fmt::format("differences of the field give slopes along the rays to {:.2g} degrees at best, over "
-                        "{:g} (medians: {})",
-                        best, best_step, range)};
+    return {
+        best > k_visible_angle ? Verdict::warn : Verdict::pass,
+        fmt::format(
+            "slopes by differences of the field are off by {:.2g} degrees at best, over {:g} (medians: {})",
+            best, best_step, range)};
 }
 
 Result<Answer> ask_march_field(ProbeBench& bench) {
@@ -430,7 +431,7 @@ Result<Answer> ask_march_field(ProbeBench& bench) {
 Result<Answer> ask_recorded(ProbeBench& bench) {
     auto field = FieldOnRays::create(bench, typical_view());
     if (!field)
-        return Answer{Verdict::not_applicable, "the text cannot be followed: " + field.error().message};
+        return Answer{Verdict::not_applicable, "the text cannot be analysed: " + field.error().message};
     const auto over = [&](double step, auto distance) {
         std::vector<double> slopes;
         for (size_t ray = 0; ray < field->rays(); ++ray) {

@@ -17,22 +17,21 @@ constexpr int k_frames_before = 10;
 constexpr size_t k_most_rounds = 60;
 
 constexpr Omission k_omissions[] = {
-    {"passes", "passes that nobody reads, drawn", [](Way& way) { way.options.extras.passes = true; }},
-    {"unchanged", "passes that read what they read in the frame before, drawn",
+    {"passes", "passes that nothing reads, drawn", [](Way& way) { way.options.extras.passes = true; }},
+    {"unchanged", "passes whose inputs are unchanged, drawn",
      [](Way& way) { way.options.extras.unchanged = true; }},
-    {"frames", "ten frames before the one that is wanted, drawn",
+    {"frames", "ten frames before the wanted one, drawn",
      [](Way& way) { way.frames_before = k_frames_before; }},
-    {"uniforms", "uniforms and knobs that the programs do not have, handed over",
+    {"uniforms", "uniforms and knobs that the programs do not have, set",
      [](Way& way) { way.options.extras.uniforms = true; }},
     {"channels", "pictures, noise and sounds that the programs do not read, loaded",
      [](Way& way) { way.options.extras.channels = true; }},
-    {"mipmaps", "mipmaps of buffers that nobody filters between, made",
-     [](Way& way) { way.options.extras.mipmaps = true; }},
+    {"mipmaps", "mipmaps that no sampler reads, made", [](Way& way) { way.options.extras.mipmaps = true; }},
     {"second-textures", "a second texture for buffers that do not read themselves",
      [](Way& way) { way.options.extras.second_textures = true; }},
     {"code", "code that main cannot reach, compiled",
      [](Way& way) { way.options.specialise = glsl::Specialise::nothing; }},
-    {"alpha", "alpha that is 1 all over, encoded", [](Way& way) { way.alpha = true; }},
+    {"alpha", "alpha that is 1 everywhere, encoded", [](Way& way) { way.alpha = true; }},
 };
 
 render::FrameInputs inputs_of(int frame) {
@@ -154,7 +153,7 @@ private:
 };
 
 std::string too_few(const char* what, const Rounds& rounds) {
-    return fmt::format("--budget is spent: {} {} of the {} rounds that a median wants", what, rounds.count(),
+    return fmt::format("--budget is spent: {} {} of the {} rounds that a median needs", what, rounds.count(),
                        k_fewest_runs);
 }
 
@@ -288,7 +287,7 @@ Result<Saving> SavingsBench::measure(std::span<const Omission> things, double se
     Contender with_it(parts_->scene, way);
     Saving saving;
     const auto cut = [&](const char* what, double milliseconds) {
-        saving.cut = fmt::format("--budget is spent: {:.2g} s are left, and {} {:.2g}",
+        saving.cut = fmt::format("--budget is spent: {:.2g} s are left, and {} {:.2g} s",
                                  std::max(allowance.left() / 1e3, 0.0), what, milliseconds / 1e3);
         return saving;
     };

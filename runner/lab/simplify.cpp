@@ -281,7 +281,7 @@ private:
                                                 way_[step].size() == 1 ? "" : "s"),
                                     *std::move(scene));
         Study study;
-        study.about = "What can be left out of the scene, held against the scene as it is.";
+        study.about = "Cuts in the scene's text, compared with the unchanged scene.";
         study.extent = request_.extent;
         study.views = request_.views;
         const View& last = request_.views.back();
@@ -324,9 +324,9 @@ private:
         const auto& points = found.findings.set.points;
         auto& say = found.sentences;
         say = std::move(left);
-        say.push_back(fmt::format("{} of {} cuts were tried alone: {} pay and keep {}", tried_, known_,
+        say.push_back(fmt::format("{} of {} cuts were tried alone: {} save time and keep {}", tried_, known_,
                                   good_.size(), to_string(request_.goal)));
-        say.push_back("as it is: " + cost_and_error(points.front()));
+        say.push_back("unchanged: " + cost_and_error(points.front()));
         const WorkPrecision* best = nullptr;
         for (size_t i = 1; i < points.size(); ++i) {
             const WorkPrecision& point = points[i];
@@ -341,13 +341,13 @@ private:
             found.chosen = way_[steps_[i - 1]];
         }
         if (!best) {
-            say.push_back("nothing that was found is faster beyond noise and keeps " +
-                          to_string(request_.goal) + " in every view");
+            say.push_back("no cut is measurably faster and keeps " + to_string(request_.goal) +
+                          " in every view");
             return;
         }
         const auto gain = speedup(points.front(), *best);
         say.push_back(
-            fmt::format("chosen: {}: {:.2f} x [{:.2f}, {:.2f}] as fast as it is, {} {} in the worst view",
+            fmt::format("chosen: {}: {:.2f} x [{:.2f}, {:.2f}] as fast as unchanged, {} {} in the worst view",
                         best->point.label, gain->ratio, gain->confidence.low, gain->confidence.high,
                         to_string(Goal{request_.goal.measure}), figure(worst(*best))));
         say.push_back(work_sentence(found.chosen));

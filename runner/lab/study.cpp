@@ -45,11 +45,10 @@ Result<void> check(const View& view) {
                                 time, k_last_time));
     for (const double part : {view.mouse.x, view.mouse.y})
         if (!(part >= 0 && part <= 1))
-            return fail(
-                ErrorCode::usage,
-                fmt::format("view '{}': the mouse at {}, {} is outside the picture; give parts of its "
-                            "width and height, 0 to 1",
-                            view.name, view.mouse.x, view.mouse.y));
+            return fail(ErrorCode::usage,
+                        fmt::format("view '{}': the mouse at {}, {} is outside the picture; give fractions "
+                                    "of its width and height, 0 to 1",
+                                    view.name, view.mouse.x, view.mouse.y));
     return {};
 }
 
@@ -73,8 +72,7 @@ Result<std::vector<View>> parse_views(std::string_view text) {
                             text));
         TRY(check(view));
         if (std::ranges::find(views, view.name, &View::name) != views.end())
-            return fail(ErrorCode::usage,
-                        fmt::format("--views {}: '{}' stands there twice", text, view.name));
+            return fail(ErrorCode::usage, fmt::format("--views {}: '{}' is given twice", text, view.name));
         views.push_back(std::move(view));
     } while (take(rest, ';'));
     return views;
@@ -358,7 +356,7 @@ private:
             if (std::ranges::find(names, name) == names.end()) {
                 const std::string nearest = nearest_name(name, names);
                 wrong(fmt::format("{}/{}", at, name), nearest.empty()
-                                                          ? "a study knows nothing of that name"
+                                                          ? "is not known to a study"
                                                           : fmt::format("did you mean \"{}\"?", nearest));
             }
     }
@@ -458,7 +456,7 @@ private:
             if (mouse.is_array() && mouse.size() == 2 && mouse[0].is_number() && mouse[1].is_number())
                 found.mouse = {mouse[0].get<double>(), mouse[1].get<double>()};
             else
-                wrong(at + "/mouse", "must be [x, y] in parts of the picture");
+                wrong(at + "/mouse", "must be [x, y] in fractions of the picture");
         }
         if (json.is_object() && json.contains("camera")) {
             const auto camera = render::parse_camera(string_of(json["camera"], at + "/camera"));
@@ -490,7 +488,7 @@ private:
             const auto known_trust =
                 std::ranges::find(k_all, trust, [](Trust t) { return std::string(to_string(t)); });
             if (known_trust == std::end(k_all))
-                wrong(at + "/trust", "is one of certified, bound assumed, heuristic, unknown");
+                wrong(at + "/trust", "must be one of certified, bound assumed, heuristic, unknown");
             else
                 found.trust = *known_trust;
         }
@@ -504,7 +502,7 @@ private:
             return false;
         const std::string precision = string_of(json["precision"], at + "/precision");
         if (precision != "single" && precision != "double")
-            wrong(at + "/precision", "is single or double");
+            wrong(at + "/precision", "must be single or double");
         return precision == "double";
     }
 

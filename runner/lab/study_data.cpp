@@ -341,7 +341,7 @@ void compare_errors(const WorkPrecisionSet& set, const Json& before, const WorkP
         found.notes.push_back(
             fmt::format("{}: its error is not compared: the baseline has no number for it", now.point.label));
     else if (!(is <= was * k_more_wrong) && !(is <= was + noise)) // a NaN error is worse
-        found.worse.push_back(fmt::format("{}: more wrong: {} {} -> {}", now.point.label, error_name(set),
+        found.worse.push_back(fmt::format("{}: less exact: {} {} -> {}", now.point.label, error_name(set),
                                           figure(was), figure(is)));
 }
 
@@ -388,7 +388,7 @@ Result<Comparison> compare_with(std::string_view old_study, const std::string& f
     if (!old.is_object() || !old.contains("schema") || old["schema"] != k_study_schema ||
         !old["points"].is_array())
         return refuse(
-            fmt::format("no study of schema \"{}\"; give the study.json of a report", k_study_schema));
+            fmt::format("not a study of schema \"{}\"; give the study.json of a report", k_study_schema));
     if (!same_views(old, set.study))
         return refuse("that study has other views or another size");
     Comparison found;
@@ -396,7 +396,7 @@ Result<Comparison> compare_with(std::string_view old_study, const std::string& f
     const bool same_machine = old.contains(renderer) && old[renderer] == set.circumstances.renderer &&
                               number_at(old, "/machine/cores") == set.circumstances.cores;
     if (!same_machine)
-        found.notes.emplace_back("times are not compared: the baseline is of another machine");
+        found.notes.emplace_back("times are not compared: the baseline is from another machine");
     for (const WorkPrecision& point : set.points) {
         const Json& points = old["points"];
         const auto before = std::ranges::find_if(points, [&](const Json& json) {
@@ -416,7 +416,7 @@ Result<Comparison> compare_with(std::string_view old_study, const std::string& f
             compare_times(*before, point, found);
     }
     if (const std::string& none = standard_of(set).none; !none.empty())
-        found.notes.push_back("errors are not compared: there is no truth now: " + none);
+        found.notes.push_back("errors are not compared: there is no reference now: " + none);
     if (found.compared == 0)
         found.notes.emplace_back("the two studies have no setting in common");
     return found;

@@ -50,7 +50,7 @@ std::string title_of(const WorkPrecisionSet& set, const WorkPrecision& point) {
 report::ScatterPlot plot_of(const WorkPrecisionSet& set, Across across) {
     const bool timed = across == Across::time;
     report::ScatterPlot plot{error_name(set) + (timed ? " against time" : " against work"),
-                             timed ? "milliseconds a frame, median with 95 % interval" : set.words.work,
+                             timed ? "milliseconds per frame, median with 95 % interval" : set.words.work,
                              error_name(set),
                              {}};
     for (size_t i = 0; i < set.points.size(); ++i) {
@@ -130,11 +130,11 @@ std::string figures(const std::vector<PagePicture>& pictures, const std::string&
 }
 
 std::string remarks(const WorkPrecision& point) {
-    std::string text = point.on_front ? "On the front: nothing here is both cheaper and better. " : "";
+    std::string text = point.on_front ? "On the front: no setting here is both cheaper and more exact. " : "";
     if (point.hollow)
-        text += "Hollow: its error is under ten times the truth's own. ";
+        text += "Hollow: its error is under ten times the reference's own. ";
     if (point.idle)
-        text += "Shows what another setting shows. ";
+        text += "Shows the same picture as another setting. ";
     return text.empty() ? text : fmt::format("<p class=\"note\">{}</p>\n", escaped(text));
 }
 
@@ -188,12 +188,11 @@ std::string legend(const WorkPrecisionSet& set) {
 std::string notes(const WorkPrecisionSet& set) {
     const size_t drawn = plotted_points(set, Across::time);
     const auto measured = size_t(std::ranges::count_if(set.points, &WorkPrecision::measured));
-    std::string text = "The broad line is the front: nothing here is both cheaper and better. A mark without "
-                       "filling is hollow: its error is under ten times the truth's own.";
+    std::string text = "The broad line is the front: no setting here is both cheaper and more exact. A "
+                       "hollow mark has an error under ten times the reference's own.";
     if (drawn < measured)
         text += fmt::format(
-            " {} of {} settings stand in the table alone: their error is 0 or not known, or they were "
-            "not timed.",
+            " {} of {} settings are only in the table: their error is 0 or unknown, or they were not timed.",
             measured - drawn, measured);
     return fmt::format("<p class=\"note\">{}</p>\n", escaped(text));
 }
@@ -201,11 +200,11 @@ std::string notes(const WorkPrecisionSet& set) {
 } // namespace
 
 std::string explorer(const WorkPrecisionSet& set, const PageMedia& media) {
-    std::string html =
-        "<div class=\"explore\">\n<div>\n" + legend(set) + report::limits_form(error_name(set)) +
-        error_plot(set, Across::time) + error_plot(set, Across::work) + notes(set) +
-        "</div>\n<div class=\"cards\">\n<noscript><p class=\"note\">A mark of the diagram, or a setting of "
-        "the table, leads to its card.</p></noscript>\n";
+    std::string html = "<div class=\"explore\">\n<div>\n" + legend(set) +
+                       report::limits_form(error_name(set)) + error_plot(set, Across::time) +
+                       error_plot(set, Across::work) + notes(set) +
+                       "</div>\n<div class=\"cards\">\n<noscript><p class=\"note\">Click a mark in the "
+                       "diagram or a setting in the table to go to its card.</p></noscript>\n";
     for (size_t i = 0; i < set.points.size(); ++i)
         if (set.points[i].measured())
             html += point_card(set, media, i);

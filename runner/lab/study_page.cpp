@@ -104,7 +104,7 @@ std::vector<Column> columns_of(const WorkPrecisionSet& set) {
     }
     if (set.has_pictures())
         add_picture_columns(columns);
-    columns.push_back({"least ms", [](const WorkPrecision& p) { return number(p.all.time().smallest); }});
+    columns.push_back({"minimum ms", [](const WorkPrecision& p) { return number(p.all.time().smallest); }});
     columns.push_back({"CPU ms", [](const WorkPrecision& p) { return number(p.all.cpu.median); }});
     if (set.has_pictures())
         add_compiling_columns(columns);
@@ -140,9 +140,8 @@ std::string points_table(const WorkPrecisionSet& set) {
     for (size_t i = 0; i < set.points.size(); ++i)
         rows += point_row(set, columns, i);
     return report::table("Settings and their numbers", rows) +
-           "<p class=\"note\">Marked rows: the front, nothing here is both cheaper and better. &#9675;: "
-           "hollow, "
-           "the error is under ten times the truth's own.</p>\n";
+           "<p class=\"note\">Marked rows: the front, where no setting here is both cheaper and more exact. "
+           "&#9675;: hollow, the error is under ten times the reference's own.</p>\n";
 }
 
 std::string views_table(const WorkPrecisionSet& set) {
@@ -181,8 +180,8 @@ std::string shares_table(const WorkPrecisionSet& set) {
     if (rows.empty())
         return {};
     return fmt::format(
-        "<h2>What the error is made of</h2>\n<p class=\"note\">One source after another is taken away; "
-        "each column is what that changed ({}), the last what then remains.</p>\n{}",
+        "<h2>What the error is made of</h2>\n<p class=\"note\">Error sources are removed one after another; "
+        "each column is the change that this made ({}), the last column the remaining error.</p>\n{}",
         set.has_hits() ? "RMS of t / RMSE of the picture" : "RMSE of the picture",
         report::table("Sources of error", "<tr><th>setting</th>" + head + "</tr>\n" + rows));
 }
@@ -237,14 +236,14 @@ std::string list(const std::vector<std::string>& items) {
 std::string standard(const char* name, const Standard& standard) {
     if (!standard.none.empty())
         return fmt::format("<dt>Reference of the {}</dt><dd>none: {}.</dd>\n", name, escaped(standard.none));
-    return fmt::format("<dt>Reference of the {}</dt><dd>{}.<br>Its own error: {}; self-check: {}.{}</dd>\n",
-                       name, escaped(standard.method),
-                       standard.uncertainty ? figure(*standard.uncertainty) : std::string("unknown"),
-                       escaped(standard.check),
-                       standard.blind > 0 ? fmt::format("<br>It is NaN or infinite in {} pixels, of which no "
-                                                        "error is told.",
-                                                        standard.blind)
-                                          : std::string());
+    return fmt::format(
+        "<dt>Reference of the {}</dt><dd>{}.<br>Its own error: {}; self-check: {}.{}</dd>\n", name,
+        escaped(standard.method),
+        standard.uncertainty ? figure(*standard.uncertainty) : std::string("unknown"),
+        escaped(standard.check),
+        standard.blind > 0
+            ? fmt::format("<br>It is NaN or infinite in {} pixels, whose error is unknown.", standard.blind)
+            : std::string());
 }
 
 std::string held(const WorkPrecisionSet& set) {
@@ -253,8 +252,8 @@ std::string held(const WorkPrecisionSet& set) {
         items += fmt::format("{}{} = {}", items.empty() ? "" : ", ", setting.name, setting.value);
     if (items.empty())
         return {};
-    return fmt::format("<dt>Held fixed</dt><dd>{}. The truth has the same, so that no figure tells what they "
-                       "cost.</dd>\n",
+    return fmt::format("<dt>Held fixed</dt><dd>{}. The reference has the same values, so their error is not "
+                       "measured.</dd>\n",
                        escaped(items));
 }
 
@@ -270,8 +269,8 @@ std::string orders(const WorkPrecisionSet& set) {
     }
     if (items.empty())
         return {};
-    return "<h2>How fast the error falls</h2>\n<p>The power of the knob by which it falls, over points that "
-           "are not hollow.</p>\n" +
+    return "<h2>How fast the error falls</h2>\n<p>The power of the knob with which the error falls, over "
+           "points that are not hollow.</p>\n" +
            list(items);
 }
 
@@ -283,14 +282,11 @@ std::string method(const WorkPrecisionSet& set) {
     if (set.has_pictures())
         html += standard("pictures", set.picture_standard);
     html += held(set);
-    html += fmt::format(
-        "<dt>Time</dt><dd>{}; {} warm-up rounds, then {} rounds; in each every setting has its turn with "
-        "every view "
-        "once, in an order shuffled anew (fixed seed); a setting that would take more than its share of the "
-        "time sits "
-        "rounds out. Medians with 95 % bootstrap intervals; compiling "
-        "and the first draw apart. &ldquo;All&rdquo; is the mean over the views of each round.</dd>\n",
-        escaped(facts.clock), facts.warm_up_rounds, facts.timed_rounds);
+    html += fmt::format("<dt>Time</dt><dd>{}; {} warm-up rounds, then {} rounds; each round draws every "
+                        "setting once in every view, in a newly shuffled order (fixed seed); a slow setting "
+                        "skips rounds. Medians with 95 % bootstrap intervals; compiling and the first draw "
+                        "are separate. &ldquo;All&rdquo; is the mean over the views of each round.</dd>\n",
+                        escaped(facts.clock), facts.warm_up_rounds, facts.timed_rounds);
     html += fmt::format("<dt>Machine</dt><dd>{}{} cores; load {:.2f} before, {:.2f} after the timing.</dd>\n",
                         facts.renderer.empty()
                             ? std::string()

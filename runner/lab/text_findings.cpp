@@ -85,11 +85,9 @@ std::string words_for(const glsl::ParsedText& text, const glsl::Divergent& each)
 
 std::string words_for(const glsl::FloatCounter& counter) {
     if (std::isinf(counter.turns))
-        return fmt::format(
-            "{} stands still after some turns, for a step is less than its rounding: the loop has "
-            "no end",
-            counter.name);
-    return fmt::format("{} counts {} turns, where its numbers make {}: each step is rounded", counter.name,
+        return fmt::format("the loop never ends: {} stops changing once a step is less than its rounding",
+                           counter.name);
+    return fmt::format("{} counts {} iterations instead of {}: each step is rounded", counter.name,
                        counter.turns, counter.exact_turns);
 }
 
@@ -124,7 +122,7 @@ std::string domain_sentence(const glsl::ParsedText& text, const glsl::DomainSite
         if (reading.limit == 0)
             break;
         [[fallthrough]];
-    case DomainKind::divisor: return fmt::format("{}: a whole number divided by 0", excerpt);
+    case DomainKind::divisor: return fmt::format("{}: an integer divided by 0", excerpt);
     case DomainKind::shift: return fmt::format("{}: a shift by {}, outside of 0 to 31", excerpt, whole);
     case DomainKind::index:
         return fmt::format("{}: index {} outside of 0 to {}", excerpt, whole, reading.limit);
@@ -152,7 +150,7 @@ std::string place_of_site(const glsl::ParsedText& text, const glsl::DomainSite& 
 Result<Answer> ask_unassigned(ProbeBench& bench) {
     const auto texts = read_texts(bench, true);
     if (!texts)
-        return Answer{Verdict::not_applicable, "the text cannot be followed: " + to_string(texts.error())};
+        return Answer{Verdict::not_applicable, "the text cannot be analysed: " + to_string(texts.error())};
     std::vector<std::string> found;
     for (const PassText& pass : *texts)
         for (const glsl::Unassigned& each : glsl::find_unassigned(*pass.text, pass.facts)) {
@@ -161,18 +159,19 @@ Result<Answer> ask_unassigned(ProbeBench& bench) {
                 found.push_back(std::move(said));
         }
     const std::string_view looked =
-        "every path through the functions that run was followed, whatever the conditions";
+        "all paths through the functions that run were checked, whatever the conditions";
     if (found.empty())
         return Answer{Verdict::pass, fmt::format("nothing is read without a value: {}", looked)};
-    return Answer{Verdict::warn, fmt::format("without a value, which is 0 on ShaderToy's site and here, and "
-                                             "anything elsewhere: {}; {}",
-                                             listed(found), looked)};
+    return Answer{
+        Verdict::warn,
+        fmt::format("read without a value (0 on ShaderToy's site and here, undefined elsewhere): {}; {}",
+                    listed(found), looked)};
 }
 
 Result<Answer> ask_divergence(ProbeBench& bench) {
     const auto texts = read_texts(bench, true);
     if (!texts)
-        return Answer{Verdict::not_applicable, "the text cannot be followed: " + to_string(texts.error())};
+        return Answer{Verdict::not_applicable, "the text cannot be analysed: " + to_string(texts.error())};
     std::vector<std::string> found;
     for (const PassText& pass : *texts) {
         const glsl::ParsedText& text = *pass.text;
@@ -193,7 +192,7 @@ Result<Answer> ask_divergence(ProbeBench& bench) {
 Result<Answer> ask_counters(ProbeBench& bench) {
     const auto texts = read_texts(bench, true);
     if (!texts)
-        return Answer{Verdict::not_applicable, "the text cannot be followed: " + to_string(texts.error())};
+        return Answer{Verdict::not_applicable, "the text cannot be analysed: " + to_string(texts.error())};
     std::vector<std::string> found;
     for (const PassText& pass : *texts)
         for (const glsl::FloatCounter& each : glsl::miscounting_loops(*pass.text, pass.facts)) {
@@ -203,8 +202,7 @@ Result<Answer> ask_counters(ProbeBench& bench) {
                 found.push_back(std::move(said));
         }
     if (found.empty())
-        return Answer{Verdict::pass,
-                      "no loop counts in floats to another number of turns than its numbers make"};
+        return Answer{Verdict::pass, "no float loop counter gains or loses an iteration through rounding"};
     return Answer{Verdict::warn, listed(found)};
 }
 

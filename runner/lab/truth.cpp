@@ -25,14 +25,14 @@ double sum_over_last(double before, double last) {
 
 Remainder remainder_of(const std::vector<double>& changes, double rounding) {
     if (changes.empty())
-        return {{}, "no knob of the study is a number that could go on", false};
+        return {{}, "no knob of the study is a number that can be made stricter", false};
     const double last = changes.back();
     if (std::isnan(last))
-        return {{}, "what the last step changed is no number", false};
+        return {{}, "the change of the last step is NaN", false};
     if (last <= rounding)
         return {rounding, fmt::format("the last step changed {:.2g}, which is rounding", last), true};
     if (changes.size() < 2)
-        return {{}, fmt::format("of one change, {:.2g}, nobody knows what comes after it", last), false};
+        return {{}, fmt::format("one change, {:.2g}, is too few to estimate the rest", last), false};
     const double before = changes[changes.size() - 2];
     const double ratio = last / before;
     if (!(ratio < 1))
@@ -47,14 +47,16 @@ Remainder remainder_of(const std::vector<double>& changes, double rounding) {
     const double growth = before < first ? std::max(0.0, sum - sum_over_last(first, before)) : 0.0;
     if (!(growth < 0.9))
         return {{},
-                fmt::format("it does not converge: the changes shrink by ever less ({:.2g}, {:.2g}, {:.2g})",
-                            first, before, last),
+                fmt::format(
+                    "it does not converge: the changes shrink more and more slowly ({:.2g}, {:.2g}, {:.2g})",
+                    first, before, last),
                 false};
     const double factor = sum / (1 - growth) - 1;
-    return {std::max(rounding, last * factor),
-            fmt::format("the last change {:.2g}, {:.2g} of the one before, goes on to {:.2g}", last, ratio,
-                        last * factor),
-            false};
+    return {
+        std::max(rounding, last * factor),
+        fmt::format("the last change was {:.2g}, {:.2g} of the one before; all further ones add up to {:.2g}",
+                    last, ratio, last * factor),
+        false};
 }
 
 void add_blind(const image::Image& picture, PixelMask& blind) {
@@ -117,9 +119,9 @@ Standard standard_of(const PassFunction& function, const std::vector<Setting>& s
         unknown += view.unknown;
     }
     standard.uncertainty = std::sqrt(squares / double(std::max<size_t>(1, looked_at)));
-    standard.check =
-        fmt::format("{} of {} rays, evenly spread, each hit between two places; {} are not known", looked_at,
-                    views.size() * views.front().hits.size(), unknown);
+    standard.check = fmt::format(
+        "{} of {} rays, evenly spread; each hit is known to lie between two places, {} are unknown",
+        looked_at, views.size() * views.front().hits.size(), unknown);
     standard.blind = unknown;
     return standard;
 }
@@ -132,9 +134,9 @@ Result<ProvedHits> proved_hits(const scene::Scene& scene, const Study& study, co
     const size_t image = set.image_index();
     const auto function = PassFunction::create(set, set.passes[image]);
     if (!function)
-        return none("the text cannot be followed: " + function.error().message);
+        return none("the text cannot be analysed: " + function.error().message);
     if (function->loops().empty())
-        return ProvedHits{{}, "no loop of Image is found to march along a ray", false};
+        return ProvedHits{{}, "no ray-marching loop found in Image", false};
     auto renderer =
         TRY(render::Renderer::create(set, {.extent = study.extent, .samples = image::SampleType::f32}));
     std::vector<TrueHits> views;
@@ -147,7 +149,7 @@ Result<ProvedHits> proved_hits(const scene::Scene& scene, const Study& study, co
         if (!hits)
             return none("interrupted");
         if (double(hits->unknown) > k_most_blind * double(hits->looked_at))
-            return none(fmt::format("{} of {} rays are not decided by a proof from the text", hits->unknown,
+            return none(fmt::format("{} of {} rays cannot be decided by proof from the text", hits->unknown,
                                     hits->looked_at));
         truth.views.push_back(hits->hits);
         truth.footprints.push_back(plain_footprint(study.extent));
@@ -349,11 +351,11 @@ private:
                 continue;
             const Shown* const other = shown_beside(settings);
             if (!other)
-                return {{}, fmt::format("it could not be looked at with {}", to_string(settings)), false};
+                return {{}, fmt::format("it could not be drawn with {}", to_string(settings)), false};
             const double change = apart(what, last_, *other);
             if (!(change <= rounding(what)))
                 return {{},
-                        fmt::format("it does not settle: {} and {} show the same, but {} is {:.2g} from it",
+                        fmt::format("it does not converge: {} and {} show the same, but {} differs by {:.2g}",
                                     to_string(strictest(study_, step_ - 1)), to_string(last_.settings),
                                     to_string(settings), change),
                         false};
@@ -391,8 +393,7 @@ private:
             moves.size() > 1 ? remainder_of({moves[1], moves[0]}, rounding(what)) : Remainder{};
         still.error = std::max(*still.error, trend.error.value_or(moves[0]));
         still.how +=
-            fmt::format("; the change before was {:.2g}, and had it gone on instead of ending there, "
-                        "{:.2g} would be missing",
+            fmt::format("; the change before was {:.2g}; if only a limit stopped it, {:.2g} is missing",
                         moves[0], *still.error);
         return still;
     }

@@ -95,24 +95,24 @@ std::optional<double> sharpness(const Goal& goal) {
 std::string blur_of(const WorkPrecisionSet& set, Measure measure, double most) {
     if (measure == Measure::wrong) {
         if (!set.has_hits())
-            return "there is no truth about where its rays end";
+            return "there is no reference for its hits";
         const auto own = set.hit_standard.uncertainty;
-        return own && *own <= k_part * k_wrong_distance
-                   ? ""
-                   : "where its rays really end is not known well enough";
+        return own && *own <= k_part * k_wrong_distance ? ""
+                                                        : "the reference for its hits is not precise enough";
     }
     if (!set.picture_standard.none.empty())
         return set.picture_standard.none;
     const auto own = set.picture_standard.uncertainty;
     if (!own)
-        return "the truth's own error is unknown: " + set.picture_standard.check;
+        return "the reference's own error is unknown: " + set.picture_standard.check;
     if (!(most > 0))
-        return "it has no error that could be told from none: allow one with --max-error";
+        return "its error cannot be told from 0: allow one with --max-error";
     const double enough = *sharpness({measure, most, {}});
     return *own <= enough
                ? ""
-               : fmt::format("the truth's own error (RMSE {}) is more than a tenth of what is asked ({})",
-                             figure(*own), figure(most));
+               : fmt::format(
+                     "the reference's own error (RMSE {}) is more than a tenth of the requested error ({})",
+                     figure(*own), figure(most));
 }
 
 const WorkPrecision* best_by(const WorkPrecisionSet& set, const Goal& goal) {
@@ -332,7 +332,7 @@ private:
         if (late)
             return fail(
                 ErrorCode::check_failed,
-                fmt::format("cannot say: {:g} seconds are too few for this scene: give more with --budget",
+                fmt::format("no result: {:g} seconds are too few for this scene: give more with --budget",
                             request_.seconds));
         return findings;
     }
@@ -366,9 +366,10 @@ private:
             const size_t before = request_.settings.size();
             std::erase_if(request_.settings, [](const QualitySetting& each) { return !each.march; });
             if (request_.settings.empty() || request_.settings.size() == before || !watch_.keep_going())
-                return fail(ErrorCode::check_failed, "cannot say: " + why + without_truth());
+                return fail(ErrorCode::check_failed, "no result: " + why + without_truth());
             sentences_.push_back(
-                "only the march's own settings were turned: with the others there is no truth (" + why + ")");
+                "only the march's own settings were varied: for the others there is no reference (" + why +
+                ")");
         }
     }
 
@@ -386,7 +387,7 @@ private:
     std::string without_truth() const {
         return request_.goal.most_milliseconds || request_.goal.measure == Measure::wrong
                    ? ""
-                   : "; --as-it-is tells how much faster it can show what it shows now";
+                   : "; --as-it-is finds faster settings that show the same picture";
     }
 
     /// Estimates the unchanged scene's time at full size.
@@ -401,22 +402,21 @@ private:
         Goal goal = request_.goal;
         const double most = most_error(set);
         if (const std::string why = blur(set); !why.empty())
-            return fail(ErrorCode::check_failed, "cannot say: " + why + without_truth());
-        sentences_.push_back("as it is: " + facts_of(set, own));
+            return fail(ErrorCode::check_failed, "no result: " + why + without_truth());
+        sentences_.push_back("unchanged: " + facts_of(set, own));
         const WorkPrecision* best = best_by(set, goal);
         if (!goal.most_milliseconds)
             goal.most_error = most;
         if (!best)
-            sentences_.push_back("nothing that was measured keeps " + to_string(goal));
+            sentences_.push_back("no measured setting keeps " + to_string(goal));
         else if (best == &own || !is_better(*best, own, most))
-            sentences_.push_back("nothing that was measured is better beyond noise and keeps " +
-                                 to_string(goal));
+            sentences_.push_back("no measured setting is measurably better and keeps " + to_string(goal));
         else {
             tuned.chosen = best->point.settings;
             sentences_.push_back("chosen: " + best->point.label + ": " + facts_of(set, *best));
             if (const auto gain = speedup(own, *best))
-                sentences_.push_back(fmt::format("{:.2f} x [{:.2f}, {:.2f}] as fast as it is", gain->ratio,
-                                                 gain->confidence.low, gain->confidence.high));
+                sentences_.push_back(fmt::format("{:.2f} x [{:.2f}, {:.2f}] as fast as unchanged",
+                                                 gain->ratio, gain->confidence.low, gain->confidence.high));
         }
         tuned.sentences = std::move(sentences_);
         return {};

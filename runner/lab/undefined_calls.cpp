@@ -169,7 +169,7 @@ Result<Answer> ask_undefined(ProbeBench& bench) {
     const auto where = TRY(usual_views(bench));
     const auto texts = read_texts(bench, false);
     if (!texts)
-        return Answer{Verdict::not_applicable, "the text cannot be followed: " + to_string(texts.error())};
+        return Answer{Verdict::not_applicable, "the text cannot be analysed: " + to_string(texts.error())};
     auto found = find_undefined(bench, *texts, where);
     if (!found)
         return Answer{Verdict::not_applicable, to_string(found.error())};
@@ -192,7 +192,7 @@ Result<Answer> ask_undefined(ProbeBench& bench) {
 Result<Answer> ask_bounds(ProbeBench& bench) {
     const auto explored = TRY(explore(bench));
     if (!(explored)->left_out.empty())
-        return Answer{Verdict::not_applicable, "the text cannot be followed: " + (explored)->left_out};
+        return Answer{Verdict::not_applicable, "the text cannot be analysed: " + (explored)->left_out};
     std::vector<std::string> sentences;
     std::optional<FrameState> where;
     for (const Outside& outside : (explored)->outside)

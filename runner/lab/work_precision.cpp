@@ -199,11 +199,10 @@ std::string ClockComparison::clock() const {
     if (compared == 0)
         return "wall clock around glFinish";
     const std::string ratio = fmt::format("{:.2f} to {:.2f}", least, most);
-    return agree()
-               ? fmt::format("GPU timer, which says {} of the wall clock around glFinish", ratio)
-               : fmt::format("wall clock around glFinish (the driver's GPU timer, which says {} of it, is "
-                             "not believed)",
-                             ratio);
+    return agree() ? fmt::format("GPU timer, which shows {} of the wall clock around glFinish", ratio)
+                   : fmt::format(
+                         "wall clock around glFinish (the driver's GPU timer shows {} of it and is not used)",
+                         ratio);
 }
 
 bool takes_part(size_t round, size_t affordable, size_t total) {
@@ -280,8 +279,9 @@ std::string promise_of(const WorkPrecisionSet& set) {
 }
 
 std::string wrong_of(const HitErrors& hits) {
-    const std::string most =
-        hits.no_truth > 0 ? fmt::format(" (no more than {} % at 95 %)", figure(hits.most_wrong_tenth)) : "";
+    const std::string most = hits.no_truth > 0 ? fmt::format(" (at most {} %, with 95 % confidence)",
+                                                             figure(hits.most_wrong_tenth))
+                                               : "";
     return fmt::format("{} % wrong{}, ", figure(hits.wrong_tenth), most);
 }
 
@@ -293,10 +293,10 @@ std::string quality_of(const WorkPrecisionSet& set, const WorkPrecision& point) 
 
 std::string cheapest_sentence(const WorkPrecisionSet& set) {
     if (!set.picture_standard.uncertainty)
-        return fmt::format("no verdict on {}: the truth's own error is unknown", promise_of(set));
+        return fmt::format("no verdict on {}: the reference's own error is unknown", promise_of(set));
     const WorkPrecision* best = cheapest_good(set);
     if (!best)
-        return fmt::format("no setting of this study is sure to have {}", promise_of(set));
+        return fmt::format("no setting of this study certainly has {}", promise_of(set));
     return fmt::format("cheapest setting with {}: {} ({}; {})", promise_of(set), best->point.label,
                        cost_of(*best), quality_of(set, *best));
 }
@@ -304,9 +304,9 @@ std::string cheapest_sentence(const WorkPrecisionSet& set) {
 std::string equal_error_sentence(const WorkPrecisionSet& set) {
     const WorkPrecision& defaults = set.points.front();
     if (defaults.measured() && defaults.hollow)
-        return fmt::format("no verdict at equal error: {} are too close to the truth's own error to rank "
-                           "(hollow)",
-                           set.words.defaults);
+        return fmt::format(
+            "no verdict at equal error: {} are too close to the reference's own error to rank (hollow)",
+            set.words.defaults);
     const WorkPrecision* best = cheapest_as_exact(set);
     if (!best || !defaults.timed())
         return {};
@@ -318,10 +318,10 @@ std::string equal_error_sentence(const WorkPrecisionSet& set) {
         return fmt::format("no tested setting is cheaper than {} without being less exact",
                            set.words.defaults);
     if (!gain->certain())
-        return fmt::format(
-            "at equal error nothing is faster than {} beyond noise (the nearest: {}, {:.2f} x [{:.2f}, "
-            "{:.2f}])",
-            set.words.defaults, best->point.label, gain->ratio, gain->confidence.low, gain->confidence.high);
+        return fmt::format("at equal error no setting is measurably faster than {} (the nearest: {}, {:.2f} "
+                           "x [{:.2f}, {:.2f}])",
+                           set.words.defaults, best->point.label, gain->ratio, gain->confidence.low,
+                           gain->confidence.high);
     return fmt::format("at equal error {:.2f} x [{:.2f}, {:.2f}] {} than {}: {}", gain->ratio,
                        gain->confidence.low, gain->confidence.high, gain->ratio > 1 ? "faster" : "slower",
                        set.words.defaults, best->point.label);
@@ -336,12 +336,12 @@ bool all_idle(const WorkPrecisionSet& set) {
 
 void add_verdicts(const WorkPrecisionSet& set, std::vector<std::string>& found) {
     for (const IdleKnob& knob : set.idle)
-        found.push_back(fmt::format("{} changes nothing here: {} shows the same to the bit at all its values",
-                                    knob.name,
-                                    knob.series == knob.name ? "the scene" : "'" + knob.series + "'"));
+        found.push_back(
+            fmt::format("{} changes nothing here: {} shows the same picture, bit for bit, at all its values",
+                        knob.name, knob.series == knob.name ? "the scene" : "'" + knob.series + "'"));
     if (!set.picture_standard.none.empty())
-        found.push_back("there is no truth about the pictures: " + set.picture_standard.none +
-                        "; --reference names one");
+        found.push_back("no reference for the pictures: " + set.picture_standard.none +
+                        "; give one with --reference");
     if (all_idle(set))
         return;
     if (set.has_pictures() && set.picture_standard.none.empty()) // a promise is about the visible picture
@@ -401,15 +401,14 @@ std::vector<std::string> sentences(const WorkPrecisionSet& set) {
     const auto hollow = std::ranges::count_if(set.points, &WorkPrecision::hollow);
     if (hollow > 0 && standard_of(set).none.empty())
         found.push_back(
-            fmt::format("{} too close to the truth's own error to rank (hollow)",
+            fmt::format("{} too close to the reference's own error to rank (hollow)",
                         hollow == 1 ? std::string("1 point is") : fmt::format("{} points are", hollow)));
     for (const auto& [what, blind] :
          {std::pair{"pictures", set.picture_standard.blind}, {"hits", set.hit_standard.blind}})
         if (blind > 0)
             found.push_back(
-                fmt::format("the truth about the {} is NaN or infinite in {}, whose error is "
-                            "unknown",
-                            what, blind == 1 ? std::string("1 pixel") : fmt::format("{} pixels", blind)));
+                fmt::format("the reference for the {} is NaN or infinite in {}, whose error is unknown", what,
+                            blind == 1 ? std::string("1 pixel") : fmt::format("{} pixels", blind)));
     if (!set.circumstances.complete)
         found.emplace_back("incomplete: the study was interrupted");
     return found;
@@ -422,7 +421,7 @@ std::string held_sentence(const WorkPrecisionSet& set) {
     const size_t shown = std::min(k_shown, set.held.size());
     const std::vector<Setting> first(set.held.begin(), set.held.begin() + long(shown));
     return fmt::format(
-        "held fixed, in the truth too, so that no figure tells what it costs: {}{}", to_string(first),
+        "held fixed, also in the reference, so its error is not measured: {}{}", to_string(first),
         shown < set.held.size() ? fmt::format(" and {} more (study.json)", set.held.size() - shown) : "");
 }
 

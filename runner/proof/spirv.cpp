@@ -460,7 +460,7 @@ private:
         for (size_t i = 0; i + 1 < sources.size(); i += 2)
             if (block_of_.at(sources[i + 1]) == predecessor)
                 return values(sources[i]).at(component);
-        cannot("a value that has no source on one way");
+        cannot("a value without a source on one path");
     }
 
     struct Phi {
@@ -488,7 +488,7 @@ namespace {
 
 const Result<const SpirvCompiler*>& spirv_compiler() {
     static const Result<const SpirvCompiler*> compiler = [] {
-        const PlugIn plug_in{"tidemark_spirv.so", "SPIR-V plug-in",       "proving something of a scene",
+        const PlugIn plug_in{"tidemark_spirv.so", "SPIR-V plug-in",       "proofs about a scene",
                              "glslang 12",        k_spirv_compiler_entry, k_spirv_compiler_version};
         return load_plug_in<SpirvCompiler>(plug_in);
     }();

@@ -81,7 +81,7 @@ protected:
         const auto [first, count] = part_of(type_of(whole), indices);
         const Values& all = values(whole);
         if (first + count > all.size())
-            cannot("a part of a value that does not have it");
+            cannot("a part that its value does not have");
         return Values(all.begin() + long(first), all.begin() + long(first + count));
     }
     Values insert(const SpirvInstruction& each) {
@@ -89,7 +89,7 @@ protected:
         const auto [first, count] = part_of(each.at(0), each.from(4));
         const Values& part = values(each.at(2));
         if (first + count > whole.size() || part.size() != count)
-            cannot("a part of a value that does not have it");
+            cannot("a part that its value does not have");
         std::copy(part.begin(), part.end(), whole.begin() + long(first));
         return whole;
     }

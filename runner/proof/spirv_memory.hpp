@@ -36,7 +36,7 @@ protected:
     const Pointer& pointer(Id id) const {
         const auto found = pointers_.find(id);
         if (found == pointers_.end())
-            cannot("a pointer that is not known");
+            cannot("an unknown pointer");
         return found->second;
     }
 

@@ -81,7 +81,7 @@ protected:
     const Values& values(Id id) const {
         const auto found = values_.find(id);
         if (found == values_.end() || found->second.empty())
-            cannot("a value of no type that is known");
+            cannot("a value of unknown type");
         return found->second;
     }
     bool has_values(Id id) const { return values_.contains(id); }
@@ -99,7 +99,7 @@ protected:
     uint32_t constant_of(Id id) {
         const Instruction& instruction = function().instructions[value(id)];
         if (instruction.op != Op::constant)
-            cannot("an index that is computed where it must be fixed");
+            cannot("a computed index where a constant is needed");
         return instruction.immediate;
     }
 

@@ -262,8 +262,8 @@ void Cutter::add_turns(NodeId loop, std::vector<Cut>& cuts) const {
         before = turns;
         if (auto wrap = with_turns(text_, *bound, turns))
             cuts.push_back({{{*std::move(wrap)},
-                             fmt::format("{}: {:g} turns of the loop instead of {:g}", place_of(loop), turns,
-                                         bound->turns)},
+                             fmt::format("{}: {:g} iterations of the loop instead of {:g}", place_of(loop),
+                                         turns, bound->turns)},
                             work_.of(loop) * (1 - turns / bound->turns)});
     }
 }
@@ -305,7 +305,7 @@ std::vector<Cut> Cutter::levels(const std::function<bool(std::string_view)>& has
         for (int level = 0; level <= k_coarsest_level; ++level)
             cuts.push_back({{{in_place_of(text_, {call->first, call->first}, "textureLod"),
                               wrapped(text_, {call->last, call->last}, fmt::format(", {}.0", level), "")},
-                             fmt::format("{}: level {} alone in `{}`", place_of(id), level,
+                             fmt::format("{}: reads only level {} in `{}`", place_of(id), level,
                                          in_short(text_.excerpt(id)))},
                             work_of_call(id) / 2});
     }
@@ -356,7 +356,7 @@ Cut Cutter::replaced(const Replaceable& expression, std::span<const double> numb
         words = fmt::format("{}({})", to_string(expression.type), words);
     std::vector<Cut> cuts;
     add(written_for(text_, expression.node, expression.node), words,
-        fmt::format("{}: {} stands for `{}`", place_of(expression.node), words,
+        fmt::format("{}: {} replaces `{}`", place_of(expression.node), words,
                     in_short(text_.excerpt(expression.node))),
         expression.work, cuts);
     return cuts.front();

@@ -73,8 +73,8 @@ public:
             if (const NodeId angle = angle_of(id); angle != k_no_node)
                 hash.use(id, [&](const std::string& name) { return instead_of(angle, name); });
         return hash.cures([](const std::string& name) { return fmt::format("float {}{}", name, k_hash); },
-                          "a hash of bits instead of a sine: the same numbers on every GPU, but others than "
-                          "now; it is another picture");
+                          "a hash of bits instead of a sine: the same numbers on every GPU, but other "
+                          "numbers than now, so another picture");
     }
 
 private:

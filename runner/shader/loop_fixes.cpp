@@ -49,8 +49,7 @@ std::optional<Cure> whole_counter(const ParsedText& text, const FloatCounter& co
                 fmt::format("{{ float {} = {} {} {} * float({}); ", counter.name, text.excerpt(counter.first),
                             counter.down ? "-" : "+", text.excerpt(counter.step), turn),
                 " }"));
-    cure.reason = fmt::format("counts in whole numbers: {} turns, as the numbers of the text have it",
-                              counter.exact_turns);
+    cure.reason = fmt::format("counts in integers: {} iterations, as written", counter.exact_turns);
     return cure;
 }
 
@@ -129,7 +128,7 @@ std::optional<Cure> turned_more(const ParsedText& text, NodeId loop, double fact
     auto wrap = bound ? with_turns(text, *bound, turns) : std::nullopt;
     if (!wrap)
         return std::nullopt;
-    return Cure{{*std::move(wrap)}, fmt::format("{:g} turns instead of {:g}", turns, bound->turns)};
+    return Cure{{*std::move(wrap)}, fmt::format("{:g} iterations instead of {:g}", turns, bound->turns)};
 }
 
 /// Returns the only literal of a product; k_no_node: there is none, or there are several.
@@ -180,7 +179,7 @@ std::vector<Cure> more_turns(const ParsedText& text, MarchPlace place) {
     std::vector<Cure> cures;
     for (const double factor : k_more)
         if (auto cure = turned_more(text, loop, factor)) {
-            cure->reason += ": rays that ended in front of a hit go on";
+            cure->reason += ": rays that ended before a hit go on";
             cures.push_back(*std::move(cure));
         }
     return cures;
@@ -219,9 +218,9 @@ std::vector<Cure> larger_threshold(const ParsedText& text, const TreeFacts& fact
         if (const double larger = factor * now; larger <= k_largest_threshold)
             cures.push_back(
                 {{in_place_of(text, *written, as_float(fmt::format("{:.3g}", larger)))},
-                 fmt::format("waits for {:.3g} instead of {:.3g}: rounding keeps the distance from "
-                             "becoming less",
-                             larger, now)});
+                 fmt::format(
+                     "hit threshold {:.3g} instead of {:.3g}: rounding keeps the distance from becoming less",
+                     larger, now)});
     return cures;
 }
 

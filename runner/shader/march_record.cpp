@@ -28,7 +28,7 @@ public:
         const bool limited = head == k_no_node || tree_[head].kind == NodeKind::absent || found_.in_head ||
                              mentions(head, base_name(place_));
         if (found_.limits.empty() && !limited)
-            return unknown("what ends the march after so many steps is not found");
+            return unknown("the limit of the march's number of steps is not found");
         return std::move(found_);
     }
 
@@ -59,7 +59,7 @@ private:
                 found.push_back(id);
         std::ranges::sort(found, {}, [&](NodeId id) { return tree_[id].word; });
         if (found.empty())
-            return unknown("the test of the distance does not stand in its loop");
+            return unknown("the test of the distance is not in its loop");
         if (found.size() != lines_.comparisons)
             return unknown("it is not certain which comparison tests the distance");
         found_.test = found[lines_.which];
@@ -452,7 +452,7 @@ private:
     Result<void> check_words(std::span<const MarchLines> marches) const {
         for (const Wrap& wrap : wraps_)
             if (!edits_.begins_alone(wrap.begin) || !edits_.begins_alone(wrap.end))
-                return fail(ErrorCode::load, fmt::format("{}:{}: the march stands in a macro",
+                return fail(ErrorCode::load, fmt::format("{}:{}: the march is in a macro",
                                                          marches[0].test.file, marches[0].test.line));
         return {};
     }

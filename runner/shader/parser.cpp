@@ -63,7 +63,7 @@ size_t Parser::behind_brackets(size_t from) const {
 void Parser::skip_brackets() {
     const size_t behind = behind_brackets(at_);
     if (behind >= end_)
-        give_up("this is closed nowhere:");
+        give_up("this is never closed:");
     else
         at_ = behind;
 }
@@ -90,7 +90,7 @@ void Parser::adopt(NodeId parent, std::span<const NodeId> children) {
         height = std::max(height, tree_.nodes[child].height + 1);
     }
     if (height > k_most_height)
-        give_up("this nests too deeply to follow");
+        give_up("this is nested too deeply to analyse");
     tree_.nodes[parent].height = uint16_t(height);
 }
 

@@ -26,7 +26,7 @@ private:
     public:
         Nesting(Parser& parser, int weight) : parser_(parser), weight_(weight) {
             if ((parser_.nesting_ += weight_) > k_most_nesting)
-                parser_.give_up("this nests too deeply to follow");
+                parser_.give_up("this is nested too deeply to analyse");
         }
         ~Nesting() { parser_.nesting_ -= weight_; }
         Nesting(const Nesting&) = delete;

@@ -310,7 +310,7 @@ private:
     std::string reason() const {
         const SourceLocation where = text_.used(tree_[first_use_].begin);
         const size_t others = values_.size() - 1;
-        return fmt::format("{}:{}: computes `{}`{} once a pixel, where loops and calls did so again",
+        return fmt::format("{}:{}: computes `{}`{} once per pixel instead of repeatedly in loops and calls",
                            where.file, where.line, text_.excerpt(first_use_),
                            others > 0 ? fmt::format(" and {} more", others) : "");
     }

@@ -220,7 +220,7 @@ std::vector<Diagnostic> PassReading::strange_characters() const {
             strange && !strange->blank)
             found.push_back(
                 {text_.lines().locate(token.line, token.column), Severity::error,
-                 fmt::format("{} is no character of GLSL: {}", strange->name, advice_on(*strange))});
+                 fmt::format("{} is not a character of GLSL: {}", strange->name, advice_on(*strange))});
     };
     std::unordered_set<std::string_view> names;
     for (const size_t i : preprocessed_.code) {

@@ -146,11 +146,11 @@ private:
         const Token& keyword = tokens_[hash + 1];
         if (keyword.is("extension"))
             say(tokens_[hash],
-                fmt::format("#extension {}: the site has the extensions of WebGL 2 switched on and "
-                            "takes no such line; leave it out",
-                            tokens_[hash + 2].text));
+                fmt::format(
+                    "#extension {}: the site enables the extensions of WebGL 2 itself; remove this line",
+                    tokens_[hash + 2].text));
         else if (keyword.is("version"))
-            say(tokens_[hash], "#version: the site writes that line itself; leave it out");
+            say(tokens_[hash], "#version: the site adds that line itself; remove it");
         else if (keyword.is("include"))
             say(tokens_[hash], "#include: the site has no files; paste the text, or use Common");
     }
@@ -170,8 +170,8 @@ private:
         if (const auto strange = strange_character(std::string_view(text_.text()).substr(token.begin)))
             say(token,
                 strange->blank
-                    ? fmt::format("{} stands in the code: the site refuses it; write a space", strange->name)
-                    : fmt::format("{} is no character of GLSL: {}", strange->name, advice_on(*strange)));
+                    ? fmt::format("{} in the code: the site refuses it; write a space", strange->name)
+                    : fmt::format("{} is not a character of GLSL: {}", strange->name, advice_on(*strange)));
     }
 
     void number(const Token& token) {
@@ -200,12 +200,12 @@ private:
         else if (const auto macro = opens_.find(token.text); macro != opens_.end())
             braces_ = std::max(0, braces_ + macro->second);
         else if (token.is(";") && braces_ == 0 && stands_for_nothing())
-            say(token, "; by itself: GLSL ES 3.00 takes none outside of functions; leave it out");
+            say(token, "; alone: GLSL ES 3.00 does not allow it outside functions; remove it");
         else if (token.is("=") && !peek(1).is("=") && is_call_before())
-            say(token, "a value is given to what a function returned: GLSL ES 3.00 refuses that");
+            say(token, "a value is assigned to a function's result: GLSL ES 3.00 refuses that");
         if (token.is("{") && peek(-1).is("="))
             say(token,
-                "= {: GLSL ES 3.00 has no lists in braces; write a constructor, as in float[](1.0, 2.0)");
+                "= {: GLSL ES 3.00 has no initialiser lists; write a constructor, as in float[](1.0, 2.0)");
         everywhere(token);
         if (token.kind != TokenKind::identifier)
             return;
@@ -223,10 +223,9 @@ private:
             offset();
         if (common_ && is_one_of(token.text, k_image_uniforms) && !defined_.contains(token.text) &&
             !is_local())
-            say(token,
-                fmt::format("{}: the site compiles Common by itself, where this is not declared; hand it "
-                            "over as a parameter, or use a macro",
-                            token.text));
+            say(token, fmt::format("{}: the site compiles Common alone, where this is not declared; pass it "
+                                   "as a parameter, or use a macro",
+                                   token.text));
     }
 
     /// Returns whether the semicolon follows a function, another semicolon or the beginning of the text.
@@ -253,10 +252,9 @@ private:
         const Token& token = peek(0);
         if (!macros_.contains(token.text) && !token.text.starts_with("__") &&
             reported_.insert(token.text).second)
-            say(token,
-                fmt::format(
-                    "{}: names with two underscores in a row, or webgl_ in front, are reserved on the site",
-                    token.text));
+            say(token, fmt::format("{}: names that contain two underscores in a row or begin with webgl_ are "
+                                   "reserved on the site",
+                                   token.text));
     }
 
     /// Checks `uniform vec3 iResolution;`, `float iTime = 0.0;`, `out vec4 second;`, `vec4 mainImage(…)`,
@@ -265,14 +263,14 @@ private:
         const Token& token = peek(0);
         const bool first_word = peek(-1).is(";") || peek(-1).is("}") || at_ == 0 || peek(-1).is(")");
         if (token.is("out") && first_word && !in_parentheses())
-            say(token, "out: the site has an output of its own, and takes no second one");
+            say(token, "out: the site declares the output itself and allows no second one");
         const bool declares = is_word(-1) && !peek(-1).is("struct") &&
                               (peek(1).is(";") || peek(1).is("=") || peek(1).is(",") || peek(1).is("["));
         const bool is_of_the_site =
             is_one_of(token.text, k_image_uniforms) || token.is("iDate") || token.is("iSampleRate") ||
             std::ranges::find(scene::k_channel_structs, token.text) != scene::k_channel_structs.end();
         if (declares && is_of_the_site && !common_ && !in_parameters())
-            say(token, fmt::format("{}: the site declares it already; leave this out", token.text));
+            say(token, fmt::format("{}: the site declares it already; remove this", token.text));
         if (token.is("mainImage") && peek(1).is("(") && is_word(-1))
             signature();
     }
@@ -302,8 +300,8 @@ private:
         const bool same = peek(-1).is("void") && first.starts_with("out vec4 ") &&
                           (second.starts_with("in vec2 ") || second.starts_with("vec2 "));
         if (!same && !has_macro(parameters))
-            say(peek(0), "mainImage: the site announces void mainImage(out vec4 fragColor, in vec2 "
-                         "fragCoord), and takes no other");
+            say(peek(0), "mainImage: the site declares void mainImage(out vec4 fragColor, in vec2 fragCoord) "
+                         "and accepts no other");
     }
 
     bool has_macro(std::string_view words) const {
@@ -363,8 +361,7 @@ private:
         if (braces_ == 0 && is_word(-1) && builtin && builtin->in_es() &&
             !is_one_of(token.text, k_may_be_defined_again))
             say(token,
-                fmt::format("{}: GLSL ES 3.00 forbids to define a built-in function again; choose another "
-                            "name",
+                fmt::format("{}: GLSL ES 3.00 forbids redefining a built-in function; choose another name",
                             token.text));
     }
 
@@ -378,10 +375,11 @@ private:
         value += sign ? 1 : 0;
         if (is_float_type(type) && is_whole_number(peek(value)) &&
             (peek(value + 1).is(";") || peek(value + 1).is(",")))
-            say(peek(value), fmt::format("{} {} = {}{}: GLSL ES converts no int by itself; write {}{}", type,
-                                         peek(1).text, sign ? "-" : "", peek(value).text, sign ? "-" : "",
-                                         type == "float" ? fmt::format("{}.0", peek(value).text)
-                                                         : fmt::format("{}({})", type, peek(value).text)));
+            say(peek(value),
+                fmt::format("{} {} = {}{}: GLSL ES does not convert int implicitly; write {}{}", type,
+                            peek(1).text, sign ? "-" : "", peek(value).text, sign ? "-" : "",
+                            type == "float" ? fmt::format("{}.0", peek(value).text)
+                                            : fmt::format("{}({})", type, peek(value).text)));
         if (braces_ == 0 && !peek(-1).is("const") && !in_parentheses())
             global_value();
     }
@@ -396,10 +394,9 @@ private:
                 is_one_of(part.text, k_image_uniforms) || part.is("iDate") || part.is("iSampleRate");
             if (!uniform || defined_.contains(part.text))
                 continue;
-            say(part,
-                fmt::format("{}: outside functions GLSL ES takes constant values only; set {} in mainImage, "
-                            "or make it a #define",
-                            part.text, peek(1).text));
+            say(part, fmt::format("{}: outside functions GLSL ES allows only constant values; set {} in "
+                                  "mainImage, or make it a #define",
+                                  part.text, peek(1).text));
             return;
         }
     }

@@ -97,7 +97,7 @@ std::optional<Cure> hoisted_derivative(const ParsedText& text, const TreeFacts& 
     return Cure{{wrapped(text, {front.spelled, front.spelled},
                          fmt::format("{} {} = {}; ", to_string(*type), name, *words), ""),
                  in_place_of(text, *written, name)},
-                fmt::format("takes `{}` in front of where neighbouring pixels diverge", *words)};
+                fmt::format("takes `{}` before neighbouring pixels diverge", *words)};
 }
 
 namespace {
@@ -155,7 +155,7 @@ std::optional<Cure> initial_value(const ParsedText& text, const TreeFacts& facts
         return std::nullopt;
     return Cure{{*std::move(wrap)},
                 fmt::format("{} {}, as on ShaderToy's site", text.word_of(fault.what),
-                            is_function ? "gives 0 back where no `return` is met" : "begins with 0")};
+                            is_function ? "returns 0 where no `return` is reached" : "begins with 0")};
 }
 
 namespace {
@@ -230,12 +230,12 @@ private:
     void guard_arguments() {
         if (name_ == "pow" && has_even_exponent())
             add(argument(0), "abs(", ")",
-                "an even power is that of the magnitude; of numbers above 0 it stays the same");
+                "takes the even power of the magnitude; unchanged for numbers above 0");
         for (const Guard& guard : k_guards)
             if (guard.function == name_ && argument(guard.argument) != k_no_node)
                 add(argument(guard.argument), std::string(guard.front), std::string(guard.behind),
-                    fmt::format("keeps the argument of {} within `{}…{}`; inside of that it stays the same",
-                                name_, guard.front, guard.behind));
+                    fmt::format("keeps the argument of {} within `{}…{}`; unchanged inside that range", name_,
+                                guard.front, guard.behind));
     }
 
     /// Returns whether the exponent is an even literal, such as `2.0`: the power of a negative number has a
@@ -265,10 +265,10 @@ private:
 
     /// `x + (1.0 - abs(sign(x))) * tiny` is x itself for all x but 0, for numbers and vectors alike.
     void keep_from_zero(NodeId divisor, std::string_view tiny) {
-        const std::string reason = fmt::format("gives {} for 0, and every other number as it is", tiny);
+        const std::string reason = fmt::format("replaces 0 by {}; other numbers are unchanged", tiny);
         if (is_never_negative(divisor))
             return add(divisor, "max(", fmt::format(", {})", tiny),
-                       fmt::format("keeps what is never negative from 0: at least {}", tiny));
+                       fmt::format("keeps a value that is never negative above 0: at least {}", tiny));
         const auto words = again(divisor);
         if (!words)
             return;
@@ -287,17 +287,16 @@ private:
             words[i] = again(argument(i));
         if (name_ == "normalize" && words[0])
             choose(fmt::format("dot({0}, {0}) > 0.0", *words[0]), *words[0],
-                   "gives a vector without a length back as it is; every other is normalised as before");
+                   "leaves a zero vector unchanged; every other is normalised as before");
         if (name_ == "normalize")
-            add(argument(0), "", " + 1e-15",
-                "keeps the vector from 0; one that is not that small stays the same");
+            add(argument(0), "", " + 1e-15", "keeps the vector away from 0; larger vectors are unchanged");
         if (name_ == "inverse" && words[0])
             choose(fmt::format("determinant({}) != 0.0", *words[0]), fmt::format("0.0 * ({})", *words[0]),
-                   "gives zeros for a matrix that has no inverse; every other is inverted as before");
+                   "gives zeros for a matrix without an inverse; every other is inverted as before");
         if (name_ == "smoothstep" && words[0] && words[1] && words[2])
             choose(fmt::format("{} != {}", *words[0], *words[1]),
                    fmt::format("step({}, {})", *words[0], *words[2]),
-                   "equal edges are a step, which smoothstep comes to; others stay the same");
+                   "equal edges become a step; others are unchanged");
     }
 
     void choose(std::string_view defined, std::string_view instead, std::string reason) {

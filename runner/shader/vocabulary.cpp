@@ -175,7 +175,7 @@ std::optional<StrangeCharacter> strange_character(std::string_view text) {
         return std::nullopt;
     const auto [length, code] = first_character(text);
     if (code < 0)
-        return StrangeCharacter{fmt::format("a byte that is no UTF-8 (0x{:02x})", first), false, {}};
+        return StrangeCharacter{fmt::format("a byte that is not UTF-8 (0x{:02x})", first), false, {}};
     const auto alike = std::ranges::find(k_lookalikes, code, &Lookalike::code);
     const std::string shown = is_blank(code) ? "a blank" : fmt::format("'{}'", text.substr(0, length));
     return StrangeCharacter{fmt::format("{} (U+{:04X})", shown, code), is_blank(code),

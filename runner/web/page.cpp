@@ -112,7 +112,7 @@ Result<Json> samples_of(const Image& image) {
     const auto png = image::encode_png(
         {image::FileFormat::png, image::SampleDepth::u8, image.extent, image.channels, image.bytes, {}});
     if (!png)
-        return fail(ErrorCode::load, fmt::format("a texture cannot be made a PNG: {}", png.error()));
+        return fail(ErrorCode::load, fmt::format("cannot write a texture as PNG: {}", png.error()));
     return picture_file("image/png", {reinterpret_cast<const char*>(png->data()), png->size()}, true);
 }
 

@@ -289,14 +289,14 @@ Result<Request> parse_request(std::string_view message) {
         return fail(ErrorCode::usage, fmt::format("a message has at most {} bytes", k_longest_request));
     const Json json = Json::parse(message, nullptr, false);
     if (!json.is_object())
-        return fail(ErrorCode::usage, "a message is a JSON object");
+        return fail(ErrorCode::usage, "a message must be a JSON object");
     const std::string wanted = TRY(name_in(json, "do"));
     for (const std::span<const Verb> verbs :
          {std::span<const Verb>(k_events), std::span<const Verb>(k_commands),
           std::span<const Verb>(k_of_viewers)})
         if (const auto verb = std::ranges::find(verbs, wanted, &Verb::name); verb != verbs.end())
             return verb->read(json);
-    return refused("do", "what a message can ask for");
+    return refused("do", "a known request");
 }
 
 } // namespace tidemark::serve

@@ -38,7 +38,7 @@ void hint_window() {
 std::string last_glfw_error() {
     const char* text = nullptr;
     glfwGetError(&text);
-    return text ? text : "GLFW does not say why";
+    return text ? text : "GLFW gives no reason";
 }
 
 namespace {

@@ -282,7 +282,7 @@ std::string read_all(int pipe) {
 Error origin_of(const std::string& json) {
     const auto report = parse_or_discard(json);
     if (!report.is_object())
-        return {ErrorCode::check_failed, "the trace ended without an answer: run check --trace to see why"};
+        return {ErrorCode::check_failed, "the trace ended without a result: run check --trace to see why"};
     if (const auto ended = report.value("ended", ""); !ended.empty())
         return {ErrorCode::check_failed, "no origin was found: " + ended};
     const auto trace = report.value("trace", Json());
@@ -291,7 +291,7 @@ Error origin_of(const std::string& json) {
     const auto fix = trace.value("fix", Json());
     const auto origin = fix.is_object() ? fix : trace.value("first", Json());
     if (!origin.is_object())
-        return {ErrorCode::check_failed, "no operation of the shown pass gave it: it was read from an input"};
+        return {ErrorCode::check_failed, "no operation of the shown pass made it: it was read from an input"};
     Error error{ErrorCode::check_failed, ""};
     error.diagnostics.push_back(
         {{origin.value("file", ""), origin.value("line", 0), origin.value("column", 0)},
@@ -346,7 +346,7 @@ void Viewer::toggle_magnifier() {
 void Viewer::toggle_marks() {
     marks_shown_ = !marks_shown_;
     if (marks_shown_ && drawing_would_hold())
-        say("marks rest while a frame takes more than a second");
+        say("marks are off while a frame takes more than a second");
     forget_looking();
     stale_overlay_ = true;
 }
@@ -415,7 +415,7 @@ void Viewer::trace_pixel() {
     if (!started)
         return say(to_string(started.error()));
     search_ = *std::move(started);
-    say(fmt::format("tracing pixel {},{}: Enter gives up", pixel.x, pixel.y));
+    say(fmt::format("tracing pixel {},{}; press Enter to cancel", pixel.x, pixel.y));
 }
 
 void Viewer::take_origin() {

@@ -19,7 +19,7 @@ void SaidOnce::say(std::string_view line) {
         return;
     cli::say(line);
     if (said_.size() == k_most_lines)
-        cli::say("live inputs: what else is wrong with them is not said");
+        cli::say("live inputs: further problems are not reported");
 }
 
 namespace {
@@ -90,10 +90,9 @@ void LiveInputs::hear() {
 
 void say_what_is_not_recorded(const LiveInputRequest& request) {
     if (request.microphone)
-        say("the recording has nothing of what the microphone hears: a replay has the signal of a silent "
-            "input");
+        say("the microphone is not recorded: a replay has the signal of a silent input");
     if (request.webcam)
-        say("the recording has nothing of what the webcam sees: a replay has a stand-in");
+        say("the webcam is not recorded: a replay has a placeholder picture");
 }
 
 live::Commands LiveInputs::take(std::vector<scene::Knob> knobs, live::ControllerMap& controllers) {
@@ -129,14 +128,13 @@ void LiveInputs::take_midi(live::Commands& commands, std::vector<scene::Knob>& k
             const bool learned = controllers.learning().has_value();
             auto turned = controllers.turn(change, knobs);
             if (!turned) {
-                words_.say(
-                    fmt::format("MIDI: {} turns nothing: click with the right button on a knob's name in the "
-                                "controls (Tab), and move it",
-                                to_string(change.controller)));
+                words_.say(fmt::format("MIDI: {} controls nothing: right-click a knob's name in the controls "
+                                       "(Tab), then move the controller",
+                                       to_string(change.controller)));
                 continue;
             }
             if (learned)
-                say(fmt::format("MIDI: {} turns {}", to_string(change.controller), turned->name));
+                say(fmt::format("MIDI: {} controls {}", to_string(change.controller), turned->name));
             note(*turned, knobs);
             add(commands, *std::move(turned));
         }

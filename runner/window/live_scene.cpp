@@ -65,9 +65,9 @@ std::vector<std::string> edits_of_held(const std::vector<HeldValue>& before,
     for (const HeldValue& held : now)
         if (is_edited(held, before))
             lines.push_back(held.option == k_set
-                                ? fmt::format("{} is {} now, as the file says: {} {}={} is over", held.name,
-                                              held.in_file, held.option, held.name, held.value)
-                                : fmt::format("{} stays {} as {} says; the file's definition is now {}",
+                                ? fmt::format("{} is now {}, from the file; {} {}={} no longer applies",
+                                              held.name, held.in_file, held.option, held.name, held.value)
+                                : fmt::format("{} stays {} because of {}; the file's definition is now {}",
                                               held.name, held.value, held.option, held.in_file));
     return lines;
 }
@@ -81,8 +81,8 @@ std::vector<std::string> edits_of_turned(const std::vector<scene::Knob>& before,
         const auto value = value_after(knob, turned);
         if (known != before.end() && known->initial != knob.initial && value != knob.initial &&
             std::ranges::find(turned, knob.name, &scene::Setting::name) != turned.end())
-            lines.push_back(fmt::format("{} stays {} as it was turned; the file's default is now {}",
-                                        knob.name, to_string(knob, value), to_string(knob, knob.initial)));
+            lines.push_back(fmt::format("{} stays {}, as you set it; the file's default is now {}", knob.name,
+                                        to_string(knob, value), to_string(knob, knob.initial)));
     }
     return lines;
 }
@@ -275,12 +275,12 @@ void LiveScene::report_failure() {
     report_at_.reset();
     say(*failure_);
     if (!shown_ && !std::exchange(waits_, true))
-        say(fmt::format("waiting for {}: it is drawn as soon as a save mends it", request_.path.string()));
+        say(fmt::format("waiting for {}: loads once the error is fixed and saved", request_.path.string()));
 }
 
 void LiveScene::mended() {
     if (failure_ && !report_at_)
-        say(fmt::format("{}: good{}", request_.path.string(), shown_ ? " again" : ""));
+        say(fmt::format("{}: compiles{}", request_.path.string(), shown_ ? " again" : ""));
     failure_.reset();
     report_at_.reset();
     for (const std::string& line : edits_of_held(held_on_show_, held_))

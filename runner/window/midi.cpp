@@ -110,7 +110,7 @@ Result<std::unique_ptr<MidiPort>> MidiPort::open(std::string_view name, Inbox& i
     const auto found =
         std::ranges::find_if(ports, [&](const std::string& port) { return port.find(name) != port.npos; });
     if (found == ports.end())
-        return cannot_listen("no port is called '{}': there {} {}", name, ports.empty() ? "are" : "is",
+        return cannot_listen("no port is called '{}'; there {} {}", name, ports.empty() ? "are" : "is",
                              ports.empty() ? "none" : fmt::format("{}", fmt::join(ports, ", ")));
     device->rtmidi.set_callback(device->in, put, &into);
     device->rtmidi.open_port(device->in, unsigned(found - ports.begin()), "knobs");

@@ -309,7 +309,7 @@ Result<Command> osc_command(const OscMessage& message, std::span<const scene::Kn
         return seek(message);
     if (message.address == "/play")
         return play(message);
-    return refuse("'{}' means nothing here: send /knob/NAME, /time or /play", message.address);
+    return refuse("unknown address '{}': send /knob/NAME, /time or /play", message.address);
 }
 
 } // namespace tidemark::live

@@ -137,11 +137,12 @@ Result<void> Rehearsal::try_out(const HeldTexts& held, const std::function<bool(
     const std::lock_guard lock(one_);
     const std::string asked = question(held);
     if (asked.size() > k_longest_message)
-        return fail(ErrorCode::load,
-                    fmt::format("the values given for knobs and definitions have {} bytes: {} at most "
-                                "can be tried out",
-                                asked.size(), k_longest_message));
-    const auto gone = [] { return fail(ErrorCode::load, "the process that tries scenes out is gone"); };
+        return fail(
+            ErrorCode::load,
+            fmt::format(
+                "the values given for knobs and definitions have {} bytes: at most {} can be tried out",
+                asked.size(), k_longest_message));
+    const auto gone = [] { return fail(ErrorCode::load, "the process that tries scenes out has ended"); };
     if (::send(socket_, asked.data(), asked.size(), MSG_NOSIGNAL) < 0)
         return gone();
     for (bool told = false;;) { // whether it was cancelled

@@ -137,7 +137,8 @@ std::optional<Remembered> recall(const fs::path& scene) {
     const auto text = read_file(file);
     auto state = text ? parse(*text, scene) : std::nullopt;
     if (!state)
-        say(fmt::format("how you left it is not to be read from '{}': it starts anew", file.string()));
+        say(fmt::format("cannot read the last window's state from '{}': the window starts anew",
+                        file.string()));
     return state;
 }
 
@@ -145,7 +146,7 @@ void remember(const fs::path& scene, const Remembered& state) {
     if (state_folder().empty())
         return;
     if (auto written = write(scene, state); !written)
-        say(fmt::format("warning: the next window starts anew: {}", written.error().message));
+        say(fmt::format("warning: the window's state is not saved: {}", written.error().message));
 }
 
 std::string words_of(const Remembered& state) {

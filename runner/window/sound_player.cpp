@@ -106,7 +106,7 @@ void SoundPlayer::play(platform::SharedContext context, const scene::Scene& scen
     } catch (const std::system_error& no_thread) {
         order_.reset();
         playing_.clear(); // the next call tries again
-        say(std::string("the scene's sound is not heard: no thread is to be had: ") + no_thread.what());
+        say(std::string("no sound: cannot start a thread: ") + no_thread.what());
     }
     changed_.notify_all();
 }
@@ -151,7 +151,7 @@ void SoundPlayer::run() {
             if (begun)
                 voice.emplace(*std::move(begun));
             else
-                say("the scene's sound is not heard: " + to_string(begun.error()));
+                say("no sound: " + to_string(begun.error()));
             lock.lock();
             busy_ = false;
         } else if (voice && clock_.running && !playing_.empty()) {

@@ -56,7 +56,7 @@ Result<Stage> Stage::settle(platform::SharedContext context, const scene::Scene&
     plan.in_window = true;
     auto trial = TRY(choose_program(scene, settled, plan));
     if (!trial.share)
-        return fail(ErrorCode::check_failed, "the specialised program is no better");
+        return fail(ErrorCode::check_failed, "the optimised program is not faster");
     context.leave();
     Stage stage(std::move(context), std::make_unique<render::Renderer>(std::move(trial.renderer)));
     stage.share_ = trial.share;
@@ -87,9 +87,9 @@ Result<Stage> build(StageBuilder::Order order, const std::function<bool()>& unwa
     if (order.rehearsal && !order.settle && !glsl::is_modest(order.scene, order.options.precision))
         TRY(order.rehearsal->try_out(order.held, unwanted));
     if (unwanted()) // a cancelled try was not completed, so the scene must not reach the driver here
-        return fail(ErrorCode::load, "the scene is not wanted any more");
+        return fail(ErrorCode::load, "the scene is no longer wanted");
     if (order.settle && !compiles_on_threads())
-        return fail(ErrorCode::check_failed, "the window would stand still for a trial");
+        return fail(ErrorCode::check_failed, "a trial would block the window");
     if (order.settle)
         return Stage::settle(std::move(order.context), order.scene, order.options, order.first);
     return Stage::create(std::move(order.context), std::move(order.scene), order.options, order.first);
@@ -153,7 +153,7 @@ void StageBuilder::launch(Order order) {
         running_.emplace_back(std::move(thread), newest_);
     } catch (const std::system_error& no_thread) {
         newest_->outcome.emplace(
-            fail(ErrorCode::load, fmt::format("no thread is to be had to compile on: {}", no_thread.what())));
+            fail(ErrorCode::load, fmt::format("cannot start a thread to compile on: {}", no_thread.what())));
         wake_();
     }
 }

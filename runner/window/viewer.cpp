@@ -362,7 +362,8 @@ Result<void> Viewer::show(Stage fresh, double now) {
     if (auto swapped = swap_in(std::move(fresh)); !swapped)
         return swapped;
     if (stage_->share()) {
-        say(fmt::format("specialised: a frame takes {:.2f} of its time", *stage_->share()));
+        say(fmt::format("background optimisation: frames take {:.0f} % less time, same bytes",
+                        100 * (1 - *stage_->share())));
         return {};
     }
     play_sound();
@@ -377,7 +378,7 @@ Result<void> Viewer::show(Stage fresh, double now) {
     touched_at_ = now;
     if (first && going_to_ && has_feedback()) {
         going_to_.reset(); // all earlier frames would be drawn before anything is visible
-        say("it begins at 0 s: the scene reads its own last frame");
+        say("starting at 0 s: the scene reads its own last frame");
     }
     if (going_to_)
         seek(*std::exchange(going_to_, std::nullopt), now);

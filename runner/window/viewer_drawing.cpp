@@ -84,7 +84,7 @@ bool Viewer::change_scale(render::RenderScale wanted) {
 /// Sets the scale and ends adaptive scaling.
 void Viewer::set_scale(render::RenderScale wanted) {
     if (replay_)
-        return say("a recording has its places in pixels: the scale stays");
+        return say("the scale cannot change during a replay: mouse positions are recorded in pixels");
     if (adaptive_)
         toggle_adaptive();
     if (wanted == scale_)
@@ -96,14 +96,14 @@ void Viewer::set_scale(render::RenderScale wanted) {
 
 void Viewer::toggle_adaptive() {
     if (replay_)
-        return say("a recording has its places in pixels: the scale stays");
+        return say("the scale cannot change during a replay: mouse positions are recorded in pixels");
     if (adaptive_) {
         adaptive_.reset();
-        return say(fmt::format("the scale stays at {}", scale_.name()));
+        return say(fmt::format("adaptive scale is off: the scale stays at {}", scale_.name()));
     }
     const double fps = settings_.adaptive.value_or(settings_.frames.state.fps);
     adaptive_.emplace(fps);
-    say(fmt::format("the scale holds {:g} fps", fps));
+    say(fmt::format("adaptive scale is on: it aims at {:g} fps", fps));
 }
 
 /// Returns the timers for the next frame; null while neither the controls nor adaptive scaling need them. The
@@ -271,11 +271,11 @@ void Viewer::give_frames_up(double now) {
     given_up_ = true;
     given_up_at_ = now;
     clock_.rest();
-    say(fmt::format("{}: given up, {}: it goes on with space, smaller with -, or when a file of it is saved; "
-                    "Esc again closes the window",
+    say(fmt::format("{}: frame cancelled, {}: press space to continue, - to draw smaller, or save a file of "
+                    "it; Esc again closes the window",
                     settings_.scene.path.string(), drawn));
     if (driver_is_held(now))
-        say("the driver cannot be stopped: what it is at ends by itself");
+        say("the driver cannot be stopped: its current work ends by itself");
 }
 
 /// Reports a part that takes too long, once for each frame. An endless loop cannot be distinguished from a
@@ -286,8 +286,8 @@ void Viewer::say_what_holds(double now) {
         return;
     making_->said = true;
     const Rectangle& area = at->part.area;
-    say(fmt::format("{}: {}x{} pixels of {} from {},{} on take more than {:.0f} s: a very long loop, or one "
-                    "that never ends; Esc gives the frame up, - draws smaller",
+    say(fmt::format("{}: {}x{} pixels of {} from {},{} on take more than {:.0f} s: a very long or endless "
+                    "loop; Esc cancels the frame, - draws smaller",
                     settings_.scene.path.string(), area.extent.width, area.extent.height,
                     stage_->renderer().scene().passes[at->part.pass].name, area.x, area.y,
                     k_too_long_seconds));
@@ -335,14 +335,14 @@ bool Viewer::driver_is_held(double now) const {
 std::string Viewer::drawing_words(double now) const {
     if (!making_) {
         return driver_is_held(now)
-                   ? fmt::format("given up, the driver ends it: {:.0f} s", now - ending_->begun)
+                   ? fmt::format("cancelled, waiting for the driver: {:.0f} s", now - ending_->begun)
                    : "";
     }
     const double seconds = now - making_->begun;
     if (seconds < k_short_seconds && has_frame_)
         return "";
     return fmt::format("drawing {:.1f} s, {:.0f} %{}", seconds, 100 * making_->frame.share(),
-                       seconds > k_long_seconds ? ", Esc gives up" : "");
+                       seconds > k_long_seconds ? ", Esc cancels" : "");
 }
 
 // A picture that stays on show while the scene and its time go on.
@@ -355,7 +355,7 @@ void Viewer::toggle_freeze() {
         return;
     auto target = gl::copy_in_bytes(stage_->renderer().target());
     if (!target)
-        return say("the driver has no memory for a picture that stays");
+        return say("the driver has no memory to freeze the picture");
     frozen_.emplace(Frozen{*std::move(target), read_picture(), moment()});
 }
 

@@ -111,7 +111,7 @@ Result<std::vector<std::string>> write_knobs(const std::vector<scene::Knob>& kno
         if (knob.value != knob.initial)
             by_file[knob.where.file].push_back(knob);
     if (by_file.empty())
-        return std::vector<std::string>{"nothing to write: every knob is as the file has it"};
+        return std::vector<std::string>{"nothing to write: every knob has the file's value"};
     std::vector<std::string> lines;
     for (const auto& [file, turned] : by_file)
         lines.push_back(TRY(write_into(file, turned)));
@@ -225,7 +225,7 @@ void Viewer::carry_out(const live::CopyKnobs&) {
             words.insert(words.end(), {"--set", fmt::format("{}={}", knob.name, to_string(knob))});
     const std::string text = shell_words(words);
     screen_->set_clipboard(text);
-    say(words.empty() ? "nothing to copy: every knob is as the file has it" : "copied: " + text);
+    say(words.empty() ? "nothing to copy: every knob has the file's value" : "copied: " + text);
 }
 
 /// Writes the knobs into their files. The reload that follows finds each at its value.
@@ -347,7 +347,7 @@ void Viewer::carry_out(const live::GoToView& command) {
     if (command.index >= views_.size())
         return;
     if (replay_)
-        return say("a recording moves the scene: it stays there");
+        return say("kept views are off during a replay");
     const Moment& kept = views_[command.index];
     const render::FrameState& state = kept.sequence.state;
     controls_.adopt(state);
@@ -380,7 +380,7 @@ void Viewer::take_up(const Remembered& left) {
     state.mouse = {};
     controls_.adopt(state);
     going_to_ = state.seconds();
-    say(fmt::format("as you left it: {}; --fresh starts anew", words_of(left)));
+    say(fmt::format("restored: {}; --fresh starts anew", words_of(left)));
 }
 
 std::optional<Remembered> Viewer::state() const {
@@ -419,8 +419,8 @@ bool Viewer::compiles_for_long(double now) const {
 /// Sets the title: the compile time while compiling, else the error if there is one, else the state with the
 /// frame rate, which changes twice a second at most.
 void Viewer::show_title(double now) {
-    std::string state = stepping_ ? fmt::format("stepping to frame {}, Esc gives up", stepping_->where().last)
-                        : given_up_       ? "given up, space goes on"
+    std::string state = stepping_ ? fmt::format("stepping to frame {}, Esc cancels", stepping_->where().last)
+                        : given_up_       ? "cancelled, space continues"
                         : clock_.paused() ? fmt::format("paused at {:.3f} s", shown_.seconds())
                         : at_rest_        ? "still"
                                           : fmt::format("{:.0f} fps", clock_.frame_rate());
@@ -434,7 +434,7 @@ void Viewer::show_title(double now) {
         state += fmt::format(", {} pixel{} not finite", finite_.found(), finite_.found() > 1 ? "s" : "");
     if (compiles_for_long(now))
         state = fmt::format("compiling… {:.0f} s{}", now - *scene_.building_since(),
-                            stage_ ? ", Esc gives up" : "");
+                            stage_ ? ", Esc cancels" : "");
     else if (!stage_ && !scene_.failure())
         return;
     std::string title = scene_.failure() && !compiles_for_long(now)

@@ -391,7 +391,7 @@ ErrorHandler handler_before = nullptr;
 
 /// Xlib ends the process when this returns.
 int handle_loss(void*) {
-    lose("the display is gone");
+    lose("the connection to the display is lost");
     return 0;
 }
 

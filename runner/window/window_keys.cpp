@@ -23,7 +23,7 @@ constexpr KeyRow k_rows[] = {
     {"-, =; A", "render scale: half, double, from 1/8 to 2; adaptive: it holds a frame rate"},
     {"Z", "freeze the picture, while time goes on"},
     {"F; H, F1", "full screen; help"},
-    {"Esc", "quit; while a scene is compiled anew, or a frame drawn for more than a second: give that up"},
+    {"Esc", "quit; while a scene is recompiled, or a frame takes more than a second: cancel that"},
 };
 
 } // namespace

@@ -164,7 +164,7 @@ class BadPicture(ProgramTest):
         self.expect_failure(["capture", "a.glsl", "--channel", "0=none.png"], 3,
                             "tidemark: error: cannot read 'none.png': no such file")
 
-    def test_that_nobody_reads_is_not_missed(self):
+    def test_an_unread_missing_file_is_no_error(self):
         self.write("a.glsl", f'#iChannel0 "none.png"\n{GOOD}')
         self.succeed("capture", "a.glsl", "--size", "4x4")
 

@@ -5,7 +5,7 @@ from support.program import ProgramTest, main
 
 BUDGET = ("--budget", "900")  # else a busy machine cuts it
 BODY = "void mainImage(out vec4 c, in vec2 p) {\n    vec2 uv = p / iResolution.xy;\n    %s\n}\n"
-VISIBLE = "percent of the pixels that are visibly off from those in double"
+VISIBLE = "percent of the pixels that visibly differ from double precision"
 
 # Lines that lose their digits, and what they become.
 ROUNDED = {

@@ -75,7 +75,7 @@ class CheckFix(ProgramTest):
     def test_steps_that_are_too_long_by_proof_become_shorter(self):
         scene = self.write("march.glsl", MARCH % (BUMPY_ROOM, 200))
         cure, = self.fix("march.glsl", "--write")["cures"]
-        self.assertRegex(cure["cure"], r"^steps of 0\.\d+ of the distance, and \d+ turns instead of 200$")
+        self.assertRegex(cure["cure"], r"^steps of 0\.\d+ of the distance, and \d+ iterations instead of 200$")
         self.assertRegex(scene.read_text(), r"t \+= 0\.\d+ \* \(d\);")
         self.assertGreater(cure["fault"]["before"], 1)
         self.assertLessEqual(cure["fault"]["after"], 0.5)
@@ -158,7 +158,7 @@ void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(hash(floor(p) - 64.0)), 1.
         self.assertIn("1 cure, each measured on top of those before; 1 finding is not mended", page)
         self.assertIn("+    float a[65]; c = vec4(sqrt(max(uv.x - 0.5, 0.0)), a[0]", page)
         self.assertIn("pixels that are not finite: ", page)
-        self.assertIn("no cure is known for it", page)
+        self.assertIn("no fix is known", page)
         self.assertNotIn("<script src", page)
 
     def test_a_sound_scene_has_nothing_to_mend(self):
@@ -204,7 +204,7 @@ void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(hash(floor(p) - 64.0)), 1.
         self.write("a.glsl", BODY % "c = vec4(exp(200.0 * uv.x) / exp(200.0 * uv.x));")
         found = self.fix("a.glsl", code=1)
         self.assertEqual(found["cures"], [])
-        self.assertIn("no known cure makes it better", found["remain"][0]["why"])
+        self.assertIn("no known fix helps", found["remain"][0]["why"])
 
     def test_a_project_is_imported_beside_itself(self):
         self.write("p/a.glsl", BODY % "c = vec4(sqrt(uv.x - 0.5));")

@@ -30,7 +30,7 @@ class CheckTest(ProgramTest):
 class Report(CheckTest):
     def test_each_reason_that_a_probe_does_not_apply_is_one_line(self):
         lines = self.check(SOUND).stdout.decode().splitlines()
-        hits = [line for line in lines if line.endswith("  no mainHit, and the march is not recorded: no loop of Image is found to march along a ray")]
+        hits = [line for line in lines if line.endswith("  no mainHit, and the march is not recorded: no ray-marching loop found in Image")]
         self.assertEqual(len(hits), 1, lines)
         self.assertRegex(hits[0], r"^n/a   overstep, budget, .*rays")
         passed = [line for line in lines if line.startswith("pass")]
@@ -163,7 +163,7 @@ class Jumps(CheckTest):
                            "    c = vec4(fract(0.1 * mod(iTime, 7.3)) + 0.01 * sin(p.x));\n}\n", "time_discontinuity", "-o", "pictures")
         self.assertEqual(entry["verdict"], "fail")
         self.assertTrue((self.folder / "pictures/time_discontinuity.png").exists())
-        self.assertIn("back to the one of 0 s", entry["found"])
+        self.assertIn("back to the picture of 0 s", entry["found"])
 
 
 class Hashes(CheckTest):

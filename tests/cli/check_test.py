@@ -83,7 +83,7 @@ class Check(ProgramTest):
                 scene = self.write("march.glsl", MARCH.replace("max(d, 0.4)", step))
                 entry = self.verdicts(scene, "--probe", "first_hit")["first_hit"]
                 self.assertEqual(entry["verdict"], verdict, entry["found"])
-                self.assertRegex(entry["found"], rf"^(9\d(\.\d)?|100) % of 288 rays are decided: {wrong} % of these step over")
+                self.assertRegex(entry["found"], rf"^{wrong} % of the decided rays step over .*; (9\d(\.\d)?|100) % of 288 rays are decided")
         said = self.succeed("inspect", str(scene)).stdout.decode()
         self.assertRegex(said, r"(?m)^  march     \S*march.glsl:5: steps by the distance \(sphere tracing\)")
 
@@ -93,8 +93,8 @@ class Check(ProgramTest):
                 scene = self.write("march.glsl", MARCH.replace("max(d, 0.4)", "d").replace("length(p) - 1.0", field))
                 entry = self.verdicts(scene, "--probe", "step_scale")["step_scale"]
                 self.assertEqual(entry["verdict"], verdict, entry["found"])
-                said = re.match(r"steps of ([\d.]+) x the distance are safe on \d+ rays that hit, [\d.]+ x on 95 % of them; ([\d.]+) x steps over "
-                                r"the hit from .*; its own steps are 1 x in the median", entry["found"])
+                said = re.match(r"steps of ([\d.]+) x the distance are safe on \d+ rays that hit, [\d.]+ x on 95 % of them; a step of ([\d.]+) x "
+                                r"from .* passes the hit, .*; the march's own steps are 1 x in the median", entry["found"])
                 self.assertTrue(said, entry["found"])
                 self.assertLessEqual(float(said[1]), scale * 1.01)
                 self.assertGreater(float(said[1]), 0.85 * scale)
@@ -105,7 +105,7 @@ class Check(ProgramTest):
             with self.subTest(field):
                 scene = self.write("march.glsl", MARCH.replace("max(d, 0.4)", "d").replace("length(p) - 1.0", field))
                 entry = self.verdicts(scene, "--probe", "step_scale")["step_scale"]
-                said = re.search(r"the slope is bounded on ([\d.]+) % of the way to the surface: the distance falls by ([\d.]+) a unit at most, by ([\d.]+) on 95 %",
+                said = re.search(r"the slope is bounded on ([\d.]+) % of the way to the surface: the distance falls by at most ([\d.]+) per unit, by ([\d.]+) on 95 %",
                                  entry["found"])
                 self.assertTrue(said, entry["found"])
                 self.assertGreater(float(said[1]), 99)
@@ -116,7 +116,7 @@ class Check(ProgramTest):
         march = MARCH.replace("max(d, 0.4)", "d")
         entry = self.verdicts(self.write("march.glsl", march), "--probe", "turns")["turns"]
         self.assertEqual(entry["verdict"], "pass", entry["found"])
-        said = re.match(r"0 % of 288 rays run out of the loop's 99 turns; the others need (\d+) at most; of \d+ rays ([\d.]+) % are proved not to, "
+        said = re.match(r"0 % of 288 rays run out of the loop's 99 iterations; the others need at most (\d+); ([\d.]+) % of \d+ rays are proved not to run out, "
                         r"of \d+ rays at ([\d.]+) % of all times from 0 to 10 s$", entry["found"])
         self.assertTrue(said, entry["found"])
         self.assertLess(int(said[1]), 99)
@@ -124,13 +124,13 @@ class Check(ProgramTest):
         self.assertGreater(float(said[3]), 90)
         entry = self.verdicts(self.write("march.glsl", march.replace("i < 99", "i < 4")), "--probe", "turns")["turns"]
         self.assertEqual(entry["verdict"], "warn", entry["found"])
-        self.assertRegex(entry["found"], r"^[1-9][\d.]* % of 288 rays run out of the loop's 4 turns, as pixel \d+,\d+ at .* s: \S*march.glsl:5 tests")
+        self.assertRegex(entry["found"], r"^[1-9][\d.]* % of 288 rays run out of the loop's 4 iterations, as pixel \d+,\d+ at .* s: \S*march.glsl:5 tests")
 
     def test_the_far_plane_is_the_definition_that_limits_the_march(self):
         text = "#define REACH 9.0\n" + MARCH.replace("t > 9.0", "t > REACH").replace("max(d, 0.4)", "d")
         entry = self.verdicts(self.write("march.glsl", text), "--probe", "far")["far"]
         self.assertEqual(entry["verdict"], "pass", entry["found"])
-        self.assertRegex(entry["found"], "^0 % of the rays hit something else before the far plane")
+        self.assertRegex(entry["found"], "^0 % of the rays hit something else nearer than the far plane")
         entry = self.verdicts(self.write("march.glsl", "#define OTHER 9.0\n" + text), "--probe", "far")["far"]
         self.assertEqual(entry["verdict"], "n/a")
 
@@ -139,7 +139,7 @@ class Check(ProgramTest):
         for text, verdict, found in (
                 (bump + SOUND.replace("0.5 + 0.5 * sin(iTime)", "sqrt(bump + sin(iTime) + 1.001)"), "pass", "^no operation can leave its domain"),
                 (bump + SOUND.replace("0.5 + 0.5 * sin(iTime)", "sqrt(bump + sin(iTime))"), "n/a",
-                 r"^not excluded: \S*proof.glsl:2: sqrt of \[-1, 2\]$"),
+                 r"^NaN cannot be excluded: \S*proof.glsl:2: sqrt of \[-1, 2\]$"),
                 (SOUND.replace("p / iResolution.xy", "texture(iChannel0, p).xy / length(p - 32.0)"), "n/a", "a division by")):
             entry = self.verdicts(self.write("proof.glsl", text), "--probe", "no_nan")["no_nan"]
             self.assertEqual(entry["verdict"], verdict, entry["found"])
@@ -160,7 +160,7 @@ class Check(ProgramTest):
             scene = self.write("march.glsl", MARCH.replace("max(d, 0.4)", "0.5 * d").replace("length(p) - 1.0", field))
             entry = self.verdicts(scene, "--probe", "gradient")["gradient"]
             self.assertEqual(entry["verdict"], verdict, entry["found"])
-            self.assertRegex(entry["found"], r"^the distance falls by up to (1|0\.99\d*|1\.3|1\.29\d*) a unit between two samples")
+            self.assertRegex(entry["found"], r"^the distance falls by up to (1|0\.99\d*|1\.3|1\.29\d*) per unit between two samples")
         knobs = "#iUniform float far_distance = 9.0 in { 5.0, 20.0 }\n#iUniform vec3 camera_position = vec3(0.0, 0.0, -3.0)\n"
         sound = knobs + (MARCH.replace("max(d, 0.4)", "d").replace("t > 9.0", "t > far_distance")
                          .replace("ro = vec3(0.0, 0.0, -3.0)", "ro = camera_position"))
@@ -175,7 +175,7 @@ class Check(ProgramTest):
         fine = ball.replace("length(p) - 1.0", "0.02 + 0.01 * abs(fract(1000.0 * p.z) - 0.5)")
         for text, verdict, found in ((ball, "pass", "^float and double agree to 1e6 units along the rays$"),
                                      (fine, "warn", r"^float and double agree to 100+ units along the rays; at 100+ units \S+ % of the "),
-                                     (ball.replace("i < 99", "i < 99 && t < 9.0"), "n/a", "further out no march goes$")):
+                                     (ball.replace("i < 99", "i < 99 && t < 9.0"), "n/a", "further out no ray is marched$")):
             entry = self.verdicts(self.write("far.glsl", text), "--probe", "places")["places"]
             self.assertEqual(entry["verdict"], verdict, entry["found"])
             self.assertRegex(entry["found"], found)
@@ -194,7 +194,7 @@ class Check(ProgramTest):
                 scene = self.write("hit.glsl", MARCH.replace("max(d, 0.4)", "d") + hit.replace("OFF", off))
                 entry = self.verdicts(scene, "--probe", "drift")["drift"]
                 self.assertEqual(entry["verdict"], verdict, entry["found"])
-                self.assertRegex(entry["found"], r"^mainHit and the march of mainImage part in \d+ of \d+ rays")
+                self.assertRegex(entry["found"], r"^mainHit and the march of mainImage differ in \d+ of \d+ rays")
 
     def test_our_waters_hit_what_they_draw(self):
         for name in ("gerstner_waves", "stylized_waves", "water_surface"):
@@ -349,7 +349,7 @@ class Check(ProgramTest):
 
     def test_what_hangs_on_the_last_bit_is_told(self):
         for text, manner in (("fract(p.x * 15625.3 + 0.37)", "fused multiply-add"),
-                             ("fract(0.3 * p.x + (1e6 + iTime) - (1e6 - iTime))", "sums added up from the other end"),
+                             ("fract(0.3 * p.x + (1e6 + iTime) - (1e6 - iTime))", "sums added in reverse order"),
                              ("fract(1e6 * sqrt(p.x))", "quotients, roots, powers and logarithms a unit off"),
                              ("fract(iTime * 1e5 + p.x)", "iTime, iResolution and iMouse a unit in the last place")):
             with self.subTest(manner):
@@ -377,9 +377,8 @@ class Check(ProgramTest):
         entry = self.verdicts(scene, "--probe", "unassigned")["unassigned"]
         self.assertEqual(entry["verdict"], "warn")
         self.assertEqual(entry["found"],
-                         "without a value, which is 0 on ShaderToy's site and here, and anything elsewhere: "
-                         f"sum ({scene}:4, on some path); every path through the functions that run was "
-                         "followed, whatever the conditions")
+                         "read without a value (0 on ShaderToy's site and here, undefined elsewhere): "
+                         f"sum ({scene}:4, on some path); all paths through the functions that run were checked, whatever the conditions")
 
     def test_structs_branches_outs_and_returns_without_a_value_are_named(self):
         scene = self.write("ways.glsl", "struct I { float d; }; struct S { I i; vec3 n; };\n"
@@ -406,8 +405,7 @@ class Check(ProgramTest):
                                         "    c = vec4(a, side(p.x, b), v); c.x += b; }\n")
         entry = self.verdicts(scene, "--probe", "unassigned")["unassigned"]
         self.assertEqual((entry["verdict"], entry["found"]),
-                         ("pass", "nothing is read without a value: every path through the functions that run was "
-                                  "followed, whatever the conditions"))
+                         ("pass", "nothing is read without a value: all paths through the functions that run were checked, whatever the conditions"))
 
     def test_a_derivative_where_neighbours_went_another_way_is_named(self):
         scene = self.write("edge.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    c = vec4(0.0);\n"
@@ -467,12 +465,12 @@ class Check(ProgramTest):
 
     def test_a_wrong_promise_is_an_error(self):
         scene = self.write("late.glsl", SOUND)
-        for promise, wrong in (('{"time_horizont": 1}', "'time_horizont' is nothing that a scene can promise"),
-                               ('{"time_horizon": "long"}', "'time_horizon' takes a number from 0"),
+        for promise, wrong in (('{"time_horizont": 1}', "'time_horizont' is not a known promise"),
+                               ('{"time_horizon": "long"}', "'time_horizon' takes a number of 0 or more"),
                                ('{"ranges": {"k": 1}}', "'ranges' takes {\"knob\": [low, high]}"),
                                ('{"ranges": {"k": [5, 1]}}', "'ranges' takes {\"knob\": [low, high]}"),
                                ('{"when": {"N=1": {"time_horizont": 1}}}',
-                                "'time_horizont' is nothing that a scene can promise"),
+                                "'time_horizont' is not a known promise"),
                                ('{"when": {"N": {}}}', "'when' takes {\"NAME=VALUE\": {promises}}")):
             with self.subTest(promise):
                 file = self.write("late.check.json", promise)

@@ -185,7 +185,7 @@ class Diagnostics(Lsp):
         client.change(scene, scene.read_text().replace("mainImage", "mainImagee"), 2)
         self.assertIn("mainImage", errors(client.diagnostics(scene, errors))[0]["message"])
 
-    def test_a_function_that_nobody_calls_is_a_hint(self) -> None:
+    def test_an_uncalled_function_is_a_hint(self) -> None:
         """As capture has it, which leaves it out; the site compiles it."""
         scene = self.write("a.glsl", "float f() { return wrong; }\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n")
         self.succeed("capture", "a.glsl", "--size", "16x9")

@@ -252,7 +252,7 @@ class Streams(ProgramTest):
         film = self.through_pipe("film.mp4", "--frames", "0-3")
         self.assertEqual(film[4:8], b"ftyp")
 
-    def test_pipe_that_nobody_reads(self):
+    def test_pipe_without_a_reader(self):
         os.mkfifo(self.folder / "p.png")
         done = self.run_program("capture", "a.glsl", *SMALL, "-o", "p.png")
         self.assertEqual(done.stderr, "tidemark: error: cannot write 'p.png': it is a pipe, and nobody read it for 10 s\n")

@@ -341,7 +341,7 @@ class Behaviour(Page):
         self.write("s/song.wav", "no sound")
         self.write("s/sound.glsl", "vec2 mainSound(int samp, float time) { return vec2(none); }\n")
         self.export("s")
-        self.open("size=64x36&time=0&paused", remark="this browser does not play the scene's sound file\n"
+        self.open("size=64x36&time=0&paused", remark="this browser cannot play the scene's sound file\n"
                   "Sound does not compile in this browser:\ns/sound.glsl:1: error: 'none' : undeclared identifier")
         self.wait_for_pixel((0, 255, 127))
 

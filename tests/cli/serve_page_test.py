@@ -85,7 +85,7 @@ class Steering(Page):
         self.press_button("Play")
         self.browser.wait_for(f"{FIGURE}.head.seconds > 0.2")
         words = "[...document.querySelectorAll('button')].filter(b => /^[AB]$/.test(b.textContent)).map(b => [b.title, b.ariaLabel])"
-        self.assertEqual(self.browser.evaluate(words), [[f"A loop of time {verb} here"] * 2 for verb in ("begins", "ends")])
+        self.assertEqual(self.browser.evaluate(words), [[f"Set the {end} of a time loop here"] * 2 for end in ("start", "end")])
         self.press_button("B")
         self.browser.wait_for(f"{FIGURE}.state.time.to > 0.2")
         self.browser.evaluate(f"{FIGURE}.link.send('loop', {{from: 0.01, to: 0.05}})")
@@ -120,8 +120,8 @@ class Looking(Page):
         first.picture()
         self.browser.open(service.address)
         self.browser.wait_for(f"{FIGURE}.number > 0 && document.querySelector('fieldset').disabled")
-        self.browser.wait_for("document.querySelector('.tidemark-status').textContent.includes('you watch, 1 other looks')")
-        self.press_button("Steer")
+        self.browser.wait_for("document.querySelector('.tidemark-status').textContent.includes('watching, 1 other viewer')")
+        self.press_button("Take control")
         self.browser.wait_for("!document.querySelector('fieldset').disabled")
         self.assertFalse(first.text("steering", lambda steering: not steering["you"])["you"])
         first.close()
@@ -132,9 +132,9 @@ class Looking(Page):
         self.service.close()
         self.browser.wait_for(f"{STATE} === 'ended'")
         self.assertEqual(self.browser.evaluate("document.querySelector('.tidemark-message').textContent"),
-                         "The connection has ended. Load the page anew once the program runs.")
+                         "The connection was lost. Reload the page once the program runs again.")
 
-    def test_asks_nobody_else(self):
+    def test_makes_no_other_requests(self):
         self.open()
         address = self.service.address.partition("?")[0]
         self.assertEqual([asked for asked in self.browser.requests if not asked.startswith((address, "data:"))], [])

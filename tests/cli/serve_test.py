@@ -88,7 +88,7 @@ class Pictures(Serve):
         newest = slow.picture()[0]["number"]
         self.assertGreaterEqual(newest, later[-1], "one that was slow gets the newest")
 
-    def test_that_nobody_waited_for_are_no_time_step(self):
+    def test_skipped_frames_are_not_in_the_time_step(self):
         viewer = self.viewer(self.serve("a.glsl", text="void mainImage(out vec4 c, in vec2 p) { c = vec4(iTimeDelta / 8.0); }\n"))
         head, _ = viewer.picture(seen=False)
         second = viewer.picture(seen=False)[0]["number"]
@@ -303,7 +303,7 @@ class Viewers(Serve):
         for viewer in viewers:
             viewer.picture(seen=False)
         closed = self.viewer(service).end()
-        self.assertEqual((closed.code, closed.reason), (1013, "too many look already"))
+        self.assertEqual((closed.code, closed.reason), (1013, "too many viewers already"))
 
 
 class Access(Serve):
@@ -330,9 +330,9 @@ class Access(Serve):
 
     def test_hostile_messages(self):
         service = self.serve("a.glsl", text=GRADIENT)
-        for kind, data, code, reason in ((TEXT, b"x" * 5000, 1009, ""), (TEXT, b"{", 1008, "a message is a JSON object"),
-                                         (TEXT, b'{"do":"fly"}', 1008, '"do": give what a message can ask for'),
-                                         (BINARY, b"{}", 1003, "a message is a text"), (TEXT, b"\xff\xfe", 1007, "")):
+        for kind, data, code, reason in ((TEXT, b"x" * 5000, 1009, ""), (TEXT, b"{", 1008, "a message must be a JSON object"),
+                                         (TEXT, b'{"do":"fly"}', 1008, '"do": give a known request'),
+                                         (BINARY, b"{}", 1003, "a message must be text"), (TEXT, b"\xff\xfe", 1007, "")):
             with self.subTest(data=data[:20]):
                 viewer = self.viewer(service)
                 viewer.send_frame(kind, data)
@@ -352,7 +352,7 @@ class Access(Serve):
                     pass
         self.viewer(service).picture()
 
-    def test_mute_connections_keep_nobody_out(self):
+    def test_mute_connections_do_not_block_others(self):
         service = self.serve("a.glsl", text=GRADIENT)
         at = service.address.split("/")[2].split(":")
         mute = [socket.create_connection((at[0], int(at[1]))) for _ in range(100)]

@@ -81,8 +81,7 @@ class Pictures(Study):
         study = self.study("sum.glsl", "--vary", "STEPS=4,8")
         reference = study["references"]["picture"]
         self.assertRegex(reference["method"], r"STEPS = (32|64|128|256|512)\b")
-        self.assertRegex(reference["self_check"], r"STEPS = 8 to STEPS = \d+: the last change \S+, 0\.25 of the one before, "
-                                                  r"goes on to \S+")
+        self.assertRegex(reference["self_check"], r"STEPS = 8 to STEPS = \d+: the last change was \S+, 0\.25 of the one before; all further ones add up to \S+")
         strict = self.points(study)["STEPS = 8"]["all"]["picture"]["rmse"]
         self.assertLess(reference["uncertainty"], 0.11 * strict)
         self.assertFalse(self.points(study)["STEPS = 4"]["hollow"])
@@ -114,7 +113,7 @@ class Pictures(Study):
         self.assertEqual(study["timing"]["warm_up_rounds"], 10)
         clock = "wall clock around glFinish"
         if "llvmpipe" in study["machine"]["renderer"]:  # its timer sees some of the work only
-            self.assertRegex(study["timing"]["clock"], clock + r" \(the driver's GPU timer, .* is not believed\)")
+            self.assertRegex(study["timing"]["clock"], clock + r" \(the driver's GPU timer, .* and is not used\)")
 
     def test_one_bad_point_does_not_end_the_study(self):
         self.write("sum.glsl", SUM)
@@ -159,7 +158,7 @@ class Hits(Study):
         study = self.study("plane.glsl", "--vary", "N=8,16,32", "--reference", "N=64", "--precision", "double")
         self.assertEqual(study["precision"], "double")
         self.assertIn("promoted to double", study["references"]["picture"]["method"])
-        self.assertIn("read back as floats, to 3e-07", study["references"]["hits"]["self_check"])
+        self.assertIn("read back as floats, precise to 3e-07", study["references"]["hits"]["self_check"])
         double = self.points(study)
         self.assertNotIn("rounding", [share["source"] for share in double["N = 8"]["shares"]])
         for n in (8, 16):  # what the steps leave is larger than a rounding of either
@@ -237,7 +236,7 @@ class Baseline(Study):
         (self.folder / "report/study.json").rename(self.folder / "old.json")
         self.write("sum.glsl", SUM.replace("+ 0.5)", "+ 0.2)"))
         self.study("sum.glsl", "--vary", "STEPS=8,16", "--reference", "STEPS=4096", "--baseline", "old.json", code=1)
-        self.assertRegex(self.words, r"STEPS = 16: more wrong: RMSE of the picture \S+ -> \S+")
+        self.assertRegex(self.words, r"STEPS = 16: less exact: RMSE of the picture \S+ -> \S+")
 
     def test_errors(self):
         self.write("sum.glsl", SUM)
@@ -413,8 +412,7 @@ class BadInput(Study):
         self.refuse("sum.glsl --vary STEPS=1,2 --reference STOPS=3", 2,
                     "the scene has no #iUniform, #define or const 'STOPS': did you mean 'STEPS'?")
         self.refuse("sum.glsl --vary STEPS=1,2 --views 1@1.5,0", 2,
-                    "view 't=1@1.5,0': the mouse at 1.5, 0 is outside the picture; give parts of its width and height, "
-                    "0 to 1")
+                    "view 't=1@1.5,0': the mouse at 1.5, 0 is outside the picture; give fractions of its width and height, 0 to 1")
         self.refuse("sum.glsl --vary STEPS=1,2 --views soon", 2,
                     "--views soon: give times and places of the mouse, as in 0;10@0.75,0.4, or a .json file")
         self.refuse("none.glsl --vary STEPS=1,2", 3, "cannot read 'none.glsl': no such file")

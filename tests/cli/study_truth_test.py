@@ -32,12 +32,12 @@ class Truth(ProgramTest):
 
     def expect_no_truth(self, study: dict, why: str) -> None:
         self.assertRegex(study["references"]["picture"]["none"], why)
-        self.assertTrue([line for line in study["verdict"] if line.startswith("there is no truth about the pictures: ")])
+        self.assertTrue([line for line in study["verdict"] if line.startswith("no reference for the pictures: ")])
         self.assertFalse([line for line in study["verdict"] if "cheapest" in line or "equal error" in line])
         for point in study["points"]:
             self.assertIsNone(point["all"]["picture"]["rmse"])
             self.assertTrue(point["hollow"])
-        self.assertRegex(self.words, "there is no truth about the pictures: .*" + why)
+        self.assertRegex(self.words, "no reference for the pictures: .*" + why)
         self.assertIn("Reference of the pictures</dt><dd>none: ", self.page())
 
 
@@ -79,30 +79,30 @@ class OwnError(Truth):
     def test_a_cycle_that_only_even_steps_hide_is_found(self):
         two = scene("float x = 0.25; for (int k = 0; k < N; ++k) x = 0.125 / x;", "#define N 2")
         self.expect_no_truth(self.study(two, "--vary", "N=2,4,8"),
-                             r"it does not settle: N = 8 and N = 16 show the same, but N = \d+ is 0\.25 from it")
+                             r"it does not converge: N = 8 and N = 16 show the same, but N = \d+ differs by 0\.25")
 
     def test_so_is_one_of_any_length(self):
         for length in (3, 5, 7):
             cycle = scene(f"float x = 0.25 + 0.5 * float(N % {length} == 0);", f"#define N {length}")
             study = self.study(cycle, "--vary", f"N={length},{2 * length},{4 * length}")
-            self.assertIn("it does not settle: ", study["references"]["picture"]["none"])
+            self.assertIn("it does not converge: ", study["references"]["picture"]["none"])
 
     def test_a_loop_that_is_capped_is_not_certain(self):
         study = self.study(sum_of("1.0 / (f * f)", "min(N, 64)"), "--vary", "N=8,16,32,64")
         reference = study["references"]["picture"]
         self.assertGreater(reference["uncertainty"], 0.8 / 64)
-        self.assertIn("had it gone on instead of ending there", reference["self_check"])
+        self.assertIn("if only a limit stopped it", reference["self_check"])
         strictest = {point["label"]: point for point in study["points"]}["N = 64"]
         self.assertTrue(strictest["hollow"])
 
     def test_nothing_to_go_on_is_no_truth(self):
         text = scene("float x = FINE ? 0.25 : 0.5;", "#define FINE false")
         self.expect_no_truth(self.study(text, "--vary", "FINE=false,true"),
-                             "no knob of the study is a number that could go on")
+                             "no knob of the study is a number that can be made stricter")
         study = self.study(text, "--vary", "FINE=false,true", "--reference", "FINE=true")
         self.assertIsNone(study["references"]["picture"]["uncertainty"])
         self.assertEqual(study["points"][0]["all"]["picture"]["rmse"], 0.25)
-        self.assertEqual(study["verdict"][0], "no verdict on PSNR >= 50 dB: the truth's own error is unknown")
+        self.assertEqual(study["verdict"][0], "no verdict on PSNR >= 50 dB: the reference's own error is unknown")
 
 
 class NotANumber(Truth):
@@ -120,7 +120,7 @@ class NotANumber(Truth):
             self.assertAlmostEqual(mine["rmse"] / whole["rmse"], 1, places=4)
             self.assertAlmostEqual(mine["psnr_db"], whole["psnr_db"], places=3)
             self.assertEqual((mine["no_truth_pixels"], mine["non_finite_pixels"]), (18, 18))
-        self.assertIn("the truth about the pictures is NaN or infinite in 18 pixels, whose error is unknown",
+        self.assertIn("the reference for the pictures is NaN or infinite in 18 pixels, whose error is unknown",
                       study["verdict"])
         self.assertIn("is NaN or infinite in 18 pixels", self.words)
         self.assertIn("It is NaN or infinite in 18 pixels", self.page())
@@ -157,7 +157,7 @@ class WhatIsKnown(Truth):
     def test_a_knob_that_does_nothing_is_named_and_gives_no_verdict(self):
         study = self.study(scene("float x = p.x / 16.0;", "#define FOO 1"), "--vary", "FOO=1,2,4,8")
         self.assertEqual(study["idle"], [{"knob": "FOO", "series": "FOO"}])
-        self.assertEqual(study["verdict"][0], "FOO changes nothing here: the scene shows the same to the bit at all its values")
+        self.assertEqual(study["verdict"][0], "FOO changes nothing here: the scene shows the same picture, bit for bit, at all its values")
         self.assertFalse([line for line in study["verdict"] if "cheapest" in line or "equal error" in line])
         self.assertTrue(all(point["idle"] for point in study["points"][1:]))
         self.assertIn("FOO changes nothing here", self.words)
@@ -195,7 +195,7 @@ class WhatIsKnown(Truth):
         geometric = scene("float x = 0.0; float y = 0.5; for (int k = 0; k < N; ++k) { x += y; y *= 0.5; }", "#define N 1")
         observed, = self.study(geometric, "--vary", "N=1,2,4,8")["orders"]
         self.assertIsNone(observed["order"])
-        self.assertRegex(observed["fit"], r"no one power: between neighbours it is \d\.\d\d to \d\.\d\d")
+        self.assertRegex(observed["fit"], r"no single power: between neighbouring points it is \d\.\d\d to \d\.\d\d")
         self.assertNotIn("observed order", self.words)
         observed, = self.study(sum_of("1.0 / f"), "--vary", "N=4,8,16,32")["orders"]
         self.assertIsNone(observed["order"])
@@ -206,7 +206,7 @@ class WhatIsKnown(Truth):
                      "#define STEPS 4\n#define EPS 0.01\n#iUniform float gain = 0.5\n#define NAME x")
         study = self.study(text, "--vary", "STEPS=4,8,16")
         self.assertEqual(study["held"], {"EPS": "0.01", "gain": "0.5"})
-        self.assertIn("held fixed, in the truth too, so that no figure tells what it costs: EPS = 0.01, gain = 0.5\n",
+        self.assertIn("held fixed, also in the reference, so its error is not measured: EPS = 0.01, gain = 0.5\n",
                       self.words)
         self.assertIn("<dt>Held fixed</dt><dd>EPS = 0.01, gain = 0.5.", self.page())
         self.assertEqual(self.study(text, "--vary", "STEPS=4,8,16", "--vary", "EPS=0.1,0.05")["held"], {"gain": "0.5"})
@@ -253,7 +253,7 @@ class Proved(Truth):
     def test_without_a_march_that_is_found_the_reason_is_said(self):
         study = self.study("#define N 4\nvoid mainHit(out vec4 hit, in vec2 p) { hit = vec4(1.0 / float(N), 1.0, 0.0, 0.0); }\n"
                            "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0 / float(N)); }\n", "--vary", "N=4,8,16")
-        said = "no proof holds the hits: no loop of Image is found to march along a ray"
+        said = "the hits are not proved: no ray-marching loop found in Image"
         self.assertIn(said, self.words)
         self.assertTrue([remark for remark in study["remarks"] if remark.startswith(said)])
         self.assertIn(said, self.page())

@@ -152,23 +152,20 @@ class Trace(ProgramTest):
     def test_errors_say_what_to_do(self):
         self.fails(2, "tidemark: error: --pixel 16,3: give x,y from the bottom left, within 16x16\n", MARCH,
                    pixel="16,3")
-        self.fails(2, "tidemark: error: --line 9: nothing is computed on that line of scene.glsl; the nearest that "
-                      "computes: 8, 10\n", MARCH, "--line", "9")
+        self.fails(2, "tidemark: error: --line 9: that line of scene.glsl computes nothing; the nearest line that does: 8, 10\n", MARCH, "--line", "9")
         self.fails(2, "tidemark: error: --line none: give a line from 1, or FILE:LINE\n", MARCH, "--line", "none")
-        self.fails(2, "tidemark: error: --line other.glsl:3: the pass has no code from that file; from scene.glsl it "
-                      "has\n", MARCH, "--line", "other.glsl:3")
+        self.fails(2, "tidemark: error: --line other.glsl:3: the pass has no code from that file; it has code from scene.glsl\n", MARCH, "--line", "other.glsl:3")
         self.fails(2, "tidemark: error: --turns 5-2: give a turn of the loop from 1, or a range, as in 4-20\n", MARCH,
                    "--line", "11", "--turns", "5-2")
         self.fails(2, "tidemark: error: trace looks at one frame: give --frame N or --time T\n", MARCH, "--frames",
                    "0-3")
-        self.fails(3, "scene.glsl:2: error: the pixel reads a texture here that is not at hand: of the frame before, or "
-                      "too large, or by textureGather or textureQueryLod\n",
+        self.fails(3, "scene.glsl:2: error: cannot evaluate this texture read: the texture is of the previous frame or too large, or the read is textureGather or textureQueryLod\n",
                    "void mainImage(out vec4 c, in vec2 p) {\n    c = textureGather(iChannel0, p);\n}\n")
         run = self.trace(MARCH, "--pass", "Buffer Z")
         self.assertEqual(run.returncode, 2)
         self.assertIn("Buffer Z", run.stderr)
 
-    def test_a_look_up_that_nobody_uses_does_not_matter(self):
+    def test_an_unused_look_up_does_not_matter(self):
         report = self.report("void mainImage(out vec4 c, in vec2 p) {\n    vec4 unused = texture(iChannel1, p);\n"
                              "    c = vec4(0.5);\n}\n")
         self.assertTrue(report["colour"]["as_drawn"], report["colour"])

@@ -320,7 +320,7 @@ TEST_F(ChangedTest, a_renderer_of_a_changed_scene_goes_on_from_what_buffers_hold
 }
 
 /// Everything at once, in any order.
-TEST_F(ChangedTest, whatever_happens_nobody_can_tell) {
+TEST_F(ChangedTest, pictures_are_the_same_with_and_without_it) {
     open({{"common.glsl", "vec4 at(sampler2D s, vec2 p) { return texelFetch(s, ivec2(p), 0); }\n"},
           {"buffer_a.glsl", "#iChannel0 \"buffer_c.glsl\"\n#iUniform float knob = 0.5 in { 0.0, 1.0 }\n"
                             "void mainImage(out vec4 c, in vec2 p) { c = at(iChannel0, p) + knob; }"},

@@ -68,7 +68,7 @@ TEST_F(Misjudged, another_pixel_is_named) {
     EXPECT_THAT(judged(R"("frames": [{"pixels": [[1, 0, [255, 254, 255]]]}])"),
                 testing::HasSubstr("pixel 1,0 channel 1 is 255, not 254 (in frame 0)"));
     EXPECT_THAT(judged(R"("frames": [{"frame": "x"}])"), testing::HasSubstr("expected.json"));
-    EXPECT_THAT(judged(R"("frames": [])"), testing::HasSubstr("expects nothing"));
+    EXPECT_THAT(judged(R"("frames": [])"), testing::HasSubstr("states no expected pixels or sound"));
 }
 
 } // namespace tidemark::render::conformance_gl_test

@@ -87,7 +87,7 @@ TEST(CutPlaces, what_is_computed_once_a_pixel_shows_the_same) {
     auto found = find_cuts(scene, default_views(), k_extent, [] { return true; });
     ASSERT_TRUE(found);
     std::erase_if(found->cuts, [](const glsl::Cut& cut) {
-        return cut.change.reason.find("once a pixel") == std::string::npos;
+        return cut.change.reason.find("once per pixel") == std::string::npos;
     });
     ASSERT_EQ(found->cuts.size(), 1U);
     auto bench = CutBench::create(scene, k_extent, default_views());

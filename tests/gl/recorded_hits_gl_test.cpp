@@ -1,9 +1,9 @@
 // What the first march of a pixel does, recorded on the device: as evaluated from the text, with the picture
 // of the plain text to the bit.
 #include "gl_test.hpp"
-#include "shader/survey.hpp"
 #include "lab/hits.hpp"
 #include "lab/march_hits.hpp"
+#include "shader/survey.hpp"
 #include "support/scene_of.hpp"
 
 #include <fmt/format.h>
@@ -125,17 +125,17 @@ TEST(RecordedHits, do_not_see_below_where_the_march_waits_for_it) {
     EXPECT_EQ(count(of.hits, glsl::k_hit_negative), 0u);
 }
 
-TEST(RecordedHits, are_refused_where_nobody_is_sure) {
+TEST(RecordedHits, are_refused_if_not_certain) {
     const scene::Scene flat = scene_of("void mainImage(out vec4 c, in vec2 f) { c = vec4(1.0); }\n");
     const auto function = PassFunction::create(flat, flat.image());
     ASSERT_TRUE(function);
     const auto recording = record_hits(flat, *function);
     ASSERT_FALSE(recording);
-    EXPECT_EQ(recording.error().message, "no loop of Image is found to march along a ray");
+    EXPECT_EQ(recording.error().message, "no ray-marching loop found in Image");
     EXPECT_EQ(refusal_of({.rays = 100, .agree = 50}),
-              "of 100 rays only 50 are recorded as they are computed from the text");
+              "of 100 recorded rays only 50 agree with those computed from the text");
     EXPECT_EQ(refusal_of({.rays = 100, .agree = 100, .other_pixels = 3}),
-              "the text that records draws 3 other pixels");
+              "the instrumented text changes 3 pixels");
     EXPECT_EQ(refusal_of({.rays = 100, .textured = 100}), "");
 }
 

@@ -41,7 +41,7 @@ class Compile(LiveTest):
 
     def begin_to_compile(self, view: View, mark: int) -> None:
         self.write("a.glsl", heavy(mark))
-        view.wait_for_title(r"\Aa - tidemark - compiling… \d+ s, Esc gives up\Z")
+        view.wait_for_title(r"\Aa - tidemark - compiling… \d+ s, Esc cancels\Z")
 
     def test_the_last_good_picture_goes_on_until_the_new_one_is_ready(self):
         view = self.start()
@@ -72,7 +72,7 @@ class Compile(LiveTest):
             view.wait_for_title("has no mainImage")
         self.write("a.glsl", marked(6))
         view.wait_until_told(VALUES, lambda told: told["mark"] == 6)
-        view.wait_for_words(r"^a\.glsl: good again$")
+        view.wait_for_words(r"^a\.glsl: compiles again$")
 
     def test_the_window_can_be_closed_before_the_first_picture(self):
         self.write("a.glsl", heavy(1))

@@ -36,7 +36,7 @@ class Edge(LiveTest):
         view.wait_for_words(words)
         view.wait_for_title(words)
         self.write("wave.glsl", GOOD.replace("0.0, 0.0", "0.5, 0.5"))
-        view.wait_for_words("good again")
+        view.wait_for_words("compiles again")
         view.wait_for_title(" fps$")
 
     def test_a_crash_and_too_much_memory_are_errors_like_others(self):

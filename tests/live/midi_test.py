@@ -49,11 +49,11 @@ class Midi(OverlayTest):
         view = self.midi_view(*options)
         view.show_controls()
         self.move(7, 100)
-        view.wait_for_words(r"^MIDI: controller 7 turns nothing: click with the right button on a knob's name in the "
-                            r"controls \(Tab\), and move it$")
+        view.wait_for_words(r"^MIDI: controller 7 controls nothing: right-click a knob's name in the "
+                            r"controls \(Tab\), then move the controller$")
         self.learn(view, HEIGHT)
         self.move(7, 127)
-        view.wait_for_words("^MIDI: controller 7 turns height$")
+        view.wait_for_words("^MIDI: controller 7 controls height$")
         view.wait_until_told(VALUES, lambda told: told["height"] == 2)
         self.learn(view, TINT, entry=1)
         self.move(8, 0)
@@ -72,7 +72,7 @@ class Midi(OverlayTest):
         view.wait_for_title("fps|still")
         self.learn(view, HEIGHT, entry=1)  # forget
         self.move(7, 0)
-        view.wait_for_words("^MIDI: controller 7 turns nothing")
+        view.wait_for_words("^MIDI: controller 7 controls nothing")
         self.assertEqual(view.told(VALUES)["height"], 2)
 
     def test_recorded_run_replays_to_the_same_bytes(self):
@@ -91,7 +91,7 @@ class Midi(OverlayTest):
     def test_a_recording_of_bytes_is_a_device_that_ends(self):
         (self.folder / "bytes").write_bytes(bytes([0xB0, 3, 1]))
         view = self.open("a.glsl", *SIZE, "--midi", "./bytes")
-        view.wait_for_words("^MIDI: controller 3 turns nothing")
+        view.wait_for_words("^MIDI: controller 3 controls nothing")
         view.save()
 
     def test_where_there_is_none(self):

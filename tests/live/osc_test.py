@@ -76,7 +76,7 @@ class Osc(LiveTest):
             "OSC: the scene has no knob 'hieght': did you mean 'height'?",
             "OSC: tint (color3) has no component 'w'",
             "OSC: 'much' is no value for height (float): give a number",
-            "OSC: '/fader/1' means nothing here: send /knob/NAME, /time or /play",
+            "OSC: unknown address '/fader/1': send /knob/NAME, /time or /play",
             "OSC: /time takes one number of seconds, 0 or more",
             "OSC: ignored: a packet that is not OSC",
         ])

@@ -27,7 +27,7 @@ class Errors(OverlayTest):
             with self.subTest(size=size, scale=scale):
                 view = self.open_bad(size, scale)
                 self.write("a.glsl", GOOD)
-                view.wait_for_words("^a.glsl: good$")
+                view.wait_for_words("^a.glsl: compiles$")
                 wait_for(lambda: len(set(view.picture())) == 1, "a picture with nothing over it")
                 self.write("a.glsl", BAD)
                 wait_for(lambda: has_errors(view), "the panel over the last good picture")

@@ -94,8 +94,8 @@ class Knobs(OverlayTest):
         view.wait_until_told(VALUES, lambda told: told["height"] == 2 and told["free"] == 3)
         self.write("a.glsl", SCENE.replace("height = 0.5", "height = 0.7").replace("free = 12.0", "free = 13.0"))
         view.wait_until_told(VALUES, lambda told: told["free"] == 13 and told["height"] == 2)
-        view.wait_for_words(r"^height stays 2 as it was turned; the file's default is now 0\.7$")
-        view.wait_for_words(r"^free is 13 now, as the file says: --set free=3 is over$")
+        view.wait_for_words(r"^height stays 2, as you set it; the file's default is now 0\.7$")
+        view.wait_for_words(r"^free is now 13, from the file; --set free=3 no longer applies$")
 
     def test_a_thousand_moves_are_replayed_to_the_same_bytes(self):
         view = self.open_controls(SCENE, "--record", "take.txt", "--fps", "30")

@@ -138,7 +138,7 @@ class Record(LiveTest):
                 self.drag_once(view, paused)
                 screen.server.kill()
                 self.assertEqual(view.wait_for_end(), 77)
-                self.assertTrue(view.stderr().endswith("tidemark: error: the display is gone\n"), view.stderr())
+                self.assertTrue(view.stderr().endswith("tidemark: error: the connection to the display is lost\n"), view.stderr())
                 self.assertRegex((self.folder / f"{paused}.txt").read_text(), r"(?m)^\d+ press left 100 50$")
 
     def test_a_window_that_another_program_destroys_leaves_what_was_recorded(self):

@@ -104,7 +104,7 @@ class Broken(ReloadTest):
         self.expect_mark(view, 1)
         self.assertEqual(view.stderr().count("does not compile"), 1)
         self.write("a.glsl", marked(2))
-        view.wait_for_words(r"^a\.glsl: good again$")
+        view.wait_for_words(r"^a\.glsl: compiles again$")
         view.wait_for_title(r"\Aa - tidemark - (\d+ fps|still)\Z")
         self.expect_mark(view, 2)
 
@@ -124,7 +124,7 @@ class Broken(ReloadTest):
         view.wait_for_title(r"\Alib/b\.glsl:3(:20)?: error: ")
         self.expect_mark(view, 1)
         self.write("lib/b.glsl", "#define MARK 2.0\n")
-        view.wait_for_words(r"^a\.glsl: good again$")
+        view.wait_for_words(r"^a\.glsl: compiles again$")
         self.expect_mark(view, 2)
 
     def test_include_that_is_missing_may_come_later(self):
@@ -217,7 +217,7 @@ class MiddleOfASave(ReloadTest):
         view.wait_for_words(r"^tidemark: error: cannot read 'a\.glsl': no such file$")
         self.expect_mark(view, 1)
         self.write("a.glsl", marked(2))
-        view.wait_for_words(r"^a\.glsl: good again$")
+        view.wait_for_words(r"^a\.glsl: compiles again$")
         self.expect_mark(view, 2)
 
 
@@ -265,8 +265,8 @@ class Survives(ReloadTest):
             told = view.wait_until_told(self.HELD, lambda told: told["mark"] == mark)
             self.assertEqual((round(told["level"], 6), told["steps"]), (wanted, 7))
         said = [line for line in view.stderr().splitlines() if " stays " in line or " is over" in line]
-        self.assertEqual(said, ["level is 0.7 now, as the file says: --set level=0.5 is over",
-                                "STEPS stays 7.0 as --define says; the file's definition is now 4.0"])
+        self.assertEqual(said, ["level is now 0.7, from the file; --set level=0.5 no longer applies",
+                                "STEPS stays 7.0 because of --define; the file's definition is now 4.0"])
 
     def test_a_set_waits_for_a_knob_that_is_gone(self):
         view = self.start("--set", "level=0.5", "--define", "STEPS=7.0", scene=self.held_scene(1, "0.2", "3.0"))

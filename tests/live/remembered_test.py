@@ -50,7 +50,7 @@ class Remembered(OverlayTest):
             with self.subTest(scale=scale):
                 left = self.leave_something(scale)
                 view = self.again(scale=scale)
-                view.wait_for_words(r"^as you left it: height = 2, camera [^ ]*, 42\.000 s, \d views?; --fresh starts anew$")
+                view.wait_for_words(r"^restored: height = 2, camera [^ ]*, 42\.000 s, \d views?; --fresh starts anew$")
                 told = view.wait_until_told(VALUES, lambda told: told["time"] > 42)
                 self.assertLess(told["time"], 100)
                 self.assertEqual({**told, "time": 0, "mouse": 0}, {**left, "time": 0, "mouse": 0})
@@ -72,7 +72,7 @@ class Remembered(OverlayTest):
         self.write("a.glsl", probe.shader(values, '#iChannel0 "count.glsl"'))
         self.leave(self.again())
         view = self.again()
-        view.wait_for_words("^it begins at 0 s: the scene reads its own last frame$")
+        view.wait_for_words("^starting at 0 s: the scene reads its own last frame$")
         told = view.told(values)
         self.assertEqual(told["count"], told["frame"] + 1)
 
@@ -82,7 +82,7 @@ class Remembered(OverlayTest):
         told = view.told(VALUES)
         self.assertEqual((told["height"], told["wide"]), (0.5, 640))
         self.assertLess(told["time"], 40)
-        self.assertNotIn("as you left it", view.stderr())
+        self.assertNotIn("restored", view.stderr())
 
     def test_nothing_deterministic_changes(self):
         self.leave_something()
@@ -103,7 +103,7 @@ class Remembered(OverlayTest):
                 self.file().write_text(text)
                 view = self.again()
                 self.assertEqual(view.told(VALUES)["height"], 0.5)
-                view.wait_for_words(r"^how you left it is not to be read from '.*': it starts anew$")
+                view.wait_for_words(r"^cannot read the last window's state from '.*': the window starts anew$")
                 view.close()
 
 

@@ -27,7 +27,7 @@ class Reset(LiveTest):
         """Some eight seconds after the start, at 60 frames a second."""
         view = self.struck(500, "--set", "height=1.5")
         view.wait_for_words(f"^{RESET}the window is opened again$")
-        left = view.wait_for_words(r"^as you left it: (?:.*, )?(\d+\.\d+) s; --fresh starts anew$")
+        left = view.wait_for_words(r"^restored: (?:.*, )?(\d+\.\d+) s; --fresh starts anew$")
         view.wait_for_window(r" fps$")
         told = view.told(VALUES)
         self.assertGreaterEqual(told["time"], float(left.group(1)))

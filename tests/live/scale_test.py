@@ -88,7 +88,7 @@ class Scale(LiveTest):
         self.write("mouse.glsl", probe.shader(MOUSE | SIZE))
         view = self.view("mouse.glsl", "--size", "500x260", "--scale", "1/2", "--record", "take.txt")
         view.key("equal")
-        view.wait_for_words("^a recording has its places in pixels: the scale stays$")
+        view.wait_for_words("^the scale cannot change during a replay: mouse positions are recorded in pixels$")
         view.drag((50, 40), (120, 90))
         view.wait_until_told(MOUSE, lambda told: told["iMouse.x"] == 60 and told["iMouse.z"] < 0)
         saved = view.save()
@@ -108,7 +108,7 @@ class Scale(LiveTest):
         view.key("Escape")
         self.assertEqual(view.wait_for_end(), 0)
         view = self.view("size.glsl", **state)
-        view.wait_for_words(r"^as you left it: .*scale 1/2; --fresh starts anew$")
+        view.wait_for_words(r"^restored: .*scale 1/2; --fresh starts anew$")
         view.wait_until_told(SIZE, lambda told: list(told.values()) == [200, 100])
         view.close()
         view = self.view("size.glsl", "--scale", "2", **state)
@@ -119,16 +119,16 @@ class Scale(LiveTest):
         self.write("slow.glsl", "void mainImage(out vec4 c, in vec2 p) { float x = iTime; for (int i = 0; i < 300; ++i) "
                                 "x = sin(x + p.x); c = vec4(x); }\n")
         view = self.view("slow.glsl", "--size", "640x360", "--adaptive", "1000", "--plain")
-        view.wait_for_words("^the scale holds 1000 fps$")
+        view.wait_for_words("^adaptive scale is on: it aims at 1000 fps$")
         view.wait_for_title(", scale 1/[248]$")
         view.key("a")
-        view.wait_for_words("^the scale stays at 1/[248]$")
+        view.wait_for_words("^adaptive scale is off: the scale stays at 1/[248]$")
         view.close()
         self.write("quick.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract(iTime)); }\n")
         view = self.view("quick.glsl", "--size", "64x32", "--adaptive", "1", "--scale", "1/8", "--plain")
         view.wait_for_title(", scale 2$")
         view.key("minus")  # what somebody chooses stays
-        view.wait_for_words("^the scale stays at 2$")
+        view.wait_for_words("^adaptive scale is off: the scale stays at 2$")
         view.wait_for_title(" fps$")
 
     def test_there_are_five(self):

@@ -67,16 +67,16 @@ class SlowFrame(LiveTest):
     def test_the_clock_goes_on_in_the_title(self):
         view = self.start()
         earlier = view.wait_for_title(r"\Aa - tidemark - drawing (\d+\.\d) s, \d+ %")
-        later = view.wait_for_title(r"\Aa - tidemark - drawing (\d+\.\d) s, \d+ %, Esc gives up\Z")
+        later = view.wait_for_title(r"\Aa - tidemark - drawing (\d+\.\d) s, \d+ %, Esc cancels\Z")
         self.assertGreater(float(later[1]), float(earlier[1]))
 
     def test_escape_gives_up_and_the_window_stays(self):
         view = self.start()
-        view.wait_for_title(", Esc gives up")
+        view.wait_for_title(", Esc cancels")
         self.screen.xdotool("key", "Escape", "Escape", "Escape")
-        view.wait_for_words(r"^a\.glsl: given up, after \d+\.\d s, \d+ % drawn: it goes on with space, smaller with -, or "
-                            r"when a file of it is saved; Esc again closes the window$")
-        view.wait_for_title(r"\Aa - tidemark - given up, space goes on\Z")
+        view.wait_for_words(r"^a\.glsl: frame cancelled, after \d+\.\d s, \d+ % drawn: press space to continue, - to draw smaller, "
+                            r"or save a file of it; Esc again closes the window$")
+        view.wait_for_title(r"\Aa - tidemark - cancelled, space continues\Z")
         view.key("minus")
         view.wait_for_title(r" - drawing .*, scale 1/2\Z")
         self.wait_for_a_frame(view)
@@ -87,7 +87,7 @@ class SlowFrame(LiveTest):
         view.key("space")
         self.wait_for_the_paused_frame(view)
         view.key("n")
-        view.wait_for_words("^marks rest while a frame takes more than a second$")
+        view.wait_for_words("^marks are off while a frame takes more than a second$")
 
     def test_another_size_begins_the_frame_anew(self):
         view = self.start()
@@ -108,9 +108,9 @@ class SlowFrame(LiveTest):
     def test_a_frame_that_is_given_up_is_none(self):
         view = self.start_counting()
         self.wait_for_a_frame(view)
-        view.wait_for_title(", Esc gives up")
+        view.wait_for_title(", Esc cancels")
         view.key("Escape")
-        view.wait_for_title(" - given up, ")
+        view.wait_for_title(" - cancelled, ")
         self.assertEqual(view.told(COUNTED), {"count": 1, "frame": 0})
         view.key("space")
         self.wait_for_a_frame(view)
@@ -122,7 +122,7 @@ class SlowFrame(LiveTest):
         self.addCleanup(client.close)
         self.wait_for_a_frame(view)
         client.send("/time", 1000.0)
-        view.wait_for_title(r" - stepping to frame 59999, Esc gives up\Z")
+        view.wait_for_title(r" - stepping to frame 59999, Esc cancels\Z")
         view.key("h")
         view.wait_for_words("full screen; help")
         view.key("Escape")
@@ -140,7 +140,7 @@ class SlowFrame(LiveTest):
         earlier = float(view.wait_for_title(r" - drawing (\d+\.\d) s, ")[1])
         wait_for(lambda: float(view.wait_for_title(r" - drawing (\d+\.\d) s, ")[1]) > earlier + 5, "the clock to go on")
         view.key("Escape")
-        view.wait_for_words("^the driver cannot be stopped: what it is at ends by itself$")
+        view.wait_for_words("^the driver cannot be stopped: its current work ends by itself$")
         while view.program.poll() is None:
             view.key("Escape")
         self.assertEqual(view.wait_for_end(), 0)
@@ -153,12 +153,11 @@ class SlowFrame(LiveTest):
                      "    c = vec4(p.y > 80.0 ? endless(p.x) : slow(p.x));\n}\n")
         view = View(self.screen, self.folder, "a.glsl", *SIZE, "--plain", first_title=" - drawing ")
         self.addCleanup(view.close)
-        view.wait_for_words(r"^a\.glsl: \d+x\d+ pixels of Image from \d+,\d+ on take more than 2 s: a very long loop, or one "
-                            r"that never ends; Esc gives the frame up, - draws smaller$")
+        view.wait_for_words(r"^a\.glsl: \d+x\d+ pixels of Image from \d+,\d+ on take more than 2 s: a very long or endless loop; Esc cancels the frame, - draws smaller$")
         view.wait_for_title(r" - drawing ([3-9]|\d\d+)\.\d s, ")
         view.key("Escape")
-        view.wait_for_words("^the driver cannot be stopped: what it is at ends by itself$")
-        view.wait_for_title(r"\Aa - tidemark - given up, the driver ends it: \d+ s\Z")
+        view.wait_for_words("^the driver cannot be stopped: its current work ends by itself$")
+        view.wait_for_title(r"\Aa - tidemark - cancelled, waiting for the driver: \d+ s\Z")
         while view.program.poll() is None:  # one right behind the first is taken for the same
             view.key("Escape")
         self.assertEqual(view.wait_for_end(), 0)

@@ -70,13 +70,13 @@ class Sound(LiveTest):
         self.write("s/sound.glsl", sound(-0.5))
         wait_for(lambda: abs((self.samples()[1] or [0])[-1] + 0.5) < 1e-3, "the new sound")
         self.write("s/sound.glsl", "vec2 mainSound(int samp, float t) { return nothing; }\n")
-        view.wait_for_words(r"^the scene's sound is not heard: tidemark: error: 's' does not compile\n"
+        view.wait_for_words(r"^no sound: tidemark: error: 's' does not compile\n"
                             r"s/sound\.glsl:1(:44)?: error: ")
         view.wait_for_title(r" (fps|still)\Z")  # the picture goes on
 
     def test_no_device_is_one_line(self):
         view = self.start(device=False)
-        view.wait_for_words(r"\Athe scene's sound is not heard: tidemark: error: there is no sound device "
+        view.wait_for_words(r"\Ano sound: tidemark: error: there is no sound device "
                             r"\(ALSA says: .+\)\n\Z")
         view.key("Escape")
         self.assertEqual(view.wait_for_end(), 0)

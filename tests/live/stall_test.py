@@ -41,20 +41,20 @@ class Stall(LiveTest):
         view = self.start()
         self.hold(view, 2, rounds)
         self.screen.xdotool("key", "Escape", "Escape", "Escape")
-        view.wait_for_words(r"^a\.glsl: given up, (a frame takes \d+\.\d s|after \d+\.\d s, \d+ % drawn): it goes on with "
-                            r"space, smaller with -, or when a file of it is saved; Esc again closes the window$")
-        view.wait_for_title(r"\Aa - tidemark - given up, space goes on\Z")
+        view.wait_for_words(r"^a\.glsl: frame cancelled, (a frame takes \d+\.\d s|after \d+\.\d s, \d+ % drawn): press "
+                            r"space to continue, - to draw smaller, or save a file of it; Esc again closes the window$")
+        view.wait_for_title(r"\Aa - tidemark - cancelled, space continues\Z")
         self.write("a.glsl", marked(3))
         view.wait_until_told(VALUES, lambda told: told["mark"] == 3)
         view.wait_for_title(r"\Aa - tidemark - (\d+ fps|still)\Z")
         self.hold(view, 4, rounds)
         view.key("Escape")
-        view.wait_for_title(r" - given up, ")
+        view.wait_for_title(r" - cancelled, ")
         view.key("space")
         view.wait_for_title(r" fps\Z")
         view.key("Escape")
-        view.wait_for_words(r"(given up, (.|\n)*){3}")
-        view.wait_for_title(r" - given up, ")
+        view.wait_for_words(r"(frame cancelled, (.|\n)*){3}")
+        view.wait_for_title(r" - cancelled, ")
         self.quit(view)
 
     def test_a_mended_text_is_taken_at_once_and_other_keys_are_meant(self):

@@ -29,12 +29,12 @@ class Wait(LiveTest):
         self.write("a.glsl", BROKEN)
         view = self.wait("a.glsl", r"\Awaiting: a\.glsl:4(:9)?: error: .")
         view.wait_for_words(r"^tidemark: error: 'a\.glsl' does not compile\na\.glsl:4(:9)?: error: .*\n"
-                            r"(a\.glsl:.*\n)*waiting for a\.glsl: it is drawn as soon as a save mends it$")
+                            r"(a\.glsl:.*\n)*waiting for a\.glsl: loads once the error is fixed and saved$")
         self.write("a.glsl", "\n" + BROKEN)
         view.wait_for_title(r"\Awaiting: a\.glsl:5(:9)?: error: ")
         self.write("a.glsl", marked(2))
         self.expect_mark(view, 2)
-        view.wait_for_words(r"^a\.glsl: good$")
+        view.wait_for_words(r"^a\.glsl: compiles$")
         view.wait_for_title(r"\Aa - tidemark - (\d+ fps|still)\Z")
         self.assertEqual(view.stderr().count("waiting for"), 1)
 

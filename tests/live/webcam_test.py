@@ -52,7 +52,7 @@ class Webcam(LiveTest):
 
     def test_a_recording_says_that_it_has_nothing_of_it(self):
         view = self.view("a.glsl", *SIZE, "--webcam", "camera.mkv", "--record", "take.txt")
-        view.wait_for_words("^the recording has nothing of what the webcam sees: a replay has a stand-in$")
+        view.wait_for_words("^the webcam is not recorded: a replay has a placeholder picture$")
 
     def test_a_pipe_without_a_writer_can_be_interrupted(self):
         os.mkfifo(self.folder / "camera")

@@ -67,10 +67,10 @@ class Figure {
         if (!gl)
             throw new SceneError("This browser has no WebGL 2: it cannot draw the scene.");
         if (!gl.getExtension("EXT_color_buffer_float"))
-            throw new SceneError("This browser's WebGL draws no floats: it cannot draw the scene.");
+            throw new SceneError("This browser's WebGL cannot draw into float textures: it cannot draw the scene.");
         gl.disable(gl.DITHER);
         this.canvas.addEventListener("webglcontextlost",
-                                     () => this.fail("The graphics driver gave up. Load the page anew."));
+                                     () => this.fail("The graphics driver was reset. Reload the page."));
         const inputs = await Promise.all(this.scene.inputs.map(input => this.#goOnWithout(
             decodeInput(input), {kind: input.kind === "music" ? "silence" : "none"})));
         const textures = new InputTextures(gl, inputs);

@@ -32,7 +32,7 @@ function decodePicture(input) {
 async function decodeMusic(input) {
     const context = new OfflineAudioContext(2, 1, SAMPLE_RATE);
     const sound = await context.decodeAudioData(bytesOf(input.data).buffer)
-        .catch(() => { throw new SceneError("this browser does not play the scene's sound file"); });
+        .catch(() => { throw new SceneError("this browser cannot play the scene's sound file"); });
     return {sound, spectrum: new Spectrum(mixedDown(sound))};
 }
 
@@ -41,7 +41,7 @@ function openVideo(input) {
     const video = Object.assign(document.createElement("video"), {muted: true, loop: true, playsInline: true});
     return new Promise((resolve, reject) => {
         video.onloadeddata = () => resolve(video);
-        video.onerror = () => reject(new SceneError("this browser does not play the scene's video"));
+        video.onerror = () => reject(new SceneError("this browser cannot play the scene's video"));
         video.src = URL.createObjectURL(new Blob([bytesOf(input.data)]));
     });
 }

@@ -163,7 +163,7 @@ void Connection::start() {
 void Connection::answer() {
     const auto& request = request_->get();
     if (request.method() != http::verb::get)
-        return respond(http::status::method_not_allowed, "only GET is answered\n");
+        return respond(http::status::method_not_allowed, "only GET is supported\n");
     const Knock knock{.target = view_of(request.target()),
                       .host = view_of(request[http::field::host]),
                       .origin = view_of(request[http::field::origin]),
@@ -172,11 +172,11 @@ void Connection::answer() {
     switch (answer_to(knock, house_.settings().token)) {
     case Answer::page: return respond(http::status::ok, house_.settings().page, "text/html; charset=utf-8");
     case Answer::socket: return accept();
-    case Answer::not_found: return respond(http::status::not_found, "there is nothing here\n");
+    case Answer::not_found: return respond(http::status::not_found, "not found\n");
     case Answer::forbidden: break;
     }
     respond(http::status::forbidden,
-            "not for you: open the whole address that `tidemark serve` printed, with its token\n");
+            "access denied: open the full address printed by `tidemark serve`, including its token\n");
 }
 
 void Connection::respond(http::status status, std::string text, const char* type) {
@@ -209,7 +209,7 @@ void Connection::welcome() {
     request_.reset();
     is_guest_ = house_.guests().came(id_);
     if (!is_guest_)
-        return drop({websocket::close_code::try_again_later, "too many look already"});
+        return drop({websocket::close_code::try_again_later, "too many viewers already"});
     listen();
 }
 
@@ -226,7 +226,7 @@ void Connection::listen() {
 
 void Connection::hear(const std::string& message) {
     if (!socket_.got_text())
-        return drop({websocket::close_code::unknown_data, "a message is a text"});
+        return drop({websocket::close_code::unknown_data, "a message must be text"});
     if (auto taken = house_.guests().said(id_, message); !taken)
         drop({websocket::close_code::policy_error, taken.error().message.substr(0, k_longest_reason)});
 }

@@ -33,10 +33,10 @@ class Remote {
         this.copy = wordButton("Copy command", () => this.#press(67));
         this.camera = wordButton("Reset camera", () => this.#press(82));
         this.loop = {from: wordButton("A", () => this.#loop("from")), to: wordButton("B", () => this.#loop("to"))};
-        this.stay = wordButton("Stay here", ask("give up seek"));
+        this.stay = wordButton("Stop here", ask("give up seek"));
         this.knobs = new Knobs(link);
         this.definitions = new Definitions(link);
-        this.steer = wordButton("Steer", ask("steer"));
+        this.steer = wordButton("Take control", ask("steer"));
         this.status = element("output", {className: "tidemark-status"});
         this.notice = element("pre", {className: "tidemark-message", hidden: true});
         const more = element("div", {className: "tidemark-bar"}, this.pass.element, this.loop.from, this.loop.to, this.speed.element,
@@ -83,9 +83,9 @@ class Remote {
     }
 
     #showTime(time) {
-        for (const [end, letter, verb] of [["from", "A", "begins"], ["to", "B", "ends"]]) {
+        for (const [end, letter, verb] of [["from", "A", "start"], ["to", "B", "end"]]) {
             const at = time[end] === null ? null : `${time[end].toFixed(2)} s`;
-            const words = at === null ? `A loop of time ${verb} here` : `No loop of time that ${verb} at ${at}`;
+            const words = at === null ? `Set the ${verb} of a time loop here` : `Clear the ${verb} of the time loop at ${at}`;
             Object.assign(this.loop[end], {textContent: at === null ? letter : `${letter} ${at}`, title: words, ariaLabel: words});
         }
         offer(this.speed, SPEEDS.filter(speed => speed > 0 || time.turnsBack).map(speed => [speed, `${speed}×`]), time.speed);
@@ -143,8 +143,8 @@ class Remote {
         const {you, viewers} = this.steering ?? {you: false, viewers: 1};
         this.fields.disabled = !you;
         this.steer.hidden = you;
-        const others = viewers - 1, watch = others === 1 ? "1 other looks" : `${others} others look`;
-        this.status.textContent = [this.title, you ? others ? `you steer, ${watch}` : "" : `you watch, ${watch}`].filter(Boolean).join(" · ");
+        const others = viewers - 1, watch = others === 1 ? "1 other viewer" : `${others} other viewers`;
+        this.status.textContent = [this.title, you ? others ? `in control, ${watch}` : "" : `watching, ${watch}`].filter(Boolean).join(" · ");
     }
 
     async #copied(text) {
@@ -160,7 +160,7 @@ class Remote {
         this.steer.hidden = true;
         this.status.textContent = "";
         this.notice.hidden = false;
-        this.notice.textContent = `The connection has ended${reason ? `: ${reason}` : ""}. Load the page anew once the program runs.`;
+        this.notice.textContent = `The connection was lost${reason ? `: ${reason}` : ""}. Reload the page once the program runs again.`;
     }
 
     toggleFullScreen() {

@@ -343,7 +343,7 @@ namespace {
 
 void draw_stepping(const Stepping& stepping, Commands& commands) {
     const std::string text = fmt::format("frame {} of {}", stepping.frame, stepping.last);
-    if (ImGui::Button("Give up"))
+    if (ImGui::Button("Cancel"))
         commands.emplace_back(GiveUpSeek{});
     ImGui::SameLine();
     ImGui::ProgressBar(float(stepping.frame) / float(std::max(stepping.last, 1)), {-1, 0}, text.c_str());

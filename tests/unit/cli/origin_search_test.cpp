@@ -19,8 +19,7 @@ TEST(OriginSearch, tells_a_finite_pixel_from_no_answer) {
     EXPECT_EQ(origin_of(R"json({"ended": "given up after 60 s", "trace": null})json").message,
               "no origin was found: given up after 60 s");
     for (const char* broken : {"", "{", "[]"})
-        EXPECT_EQ(origin_of(broken).message,
-                  "the trace ended without an answer: run check --trace to see why")
+        EXPECT_EQ(origin_of(broken).message, "the trace ended without a result: run check --trace to see why")
             << broken;
 }
 

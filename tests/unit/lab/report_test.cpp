@@ -1,6 +1,7 @@
 // What is said of a study, made by hand so that the right answers are known.
 #include "lab/study_data.hpp"
 #include "lab/study_page.hpp"
+#include "lab/study_report.hpp"
 #include "lab/work_precision.hpp"
 
 #include <gmock/gmock.h>
@@ -72,7 +73,7 @@ TEST(Verdict, is_withheld_where_noise_decides) {
     for (size_t i = 0; i < 30; ++i)
         set.points[1].wall[0][i] *= i % 2 ? 0.8 : 1.25;
     EXPECT_THAT(sentences(set),
-                testing::Contains(HasSubstr("nothing is faster than the scene's defaults beyond noise")));
+                testing::Contains(HasSubstr("no setting is measurably faster than the scene's defaults")));
     set.points[1].wall[0].resize(3);
     EXPECT_EQ(speedup(set.points[0], set.points[1]), std::nullopt);
     EXPECT_THAT(sentences(set), testing::Contains(HasSubstr("no verdict at equal error")));
@@ -82,7 +83,7 @@ TEST(Verdict, says_when_nothing_is_good_enough_and_when_it_was_cut_short) {
     WorkPrecisionSet set = set_of({point(1, "defaults", 0.1, 10)});
     set.circumstances.complete = false;
     EXPECT_THAT(sentences(set),
-                ElementsAre("no setting of this study is sure to have PSNR >= 50 dB",
+                ElementsAre("no setting of this study certainly has PSNR >= 50 dB",
                             "no tested setting is cheaper than the scene's defaults without being less exact",
                             "incomplete: the study was interrupted"));
 }
@@ -96,17 +97,17 @@ TEST(Verdict, compares_no_hollow_points_and_counts_the_truths_own_error_against_
     EXPECT_THAT(sentences(set), testing::Contains(HasSubstr("hollow: at least 52.0 dB")));
     EXPECT_THAT(sentences(set),
                 testing::Contains("no verdict at equal error: the scene's defaults are too close to "
-                                  "the truth's own error to rank (hollow)"));
+                                  "the reference's own error to rank (hollow)"));
     set.picture_standard.uncertainty = 0.01;
     judge(set);
     EXPECT_EQ(cheapest_good(set), nullptr);
     set.picture_standard.uncertainty.reset();
     judge(set);
-    EXPECT_EQ(sentences(set)[0], "no verdict on PSNR >= 50 dB: the truth's own error is unknown");
+    EXPECT_EQ(sentences(set)[0], "no verdict on PSNR >= 50 dB: the reference's own error is unknown");
     set.picture_standard.none = "it does not converge";
     EXPECT_THAT(
         sentences(set),
-        ElementsAre("there is no truth about the pictures: it does not converge; --reference names one"));
+        ElementsAre("no reference for the pictures: it does not converge; give one with --reference"));
 }
 
 TEST(Verdict, never_names_a_point_that_is_idle) {
@@ -186,14 +187,14 @@ TEST(Baseline, tells_what_became_slower_or_more_wrong_and_nothing_else) {
         set_of({point(1, "defaults", 0.02, 20), point(0, "8", 0.1, 7), point(0, "16", 0.0085, 10.2)}));
     ASSERT_TRUE(changed);
     EXPECT_THAT(changed->worse,
-                ElementsAre(HasSubstr("defaults: more wrong: RMSE of the picture 0.01 -> 0.02"),
+                ElementsAre(HasSubstr("defaults: less exact: RMSE of the picture 0.01 -> 0.02"),
                             HasSubstr("8: slower: 5.1 ms -> 7.14 ms")));
 }
 
 TEST(Baseline, an_error_that_is_no_number_any_more_is_worse_and_one_that_was_none_is_told) {
     const std::string good = to_json(set_of({point(0, "8", 0.1, 5)}));
     const WorkPrecisionSet broken = set_of({point(0, "8", NAN, 5)});
-    EXPECT_THAT(compare_with(good, "old.json", broken)->worse, ElementsAre(HasSubstr("8: more wrong: ")));
+    EXPECT_THAT(compare_with(good, "old.json", broken)->worse, ElementsAre(HasSubstr("8: less exact: ")));
     const auto found = compare_with(to_json(broken), "old.json", set_of({point(0, "8", 0.1, 5)}));
     EXPECT_THAT(found->worse, ElementsAre());
     EXPECT_THAT(found->notes, ElementsAre("8: its error is not compared: the baseline has no number for it"));
@@ -217,7 +218,7 @@ TEST(Baseline, of_another_machine_or_another_study_is_told) {
     elsewhere.circumstances.renderer = "another GPU";
     const auto found = compare_with(old, "old.json", elsewhere);
     EXPECT_THAT(found->worse, ElementsAre());
-    EXPECT_THAT(found->notes, ElementsAre("times are not compared: the baseline is of another machine"));
+    EXPECT_THAT(found->notes, ElementsAre("times are not compared: the baseline is from another machine"));
     WorkPrecisionSet other = usual();
     other.study.views[0].state = render::at_time(2);
     EXPECT_EQ(compare_with(old, "old.json", other).error().message,
@@ -281,7 +282,7 @@ TEST(Clock, the_drivers_timer_is_used_where_it_agrees_with_the_wall) {
     const WorkPrecisionSet set = timed_with(0.95, asked);
     EXPECT_EQ(asked, 2u * 10);
     EXPECT_EQ(set.circumstances.clock,
-              "GPU timer, which says 0.95 to 0.95 of the wall clock around glFinish");
+              "GPU timer, which shows 0.95 to 0.95 of the wall clock around glFinish");
     EXPECT_EQ(set.points[0].all.time().median, 19);
     EXPECT_EQ(set.points[0].all.wall.median, 20);
     EXPECT_EQ(set.points[0].all.cpu.median, 40);
@@ -294,8 +295,7 @@ TEST(Clock, a_timer_that_lies_is_found_out_and_asked_no_more) {
     size_t asked = 0;
     const WorkPrecisionSet set = timed_with(0.07, asked);
     EXPECT_EQ(asked, 2u * 4); // the warm-up
-    EXPECT_THAT(set.circumstances.clock,
-                HasSubstr("GPU timer, which says 0.07 to 0.07 of it, is not believed"));
+    EXPECT_THAT(set.circumstances.clock, HasSubstr("GPU timer shows 0.07 to 0.07 of it and is not used"));
     EXPECT_EQ(set.points[0].all.time().median, 20);
     EXPECT_FALSE(nlohmann::json::parse(to_json(set))["points"][1]["all"].contains("gpu_ms"));
 }

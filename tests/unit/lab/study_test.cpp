@@ -87,9 +87,10 @@ TEST(Views, are_times_and_places_of_the_mouse) {
 }
 
 TEST(Views, outside_the_picture_or_before_the_start_are_errors) {
-    EXPECT_EQ(parse_views("1@2,0").error().message, "view 't=1@2,0': the mouse at 2, 0 is outside the "
-                                                    "picture; give parts of its width and height, 0 to 1");
-    EXPECT_EQ(parse_views("1;2;1").error().message, "--views 1;2;1: 't=1' stands there twice");
+    EXPECT_EQ(parse_views("1@2,0").error().message,
+              "view 't=1@2,0': the mouse at 2, 0 is outside the "
+              "picture; give fractions of its width and height, 0 to 1");
+    EXPECT_EQ(parse_views("1;2;1").error().message, "--views 1;2;1: 't=1' is given twice");
     EXPECT_EQ(parse_views("-1").error().message,
               "view 't=-1': the time -1 is out of range; give 0 to 1e+09 seconds");
 }
@@ -131,7 +132,7 @@ TEST(StudyFile, errors_have_line_and_pointer) {
     EXPECT_THAT(error_of("{\"size\": [0, 9]}"), HasSubstr("/size: must be [width, height] in pixels"));
     EXPECT_THAT(error_of("{\"size\": [1e99, 9]}"), HasSubstr("/size: must be [width, height] in pixels"));
     EXPECT_THAT(error_of("{\"series\": [{\"name\": \"s\", \"trust\": \"sure\"}]}"),
-                HasSubstr("/series/0/trust: is one of certified, bound assumed, heuristic, unknown"));
+                HasSubstr("/series/0/trust: must be one of certified, bound assumed, heuristic, unknown"));
     EXPECT_THAT(error_of("{\"series\": [{\"name\": \"s\", \"vary\": {\"A\": []}}]}"),
                 HasSubstr("/series/0/vary/A: must be an array of values"));
     EXPECT_THAT(error_of("{\"series\": {}}"), HasSubstr("/series: must be an array"));

@@ -248,7 +248,7 @@ TEST(Blur, is_a_truth_that_cannot_tell) {
     explored.set.picture_standard.uncertainty = 0.002;
     EXPECT_THAT(blur_of(explored.set, Measure::rmse, 0.01), HasSubstr("a tenth"));
     EXPECT_EQ(blur_of(explored.set, Measure::rmse, 0.02), "");
-    EXPECT_THAT(blur_of(explored.set, Measure::wrong, 0.05), HasSubstr("no truth about where"));
+    EXPECT_THAT(blur_of(explored.set, Measure::wrong, 0.05), HasSubstr("no reference for its hits"));
 }
 
 } // namespace tidemark::lab::tune_test

@@ -13,7 +13,7 @@ Channel channel_0(std::string_view text) {
     return directives ? directives->channels[0] : Channel{};
 }
 
-TEST(ChannelDirectives, a_channel_that_nobody_names_reads_noise_as_shadertoy_samples_it) {
+TEST(ChannelDirectives, an_undeclared_channel_reads_noise_as_shadertoy_samples_it) {
     const auto directives = read("void mainImage() {}");
     ASSERT_TRUE(directives);
     for (const Channel& channel : directives->channels) {

@@ -1,5 +1,5 @@
-#include "shader/pass_reading.hpp"
 #include "glsl_support.hpp"
+#include "shader/pass_reading.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -163,17 +163,20 @@ TEST(PassReading, characters_that_glsl_lacks_are_named) {
         return words;
     };
     EXPECT_EQ(problems("float x = \u22120.5;\n"),
-              "a.glsl:1:11: error: '\u2212' (U+2212) is no character of GLSL: write -\n");
-    EXPECT_EQ(problems("float t\u0394 = 0.5;\n"),
-              "a.glsl:1:8: error: '\u0394' (U+0394) is no character of GLSL: names have letters a to z and A "
-              "to Z, digits and _\n");
+              "a.glsl:1:11: error: '\u2212' (U+2212) is not a character of GLSL: write -\n");
+    EXPECT_EQ(
+        problems("float t\u0394 = 0.5;\n"),
+        "a.glsl:1:8: error: '\u0394' (U+0394) is not a character of GLSL: names have letters a to z and A "
+        "to Z, digits and _\n");
     EXPECT_EQ(problems("float x = 2.0 \u00d7 3.0;\n"),
-              "a.glsl:1:15: error: '\u00d7' (U+00D7) is no character of GLSL: write *\n");
-    EXPECT_EQ(problems("#define HALF \u00bd\nfloat x = HALF;\n"),
-              "a.glsl:1:14: error: '\u00bd' (U+00BD) is no character of GLSL: names have letters a to z and "
-              "A to Z, digits and _\n");
-    EXPECT_EQ(problems("float \xff;\n"), "a.glsl:1:7: error: a byte that is no UTF-8 (0xff) is no character "
-                                         "of GLSL: names have letters a to z and A to Z, digits and _\n");
+              "a.glsl:1:15: error: '\u00d7' (U+00D7) is not a character of GLSL: write *\n");
+    EXPECT_EQ(
+        problems("#define HALF \u00bd\nfloat x = HALF;\n"),
+        "a.glsl:1:14: error: '\u00bd' (U+00BD) is not a character of GLSL: names have letters a to z and "
+        "A to Z, digits and _\n");
+    EXPECT_EQ(problems("float \xff;\n"),
+              "a.glsl:1:7: error: a byte that is not UTF-8 (0xff) is not a character of GLSL: names have "
+              "letters a to z and A to Z, digits and _\n");
     for (const char* fine : {"// \u2212 \u0394\n", "/* \u00bd */\n", "#if 0\n\u2212\n#endif\n",
                              "#define UNUSED \u2212\n", "float x =\u00a00.5;\u200b\n"}) // blanks are blanks
         EXPECT_EQ(problems(fine), "") << fine;

@@ -1,7 +1,7 @@
 // Where a march is recorded in a text, and where that is refused. What the text then draws and reports is
 // tested on the device, tests/gl/recorded_hits_gl_test.cpp.
-#include "shader/march_record.hpp"
 #include "glsl_support.hpp"
+#include "shader/march_record.hpp"
 
 #include <gtest/gtest.h>
 
@@ -87,7 +87,7 @@ TEST(MarchRecord, refuses_what_is_not_certain) {
     EXPECT_EQ(refusal(text_of(k_for, test, step), lines(1)),
               "a.glsl:4: it is not certain which comparison tests the distance");
     EXPECT_EQ(refusal(text_of(k_for, "if (near(d)) break;", step), lines(1)),
-              "a.glsl:4: the test of the distance does not stand in its loop");
+              "a.glsl:4: the test of the distance is not in its loop");
     EXPECT_EQ(refusal(text_of(k_for, test, "go(t, d); }"), lines(2)),
               "a.glsl:4: it is not certain what the march moves along its ray");
     EXPECT_EQ(refusal(text_of(k_for, test, "t += d; p += d; }"), lines(2)),
@@ -95,11 +95,11 @@ TEST(MarchRecord, refuses_what_is_not_certain) {
     EXPECT_EQ(
         refusal(text_of("int n = 9; for (int i = 0; i < n; ++i) { d = length(p) - t; n = 9;", test, step),
                 lines(2)),
-        "a.glsl:4: what ends the march after so many steps is not found");
+        "a.glsl:4: the limit of the march's number of steps is not found");
     EXPECT_EQ(refusal("#define NEAR d < 0.001\nvoid mainImage(out vec4 c, in vec2 p) { float t = 0.0, d;\n" +
                           k_for + "\nif (NEAR) break;\n" + step + " c = vec4(t); }\n",
                       lines()),
-              "a.glsl:4: the march stands in a macro");
+              "a.glsl:4: the march is in a macro");
     EXPECT_EQ(refusal(text_of(k_for + " if (p.x > 9.0) discard;", test, step), lines(2)),
               "the text discards pixels");
 }

@@ -1,5 +1,5 @@
-#include "shader/portability.hpp"
 #include "glsl_support.hpp"
+#include "shader/portability.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,26 +35,25 @@ TEST(Portability, sound_texts_are_left_in_peace) {
 
 TEST(Portability, characters_that_are_none_of_glsls) {
     EXPECT_EQ(lint("float f = 1.0; // é is at home here\nvec4 g = vec4(\u201c1\u201d);\n"),
-              "a.glsl:2:15: warning: '\u201c' (U+201C) is no character of GLSL: names have letters a to z "
+              "a.glsl:2:15: warning: '\u201c' (U+201C) is not a character of GLSL: names have letters a to z "
               "and A to Z, digits and _\n"
-              "a.glsl:2:19: warning: '\u201d' (U+201D) is no character of GLSL: names have letters a to z "
+              "a.glsl:2:19: warning: '\u201d' (U+201D) is not a character of GLSL: names have letters a to z "
               "and A to Z, digits and _\n");
 }
 
 TEST(Portability, what_stands_outside_of_functions) {
     const std::string image = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }";
-    EXPECT_EQ(
-        lint(image + ";\n"),
-        "a.glsl:1:57: warning: ; by itself: GLSL ES 3.00 takes none outside of functions; leave it out\n");
+    EXPECT_EQ(lint(image + ";\n"),
+              "a.glsl:1:57: warning: ; alone: GLSL ES 3.00 does not allow it outside functions; remove it\n");
     EXPECT_EQ(lint("struct S { float a; };\nconst float b[2] = float[](1., 2.);\n" + image + "\n"), "");
     EXPECT_EQ(lint("uniform vec3 iResolution;\n" + image + "\n"),
-              "a.glsl:1:14: warning: iResolution: the site declares it already; leave this out\n");
+              "a.glsl:1:14: warning: iResolution: the site declares it already; remove this\n");
     EXPECT_EQ(lint("float f(float iTime) { float iDate = iTime; return iDate; }\n" + image + "\n"), "");
     EXPECT_EQ(lint("float iCh0 = 1.0;\n" + image + "\n"),
-              "a.glsl:1:7: warning: iCh0: the site declares it already; leave this out\n");
+              "a.glsl:1:7: warning: iCh0: the site declares it already; remove this\n");
     for (const char* second : {"out vec4 second;\n", "layout(location = 1) out vec4 second;\n"})
         EXPECT_NE(lint(second + image + "\n")
-                      .find("out: the site has an output of its own, and takes no second one"),
+                      .find("out: the site declares the output itself and allows no second one"),
                   std::string::npos);
     EXPECT_EQ(lint("#define Main void mainImage(out vec4 Q, in vec2 U) { Q = vec4(0);\nMain\n  float i = "
                    "float(iFrame);\n  Q.r = i;\n}\n"),
@@ -71,7 +70,7 @@ TEST(Portability, main_image_is_as_the_site_announces_it) {
          {"vec4 mainImage(out vec4 c, in vec2 p)", "void mainImage(inout vec4 c, in vec2 p)",
           "void mainImage(out vec4 c, const in vec2 p)"})
         EXPECT_NE(said(bad).find(
-                      "mainImage: the site announces void mainImage(out vec4 fragColor, in vec2 fragCoord)"),
+                      "mainImage: the site declares void mainImage(out vec4 fragColor, in vec2 fragCoord)"),
                   std::string::npos)
             << bad;
 }
@@ -85,12 +84,12 @@ TEST(Portability, functions_that_a_macro_calls) {
 
 TEST(Portability, names_and_values_that_the_site_refuses) {
     EXPECT_EQ(lint("void f() { float a__b = 1.0; a__b += 1.0; }\n"),
-              "a.glsl:1:18: warning: a__b: names with two underscores in a row, or webgl_ in front, are "
-              "reserved on the site\n");
+              "a.glsl:1:18: warning: a__b: names that contain two underscores in a row or begin with webgl_ "
+              "are reserved on the site\n");
     EXPECT_EQ(lint("#define A__B 1.0\nvoid f() { float a = A__B; int v = __VERSION__; }\n"), "");
     EXPECT_EQ(
         lint("float h() { return 1.0; }\nvoid f() { h() = 2.0; }\n"),
-        "a.glsl:2:16: warning: a value is given to what a function returned: GLSL ES 3.00 refuses that\n");
+        "a.glsl:2:16: warning: a value is assigned to a function's result: GLSL ES 3.00 refuses that\n");
     EXPECT_EQ(
         lint(
             "void f() { float a; (a) = 2.0; for (int i = 0; i < 3; ++i) a = 1.0; if (a == 1.0) a = 2.0; }\n"),
@@ -113,9 +112,9 @@ TEST(Portability, words_that_the_site_reserves) {
 
 TEST(Portability, numbers_that_would_have_to_be_converted) {
     EXPECT_EQ(lint("float x = 1;\n"),
-              "a.glsl:1:11: warning: float x = 1: GLSL ES converts no int by itself; write 1.0\n");
+              "a.glsl:1:11: warning: float x = 1: GLSL ES does not convert int implicitly; write 1.0\n");
     EXPECT_EQ(lint("vec2 v = -2, w;\n"),
-              "a.glsl:1:11: warning: vec2 v = -2: GLSL ES converts no int by itself; write -vec2(2)\n");
+              "a.glsl:1:11: warning: vec2 v = -2: GLSL ES does not convert int implicitly; write -vec2(2)\n");
 }
 
 TEST(Portability, what_desktop_has_and_the_site_has_not) {
@@ -133,34 +132,31 @@ TEST(Portability, what_desktop_has_and_the_site_has_not) {
         "a.glsl:1:19: warning: isKeyDown: not in GLSL ES 3.00; write texelFetch(iChannel0, ivec2(key, 0), "
         "0).x\n");
     EXPECT_EQ(lint("const float t[2] = { 1.0, 2.0 };\nconst float u[2] = float[](1.0, 2.0);\n"),
-              "a.glsl:1:20: warning: = {: GLSL ES 3.00 has no lists in braces; write a constructor, as in "
+              "a.glsl:1:20: warning: = {: GLSL ES 3.00 has no initialiser lists; write a constructor, as in "
               "float[](1.0, 2.0)\n");
-    EXPECT_EQ(
-        lint("float mod(int a, int b) { return float(a % b); }\n"),
-        "a.glsl:1:7: warning: mod: GLSL ES 3.00 forbids to define a built-in function again; choose another "
-        "name\n");
+    EXPECT_EQ(lint("float mod(int a, int b) { return float(a % b); }\n"),
+              "a.glsl:1:7: warning: mod: GLSL ES 3.00 forbids redefining a built-in function; choose another "
+              "name\n");
 }
 
 TEST(Portability, lines_that_the_site_writes_itself) {
     EXPECT_EQ(lint("#version 330\n"),
-              "a.glsl:1:1: warning: #version: the site writes that line itself; leave it out\n");
+              "a.glsl:1:1: warning: #version: the site adds that line itself; remove it\n");
     EXPECT_EQ(lint("\n#extension GL_ARB_gpu_shader5 : enable\n"),
-              "a.glsl:2:1: warning: #extension GL_ARB_gpu_shader5: the site has the extensions of WebGL 2 "
-              "switched on "
-              "and takes no such line; leave it out\n");
+              "a.glsl:2:1: warning: #extension GL_ARB_gpu_shader5: the site enables the extensions of WebGL "
+              "2 itself; remove this line\n");
 }
 
 TEST(Portability, values_outside_functions) {
-    EXPECT_EQ(lint("float t = iTime * 2.0;\n"), "a.glsl:1:11: warning: iTime: outside functions GLSL ES "
-                                                "takes constant values only; set t in mainImage, "
-                                                "or make it a #define\n");
+    EXPECT_EQ(lint("float t = iTime * 2.0;\n"),
+              "a.glsl:1:11: warning: iTime: outside functions GLSL ES allows only constant values; set t in "
+              "mainImage, or make it a #define\n");
 }
 
 TEST(Portability, common_is_compiled_alone) {
     EXPECT_EQ(lint("", "float f() { return iTime; }\n"),
-              "common.glsl:1:20: warning: iTime: the site compiles Common by itself, where this is not "
-              "declared; hand "
-              "it over as a parameter, or use a macro\n");
+              "common.glsl:1:20: warning: iTime: the site compiles Common alone, where this is not declared; "
+              "pass it as a parameter, or use a macro\n");
     for (const char* common : {"#define T iTime\n", "float f(float iTime) { return iTime; }\n",
                                "float f() { return iSampleRate + iDate.w; }\n"})
         EXPECT_EQ(lint("", common), "") << common;

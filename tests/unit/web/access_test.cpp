@@ -20,7 +20,7 @@ TEST(Access, lets_in_who_has_the_token) {
     EXPECT_EQ(to({.target = k_socket, .host = "localhost", .upgrade = true}), Answer::socket) << "no browser";
 }
 
-TEST(Access, refuses_whoever_has_not) {
+TEST(Access, refuses_requests_without_a_token) {
     for (const std::string_view target :
          {"/", "/?token=", "/?token=0123456789abcdeX", "/?token=0123456789abcdef0",
           "/?tokens=0123456789abcdef", "/socket", "", "?", "/elsewhere", "/?xtoken=0123456789abcdef"})
@@ -67,7 +67,7 @@ TEST(Access, makes_tokens_that_differ) {
     EXPECT_TRUE(check_token(*one));
 }
 
-TEST(Access, wants_tokens_that_nobody_guesses) {
+TEST(Access, requires_tokens_that_cannot_be_guessed) {
     EXPECT_FALSE(check_token("short"));
     EXPECT_FALSE(check_token("0123456789abcdef&"));
     EXPECT_FALSE(check_token(std::string(129, 'a')));

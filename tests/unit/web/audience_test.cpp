@@ -42,7 +42,7 @@ struct AudienceTest : testing::Test {
 
 constexpr std::string_view k_press = R"({"do":"press","button":"left","x":1,"y":2})";
 
-TEST_F(AudienceTest, one_that_is_slow_misses_pictures_and_holds_up_nobody) {
+TEST_F(AudienceTest, a_slow_one_misses_pictures_and_does_not_delay_others) {
     audience.came(1);
     audience.came(2);
     for (uint32_t number = 1; number <= 5; ++number) {
@@ -68,7 +68,7 @@ TEST_F(AudienceTest, a_picture_that_was_not_sent_is_not_seen) {
     EXPECT_THAT(pictures(1).back(), "picture 5");
 }
 
-TEST_F(AudienceTest, those_who_wrestle_for_the_helm_drown_nobody) {
+TEST_F(AudienceTest, viewers_that_fight_for_control_do_not_flood_others) {
     for (ViewerId viewer = 1; viewer <= 3; ++viewer)
         audience.came(viewer);
     sent.clear();
@@ -123,7 +123,7 @@ TEST_F(AudienceTest, what_one_held_is_let_go_when_the_next_steers) {
     EXPECT_THAT(events(), testing::SizeIs(1));
 }
 
-TEST_F(AudienceTest, whoever_asks_may_steer) {
+TEST_F(AudienceTest, any_viewer_may_take_control) {
     audience.came(1);
     audience.came(2);
     ASSERT_TRUE(audience.said(1, k_press));

@@ -63,7 +63,7 @@ TEST(Request, is_a_command_of_the_overlay) {
 TEST(Request, does_nothing_outside_of_the_picture) {
     for (const std::string_view message : {R"({"do":"open editor","file":"/etc/passwd","line":1})",
                                            R"({"do":"write knobs"})", R"({"do":"save"})"})
-        EXPECT_EQ(refusal(message), "\"do\": give what a message can ask for") << message;
+        EXPECT_EQ(refusal(message), "\"do\": give a known request") << message;
 }
 
 TEST(Request, is_no_text_of_a_shader) {
@@ -103,7 +103,7 @@ TEST(Request, that_is_damaged_is_refused) {
                                            "\xff\xfe"})
         EXPECT_NE(refusal(message), "taken") << message;
     EXPECT_EQ(refusal(std::string(3000, '[') + std::string(3000, ']')), "a message has at most 4096 bytes");
-    EXPECT_EQ(refusal(std::string(4000, '[')), "a message is a JSON object");
+    EXPECT_EQ(refusal(std::string(4000, '[')), "a message must be a JSON object");
     EXPECT_NE(refusal(R"({"do":")" + std::string(1000, 'a') + R"("})"), "taken");
 }
 

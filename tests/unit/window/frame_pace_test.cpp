@@ -7,7 +7,7 @@ namespace tidemark::render::frame_pace_test {
 using Way = FramePace::Way;
 constexpr Extent k_extent{100, 100};
 
-TEST(FramePaceTest, what_nobody_knows_is_drawn_in_parts) {
+TEST(FramePaceTest, a_frame_of_unknown_cost_is_drawn_in_parts) {
     FramePace pace;
     EXPECT_EQ(pace.way(k_extent), Way::in_parts);
     EXPECT_EQ(pace.expected(k_extent), std::nullopt);

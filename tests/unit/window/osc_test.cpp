@@ -103,7 +103,7 @@ TEST(OscCommand, says_what_is_wrong) {
          "OSC: '3000000000' is no value for grid (ivec2): give 2 whole numbers, as in 1,2"},
         {{"/time", {"soon"}}, "OSC: /time takes one number of seconds, 0 or more"},
         {{"/play", {"no"}}, "OSC: /play takes 1 or 0"},
-        {{"/stop"}, "OSC: '/stop' means nothing here: send /knob/NAME, /time or /play"},
+        {{"/stop"}, "OSC: unknown address '/stop': send /knob/NAME, /time or /play"},
     };
     for (const auto& [message, words] : cases) {
         const auto command = osc_command(message, k_knobs);
