@@ -21,6 +21,7 @@ namespace {
 
 struct ExportOptions {
     SceneRequest scene;
+    FrameOptions frames{};
     std::string output = "-";
     std::string html{}; ///< output file of a page; empty: write ShaderToy's JSON
     bool embed = false;
@@ -41,8 +42,10 @@ fs::path project_folder(const fs::path& scene) {
 /// Returns a page, or a page's fragment. Sets `read` to the files it is made of.
 Result<std::string> page_of(const ExportOptions& options, std::vector<fs::path>& read) {
     const auto scene = TRY(load(options.scene));
+    const auto frames = TRY(resolve(options.frames));
     read = files_read(scene);
-    return web::make_page(scene, options.embed ? web::PageForm::fragment : web::PageForm::whole);
+    return web::make_page(scene, options.embed ? web::PageForm::fragment : web::PageForm::whole,
+                          run_numbers(frames.state));
 }
 
 /// Returns ShaderToy's JSON. Sets `read` to the files it is made of.

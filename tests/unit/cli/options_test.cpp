@@ -31,7 +31,7 @@ TEST(Resolve, defaults) {
 TEST(Resolve, everything) {
     FrameOptions options;
     options.size = "8x4";
-    options.fps = 29.97;
+    options.numbers["--fps"] = 29.97;
     options.frames = "1-2";
     options.mouse = "3,4";
     options.date = "2020-02-03";
@@ -64,7 +64,7 @@ TEST(Resolve, rates_that_are_none) {
                                     {-30.0, "-30"},
                                     {std::numeric_limits<double>::infinity(), "inf"},
                                     {std::numeric_limits<double>::quiet_NaN(), "nan"}}) {
-        options.fps = fps;
+        options.numbers["--fps"] = fps;
         EXPECT_EQ(refusal(options), std::string("--fps ") + text + ": give a number above 0");
     }
 }

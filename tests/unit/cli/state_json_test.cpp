@@ -1,7 +1,7 @@
 // A FrameState's way into JSON and onto a command line: no field is lost.
-#include "host/requests.hpp"
 #include "host/json.hpp"
-#include "render/frame_fields.hpp"
+#include "host/requests.hpp"
+#include "render/frame_state.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
