@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <memory>
+#include <utility>
 
 namespace tidemark::cli {
 namespace fs = std::filesystem;
@@ -76,9 +77,12 @@ Result<int> export_scene(const ExportOptions& options) {
         return fail(ErrorCode::usage,
                     fmt::format("--json and {} - both want standard output: give one of them",
                                 options.html.empty() ? "-o" : "--html"));
-    if (options.html.empty() && (options.embed || !options.scene.files.media.empty()))
-        return fail(ErrorCode::usage,
-                    fmt::format("{} goes with --html FILE", options.embed ? "--embed" : "--media"));
+    if (options.html.empty())
+        for (const auto& [given, option] : {std::pair(options.embed, "--embed"),
+                                            {!options.scene.files.media.empty(), "--media"},
+                                            {!options.frames.numbers.empty(), "--bpm"}})
+            if (given)
+                return fail(ErrorCode::usage, fmt::format("{} goes with --html FILE", option));
     std::vector<fs::path> read;
     const auto text = TRY(options.html.empty() ? project_of(options, read) : page_of(options, read));
     if (target == "-")
@@ -113,6 +117,7 @@ void add_export(Command app, Action& chosen) {
                     "Value of a knob (#iUniform): a constant in JSON, where it begins in a page")
         .repeatable()
         .type_name("NAME=VALUE");
+    add_number_options(command, options->frames, "--bpm");
     add_file_options(command, options->scene);
     command.add_flag("--json", options->json, "One JSON object on standard output");
     command.on_call([options, &chosen] { chosen = [options] { return export_scene(*options); }; });

@@ -295,6 +295,7 @@ FrameInputs inputs_of(const FrameState& state) {
     inputs.time = state.seconds();
     inputs.time_delta = state.time_delta.value_or(1 / state.fps);
     inputs.frame_rate = state.fps;
+    inputs.bpm = state.bpm;
     inputs.mouse = state.mouse.uniform();
     inputs.mouse_button = {state.mouse.down ? 1 : 0, state.right_button ? 1 : 0};
     inputs.keyboard = state.keys;
@@ -355,6 +356,7 @@ UniformNumbers value_of(scene::HostValue value, const FrameInputs& inputs, Exten
     case HostValue::orbit: return {inputs.orbit.x, inputs.orbit.y, inputs.orbit.z, inputs.orbit.w};
     case HostValue::orbit_pan: return {inputs.orbit_pan.x, inputs.orbit_pan.y, inputs.orbit_pan.z};
     case HostValue::time_low: return {inputs.time - double(float(inputs.time))};
+    case HostValue::beat: return {inputs.time * inputs.bpm / 60};
     case HostValue::mouse_button: return {inputs.mouse_button.x, inputs.mouse_button.y, 0, 0};
     case HostValue::view: return elements_of(inputs.view);
     case HostValue::relative_mouse:

@@ -139,6 +139,7 @@ struct FrameInputs {
     double time = 0;              ///< iTime, seconds
     double time_delta = 1 / 60.0; ///< iTimeDelta, seconds
     double frame_rate = 60;       ///< iFrameRate
+    double bpm = 120;             ///< beats per minute, of iBeat
     glm::vec4 mouse{0};           ///< iMouse, whole pixels, ShaderToy's signs
     Date date{};
     glm::mat4 camera{1}; ///< iCamera, camera to world
@@ -186,6 +187,7 @@ struct FrameState {
     std::optional<double> time{}; ///< iTime, seconds; none: frame / fps
     Extent extent{640, 360};
     double fps = 60;                             ///< iFrameRate
+    double bpm = 120;                            ///< beats per minute, of iBeat
     std::optional<double> time_delta{};          ///< iTimeDelta, seconds; none: 1 / fps
     Mouse mouse{};                               ///< iMouse, and the left button of iMouseButton
     bool right_button = false;                   ///< down; of iMouseButton
@@ -233,6 +235,7 @@ inline constexpr auto k_frame_fields = std::tuple{
     FrameField{"time", &FrameState::time, "--time"},
     FrameField{"size", &FrameState::extent, "--size"},
     FrameField{"fps", &FrameState::fps, "--fps", "F", "Time step: iTime = frame / F, iTimeDelta = 1 / F"},
+    FrameField{"bpm", &FrameState::bpm, "--bpm", "B", "Beats per minute: iBeat = iTime * B / 60"},
     FrameField{"time_delta", &FrameState::time_delta},
     FrameField{"mouse", &FrameState::mouse, "--mouse"},
     FrameField{"right_button", &FrameState::right_button},
@@ -248,8 +251,8 @@ inline constexpr auto k_frame_fields = std::tuple{
 
 /// Ties all members of a state; compiles only if the number of names is the number of fields.
 constexpr auto tied(const FrameState& state) {
-    const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = state;
-    return std::tie(f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15);
+    const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16] = state;
+    return std::tie(f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16);
 }
 static_assert(std::tuple_size_v<decltype(k_frame_fields)> ==
               std::tuple_size_v<decltype(tied(std::declval<FrameState>()))>);

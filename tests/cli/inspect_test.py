@@ -38,7 +38,7 @@ class Scene(ProgramTest):
             {"name": "tint", "type": "color3", "value": [1, 0.5, 0]}])
         self.assertEqual(facts["left_out"], [
             "uniforms: iResolution, iTimeDelta, iFrameRate, iFrame, iMouse, iDate, iSampleRate, iChannelTime, "
-            "iChannelResolution, iCamera, iOrbit, iOrbitPan, iTimeLow, iMouseButton, iViewMatrix",
+            "iChannelResolution, iCamera, iOrbit, iOrbitPan, iTimeLow, iBeat, iMouseButton, iViewMatrix",
             "knobs: tint", "channels: iChannel0, iChannel2, iChannel3"])
 
     def test_the_uniforms_left_out_are_those_that_the_scene_does_not_read(self):
@@ -60,7 +60,7 @@ class Scene(ProgramTest):
             "  iChannel1 noise", "  code removed: 1 lines", "  knob      float height = 0.5 in { 0, 2 }",
             "  knob      color3 tint = vec3(1, 0.5, 0)",
             "  left out  uniforms: iResolution, iTimeDelta, iFrameRate, iFrame, iMouse, iDate, iSampleRate, "
-            "iChannelTime, iChannelResolution, iCamera, iOrbit, iOrbitPan, iTimeLow, iMouseButton, iViewMatrix",
+            "iChannelTime, iChannelResolution, iCamera, iOrbit, iOrbitPan, iTimeLow, iBeat, iMouseButton, iViewMatrix",
             "  left out  knobs: tint", "  left out  channels: iChannel0, iChannel2, iChannel3"])
 
     def test_a_scene_that_reads_no_noise_gets_none(self):

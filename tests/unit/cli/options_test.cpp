@@ -32,6 +32,7 @@ TEST(Resolve, everything) {
     FrameOptions options;
     options.size = "8x4";
     options.numbers["--fps"] = 29.97;
+    options.numbers["--bpm"] = 90;
     options.frames = "1-2";
     options.mouse = "3,4";
     options.date = "2020-02-03";
@@ -40,6 +41,7 @@ TEST(Resolve, everything) {
     ASSERT_TRUE(request);
     EXPECT_EQ(request->state.extent, (Extent{8, 4}));
     EXPECT_EQ(request->state.fps, 29.97);
+    EXPECT_EQ(request->state.bpm, 90);
     EXPECT_THAT(request->frames, ElementsAre(1, 2));
     EXPECT_EQ(request->state.mouse.uniform(), glm::vec4(3, 4, -3, -4));
     EXPECT_EQ(request->state.date, (render::Date{2020, 1, 3, 0}));
@@ -67,6 +69,8 @@ TEST(Resolve, rates_that_are_none) {
         options.numbers["--fps"] = fps;
         EXPECT_EQ(refusal(options), std::string("--fps ") + text + ": give a number above 0");
     }
+    options.numbers = {{"--bpm", 0}};
+    EXPECT_EQ(refusal(options), "--bpm 0: give a number above 0");
 }
 
 TEST(Resolve, frames_and_times_that_are_none) {

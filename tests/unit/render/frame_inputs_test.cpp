@@ -151,4 +151,12 @@ TEST(ValueOf, is_of_the_frame_the_pass_and_its_channels) {
     EXPECT_EQ(value(scene::HostValue::channel_time, inputs, channels)[1], 7);
 }
 
+TEST(ValueOf, a_beat_is_the_time_in_parts_of_a_minute) {
+    const auto beat = [](const FrameState& state) { return value(scene::HostValue::beat, inputs_of(state)); };
+    EXPECT_THAT(beat({.time = 1.25}), ElementsAre(2.5));
+    EXPECT_THAT(beat({.time = 1.25, .bpm = 90}), ElementsAre(1.875));
+    EXPECT_THAT(beat({.frame = 60, .fps = 30, .bpm = 60}), ElementsAre(2));
+    EXPECT_THAT(value(scene::HostValue::beat, inputs_of_frame(90, 60)), ElementsAre(3));
+}
+
 } // namespace tidemark::render::frame_inputs_test
