@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <memory>
+#include <utility>
 
 namespace tidemark::cli {
 namespace fs = std::filesystem;
@@ -21,6 +22,7 @@ namespace {
 
 struct ExportOptions {
     SceneRequest scene;
+    FrameOptions frames{};
     std::string output = "-";
     std::string html{}; ///< output file of a page; empty: write ShaderToy's JSON
     bool embed = false;
@@ -41,8 +43,10 @@ fs::path project_folder(const fs::path& scene) {
 /// Returns a page, or a page's fragment. Sets `read` to the files it is made of.
 Result<std::string> page_of(const ExportOptions& options, std::vector<fs::path>& read) {
     const auto scene = TRY(load(options.scene));
+    const auto frames = TRY(resolve(options.frames));
     read = files_read(scene);
-    return web::make_page(scene, options.embed ? web::PageForm::fragment : web::PageForm::whole);
+    return web::make_page(scene, options.embed ? web::PageForm::fragment : web::PageForm::whole,
+                          run_numbers(frames.state));
 }
 
 /// Returns ShaderToy's JSON. Sets `read` to the files it is made of.
@@ -73,9 +77,12 @@ Result<int> export_scene(const ExportOptions& options) {
         return fail(ErrorCode::usage,
                     fmt::format("--json and {} - both want standard output: give one of them",
                                 options.html.empty() ? "-o" : "--html"));
-    if (options.html.empty() && (options.embed || !options.scene.files.media.empty()))
-        return fail(ErrorCode::usage,
-                    fmt::format("{} goes with --html FILE", options.embed ? "--embed" : "--media"));
+    if (options.html.empty())
+        for (const auto& [given, option] : {std::pair(options.embed, "--embed"),
+                                            {!options.scene.files.media.empty(), "--media"},
+                                            {!options.frames.numbers.empty(), "--bpm"}})
+            if (given)
+                return fail(ErrorCode::usage, fmt::format("{} goes with --html FILE", option));
     std::vector<fs::path> read;
     const auto text = TRY(options.html.empty() ? project_of(options, read) : page_of(options, read));
     if (target == "-")
@@ -110,6 +117,7 @@ void add_export(Command app, Action& chosen) {
                     "Value of a knob (#iUniform): a constant in JSON, where it begins in a page")
         .repeatable()
         .type_name("NAME=VALUE");
+    add_number_options(command, options->frames, "--bpm");
     add_file_options(command, options->scene);
     command.add_flag("--json", options->json, "One JSON object on standard output");
     command.on_call([options, &chosen] { chosen = [options] { return export_scene(*options); }; });

@@ -161,33 +161,23 @@ std::string of_channel(std::string_view name) {
         name.back(), name);
 }
 
-/// A uniform that a scene may declare to get a value from this host, in addition to ShaderToy's.
-struct OwnUniform {
-    std::string_view name, meaning;
-};
-
-constexpr OwnUniform k_own_uniforms[] = {
-    {scene::k_camera_uniform, "the orbit camera, camera to world: right, up, backwards, position"},
-    {scene::k_orbit_uniform, "how the orbit camera was moved: azimuth, elevation, distance, 1 once it was"},
-    {scene::k_orbit_pan_uniform, "how the orbit camera's target was moved, in first distances"},
-    {scene::k_time_low_uniform, "what iTime as a float leaves of the seconds"},
-    {scene::k_mouse_button_uniform, "1 while a button is down: x left, y right"},
-    {scene::k_view_uniform, "a camera to world, the identity until a person moves it"}};
-
+/// Describes a uniform that this host adds to ShaderToy's; empty for other names.
 std::string of_own_uniform(std::string_view name) {
-    const auto own = std::ranges::find(k_own_uniforms, name, &OwnUniform::name);
-    return own == std::end(k_own_uniforms) ? "" : fmt::format("Given by this host: {}.\n", own->meaning);
+    const scene::HostUniform* row = scene::find_host_uniform(name);
+    return row && row->declared != scene::Declared::by_site
+               ? fmt::format("Given by this host: {}.\n", row->meaning)
+               : "";
 }
 
 std::string of_host(std::string_view name) {
     if (std::ranges::find(scene::k_channel_names, name) != scene::k_channel_names.end())
         return of_channel(name);
-    const auto uniform = std::ranges::find(scene::k_site_uniforms, name, &scene::SiteUniform::name);
-    if (uniform == std::end(scene::k_site_uniforms))
+    const scene::HostUniform* row = scene::find_host_uniform(name);
+    if (!row || row->declared != scene::Declared::by_site)
         return of_own_uniform(name);
-    const std::string length = uniform->length > 0 ? fmt::format("[{}]", uniform->length) : "";
-    return code(fmt::format("uniform {} {}{}", uniform->type, name, length)) +
-           "Given by the host, as on ShaderToy's site.\n";
+    const std::string length = row->length > 0 ? fmt::format("[{}]", row->length) : "";
+    return code(fmt::format("uniform {} {}{}", row->type, name, length)) +
+           fmt::format("Given by the host, as on ShaderToy's site: {}.\n", row->meaning);
 }
 
 } // namespace

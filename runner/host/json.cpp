@@ -1,7 +1,5 @@
 #include "host/json.hpp"
 
-#include "render/frame_fields.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -138,6 +136,12 @@ render::FrameState frame_state_of(const Json& json) {
             decode(*found, state.*field.member);
     });
     return state;
+}
+
+Json run_numbers(const render::FrameState& state) {
+    Json json = Json::object();
+    render::for_each_number([&](const auto& field) { json[std::string(field.name)] = state.*field.member; });
+    return json;
 }
 
 } // namespace tidemark::cli

@@ -39,5 +39,7 @@ Json changes_of(const render::FrameState& state);
 /// Reads the output of `to_json` or `changes_of`; missing fields are as in `FrameState{}`. Throws
 /// Json::exception for JSON of another form.
 render::FrameState frame_state_of(const Json& json);
+/// Returns the numbers that hold for a whole run, by name: `{"fps": 60}`.
+Json run_numbers(const render::FrameState& state);
 
 } // namespace tidemark::cli

@@ -43,9 +43,11 @@ bool is_sound(const render::FrameState& state) {
     const auto is_camera = [](const render::OrbitCamera& camera) {
         return render::parse_camera(to_string(camera)) == camera;
     };
+    bool positive = true;
+    render::for_each_number([&](const auto& field) { positive = positive && state.*field.member > 0; });
     const Extent size = state.extent;
     return state.frame >= 0 && state.frame <= render::k_last_frame && size.width >= 1 && size.height >= 1 &&
-           std::max(size.width, size.height) <= k_largest_side && state.fps > 0 &&
+           std::max(size.width, size.height) <= k_largest_side && positive &&
            is_pixel(state.mouse.position) && is_pixel(state.mouse.pressed_at) && is_date(state.date) &&
            is_camera(state.camera) && (!state.initial_camera || is_camera(*state.initial_camera));
 }

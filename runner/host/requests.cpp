@@ -5,7 +5,7 @@
 #include "host/console.hpp"
 #include "host/diagnostics.hpp"
 #include "host/forked.hpp"
-#include "render/frame_fields.hpp"
+#include "render/frame_state.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/scene.hpp"
 #include "shader/definitions.hpp"
@@ -353,14 +353,29 @@ void add_device_options(Command command, platform::DeviceChoice& device) {
                      "Fails where the CPU would draw instead of a graphics card");
 }
 
+void add_number_options(Command command, FrameOptions& options, std::string_view option) {
+    render::for_each_number([&](const auto& field) {
+        if (!option.empty() && option != field.option)
+            return;
+        command
+            .add_option(
+                std::string(field.option),
+                [&options, key = field.option](const std::string& text) {
+                    std::string_view rest = text;
+                    take(rest, options.numbers[key]);
+                },
+                std::string(field.meaning))
+            .type_name(std::string(field.placeholder))
+            .check(number<double>("a number"))
+            .default_str(fmt::format("{}", render::FrameState().*field.member));
+    });
+}
+
 void add_picture_options(Command command, FrameOptions& options) {
     command.add_option("--size", options.size, "Resolution in pixels, where the scene's #iSize says no other")
         .type_name("WxH")
         .default_str("640x360");
-    command.add_option("--fps", options.fps, "Time step: iTime = frame / F, iTimeDelta = 1 / F")
-        .type_name("F")
-        .check(number<double>("a number"))
-        .default_str("60");
+    add_number_options(command, options);
     command.add_option("--date", options.date, "iDate at iTime 0, as in 2024-12-31T23:59:58")
         .type_name("ISO");
     command
@@ -425,10 +440,16 @@ Result<void> resolve_time(const FrameOptions& options, FrameSequence& sequence) 
     render::FrameState& state = sequence.state;
     if (options.frame || options.frames || options.time)
         leave_window_time(sequence);
-    if (options.fps && (!(*options.fps > 0) || !std::isfinite(*options.fps)))
-        return fail(ErrorCode::usage, fmt::format("--fps {}: give a number above 0", *options.fps));
-    if (options.fps)
-        (sequence.lead_in_fps ? *sequence.lead_in_fps : state.fps) = *options.fps;
+    for (const auto& [option, number] : options.numbers)
+        if (!(number > 0) || !std::isfinite(number))
+            return fail(ErrorCode::usage, fmt::format("{} {}: give a number above 0", option, number));
+    render::for_each_number([&](const auto& field) {
+        const auto given = options.numbers.find(field.option);
+        if (given == options.numbers.end())
+            return;
+        const bool leads_in = field.member == &render::FrameState::fps && sequence.lead_in_fps;
+        (leads_in ? *sequence.lead_in_fps : state.*field.member) = given->second;
+    });
     if (options.frame && (*options.frame < 0 || *options.frame > render::k_last_frame))
         return fail(ErrorCode::usage, fmt::format("--frame {}: frames count from 0 to {}", *options.frame,
                                                   render::k_last_frame));

@@ -13,6 +13,7 @@
 #include "shader/shader_source.hpp"
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -116,7 +117,7 @@ void add_device_options(Command command, platform::DeviceChoice& device);
 /// The frame options as they were typed.
 struct FrameOptions {
     std::optional<std::string> size;
-    std::optional<double> fps;
+    std::map<std::string_view, double> numbers; ///< by option: `--fps` and the other numbers of a run
     std::optional<int> frame;
     std::optional<std::string> frames;
     std::optional<double> time;
@@ -127,7 +128,9 @@ struct FrameOptions {
     std::string pass; ///< empty: Image
 };
 
-/// Adds --size, --fps, --date, --camera, --pass and --input, which a window has too.
+/// Adds the option of one number of `render::k_frame_fields`, or of all of them.
+void add_number_options(Command command, FrameOptions& options, std::string_view option = {});
+/// Adds --size, the numbers (--fps), --date, --camera, --pass and --input, which a window has too.
 void add_picture_options(Command command, FrameOptions& options);
 /// Adds --frame, --frames, --time and --mouse; in a window the user controls these directly.
 void add_time_options(Command command, FrameOptions& options);

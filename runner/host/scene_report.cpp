@@ -144,11 +144,9 @@ namespace {
 /// Returns the host uniforms of a pass that makes a picture.
 std::vector<std::string_view> host_uniforms() {
     std::vector<std::string_view> names;
-    for (const scene::SiteUniform& uniform : scene::k_site_uniforms)
-        if (uniform.image)
-            names.push_back(uniform.name);
-    names.push_back(scene::k_camera_uniform);
-    names.push_back(scene::k_time_low_uniform);
+    for (const scene::HostUniform& row : scene::k_host_uniforms)
+        if (row.image && !row.name.empty())
+            names.push_back(row.name);
     return names;
 }
 

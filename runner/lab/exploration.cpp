@@ -6,6 +6,7 @@
 #include "lab/probe_inputs.hpp"
 #include "lab/probed_pictures.hpp"
 #include "lab/text_findings.hpp"
+#include "scene/host_uniforms.hpp"
 
 #include <fmt/format.h>
 
@@ -93,9 +94,12 @@ private:
         const auto renderer = TRY(bench_.compiled());
         SearchInputs inputs;
         for (const render::PlannedPass& planned : (renderer)->plan().passes) {
-            const gl::Reflection& active = (renderer)->program(planned.pass).reflection();
-            inputs.time = inputs.time || active.has("iTime") || active.has("iFrame");
-            inputs.mouse = inputs.mouse || active.has("iMouse");
+            const bool other_hosts = (renderer)->names_of(planned.pass).other_hosts;
+            for (const gl::Uniform& uniform : (renderer)->program(planned.pass).reflection().uniforms)
+                if (const auto* row = scene::find_host_uniform(uniform.name, other_hosts)) {
+                    inputs.time = inputs.time || row->follows == scene::Follows::clock;
+                    inputs.mouse = inputs.mouse || row->follows == scene::Follows::mouse;
+                }
         }
         space_.emplace(bench_.scene(), bench_.promises(), inputs);
         auto texts = read_texts(bench_, false);

@@ -2,12 +2,14 @@
 
 #include "lab/pass_function.hpp"
 #include "proof/number_systems.hpp"
+#include "render/pass_state.hpp"
 #include "scene/host_uniforms.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace tidemark::lab {
 
@@ -35,15 +37,52 @@ void InputRanges::set_place(const ir::Interval& x, const ir::Interval& y) {
     set("gl_FragCoord", std::array<ir::Interval, 4>{{x, y, {0.5, 0.5}, {1, 1}}});
 }
 
+namespace {
+
+/// Returns the value of a host uniform when iTime is that time, and so the time of every channel.
+std::vector<double> value_at(scene::HostValue value, const DrawnPass& drawn, double time) {
+    render::FrameInputs inputs = drawn.inputs;
+    inputs.time = time;
+    render::ChannelFacts channels;
+    for (render::ChannelFact& channel : channels)
+        channel.time = time;
+    const auto numbers = render::value_of(value, inputs, drawn.renderer.extent(), channels);
+    const std::span<const double> all = numbers;
+    return {all.begin(), all.end()};
+}
+
+std::vector<ir::Interval> ranges_over(const ir::Interval& time, const scene::HostUniform& row,
+                                      const DrawnPass& drawn) {
+    const scene::RangeOverTime& over = row.over_time;
+    std::vector<ir::Interval> ranges;
+    switch (over.kind) {
+    case scene::RangeOverTime::Kind::constant: break;
+    case scene::RangeOverTime::Kind::between_ends: {
+        const auto low = value_at(row.value, drawn, time.low), high = value_at(row.value, drawn, time.high);
+        for (size_t i = 0; i < low.size(); ++i)
+            ranges.push_back({std::min(low[i], high[i]), std::max(low[i], high[i])});
+        break;
+    }
+    case scene::RangeOverTime::Kind::limits:
+        for (size_t i = 0; i < component_count(row); ++i) {
+            const double most = over.per_second > 0 ? time.high * over.per_second : over.high[i];
+            ranges.push_back({over.low[i], std::min(most, over.high[i])});
+        }
+    }
+    return ranges;
+}
+
+} // namespace
+
 void InputRanges::set_time(const ir::Interval& time) {
-    constexpr double k_frames_a_second = 1000;
-    set("iTime", time);
-    set(scene::k_time_low_uniform, {-1, 1});
-    set("iFrame", {0, std::min(time.high * k_frames_a_second, 2147483647.0)});
-    set("iTimeDelta", {0, 1});
-    set("iFrameRate", {0, k_frames_a_second});
-    set("iChannelTime", std::array{time, time, time, time});
-    set("iDate", std::array<ir::Interval, 4>{{{0, 9999}, {0, 11}, {1, 31}, {0, 86400}}});
+    const auto names = drawn_->renderer.names_of(drawn_->pass);
+    for (const ir::Variable& variable : drawn_->function.function().variables) {
+        const scene::HostUniform* row = variable.kind == ir::Variable::Kind::uniform
+                                            ? scene::find_host_uniform(variable.name, names.other_hosts)
+                                            : nullptr;
+        if (row && std::ranges::find(names.knobs, variable.name, &scene::Knob::name) == names.knobs.end())
+            set(variable.name, ranges_over(time, *row, *drawn_));
+    }
 }
 
 void InputRanges::turn_knobs() {

@@ -27,14 +27,6 @@ struct LiveMedia {
 // Textures of a scene's channels, except the outputs of passes. Each distinct input is loaded once, when a
 // linked program first reads it. Some inputs change from frame to frame.
 
-/// Values of the channel uniforms for one channel.
-struct ChannelFact {
-    std::array<double, 3> resolution{}; ///< iChannelResolution
-    double time = 0;                    ///< iChannelTime
-    bool loaded = false;                ///< iChN.loaded
-};
-using ChannelFacts = std::array<ChannelFact, scene::k_channel_count>;
-
 /// Updates a texture; returns true when its content has changed. Empty for a constant texture.
 using TextureUpdate = std::function<bool(const gl::Texture&, const FrameInputs&)>;
 

@@ -1,5 +1,7 @@
 #include "render/frame_state.hpp"
 
+#include "render/pass_state.hpp"
+
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/ext/matrix_transform.hpp>
@@ -293,6 +295,7 @@ FrameInputs inputs_of(const FrameState& state) {
     inputs.time = state.seconds();
     inputs.time_delta = state.time_delta.value_or(1 / state.fps);
     inputs.frame_rate = state.fps;
+    inputs.bpm = state.bpm;
     inputs.mouse = state.mouse.uniform();
     inputs.mouse_button = {state.mouse.down ? 1 : 0, state.right_button ? 1 : 0};
     inputs.keyboard = state.keys;
@@ -305,6 +308,62 @@ FrameInputs inputs_of(const FrameState& state) {
     if (state.initial_camera)
         inputs.view = inverse(state.initial_camera->matrix()) * inputs.camera;
     return inputs;
+}
+
+namespace {
+
+UniformNumbers resolutions_of(const ChannelFacts& channels) {
+    UniformNumbers numbers{};
+    for (const ChannelFact& channel : channels)
+        numbers.append(channel.resolution.begin(), channel.resolution.end());
+    return numbers;
+}
+
+UniformNumbers times_of(const ChannelFacts& channels) {
+    UniformNumbers numbers{};
+    for (const ChannelFact& channel : channels)
+        numbers.append(&channel.time, &channel.time + 1);
+    return numbers;
+}
+
+UniformNumbers elements_of(const glm::mat4& matrix) {
+    UniformNumbers numbers{};
+    numbers.append(&matrix[0][0], &matrix[0][0] + 16);
+    return numbers;
+}
+
+} // namespace
+
+UniformNumbers value_of(scene::HostValue value, const FrameInputs& inputs, Extent resolution,
+                        const ChannelFacts& channels) {
+    using scene::HostValue;
+    switch (value) {
+    case HostValue::resolution: return {double(resolution.width), double(resolution.height), 1};
+    case HostValue::time: return {inputs.time};
+    case HostValue::time_delta: return {inputs.time_delta};
+    case HostValue::frame_rate: return {inputs.frame_rate};
+    case HostValue::frame: return {double(inputs.frame)};
+    case HostValue::mouse: return {inputs.mouse.x, inputs.mouse.y, inputs.mouse.z, inputs.mouse.w};
+    case HostValue::date:
+        return {double(inputs.date.year), double(inputs.date.month), double(inputs.date.day),
+                inputs.date.seconds};
+    case HostValue::sample_rate: return {k_sample_rate};
+    case HostValue::channel_time: return times_of(channels);
+    case HostValue::channel_resolution: return resolutions_of(channels);
+    case HostValue::time_offset:
+    case HostValue::sample_offset: return {0}; // set by SoundRenderer for each block
+    case HostValue::camera: return elements_of(inputs.camera);
+    case HostValue::orbit: return {inputs.orbit.x, inputs.orbit.y, inputs.orbit.z, inputs.orbit.w};
+    case HostValue::orbit_pan: return {inputs.orbit_pan.x, inputs.orbit_pan.y, inputs.orbit_pan.z};
+    case HostValue::time_low: return {inputs.time - double(float(inputs.time))};
+    case HostValue::beat: return {inputs.time * inputs.bpm / 60};
+    case HostValue::mouse_button: return {inputs.mouse_button.x, inputs.mouse_button.y, 0, 0};
+    case HostValue::view: return elements_of(inputs.view);
+    case HostValue::relative_mouse:
+        return {inputs.mouse.x / std::max(1.0, double(resolution.width)),
+                inputs.mouse.y / std::max(1.0, double(resolution.height))};
+    }
+    return {0};
 }
 
 } // namespace tidemark::render

@@ -3,6 +3,8 @@
 
 #include "base/error.hpp"
 #include "base/extent.hpp"
+#include "scene/channel.hpp"
+#include "scene/host_uniforms.hpp"
 #include "scene/knob.hpp"
 
 #include <glm/mat4x4.hpp>
@@ -17,6 +19,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace tidemark::render {
@@ -134,6 +139,7 @@ struct FrameInputs {
     double time = 0;              ///< iTime, seconds
     double time_delta = 1 / 60.0; ///< iTimeDelta, seconds
     double frame_rate = 60;       ///< iFrameRate
+    double bpm = 120;             ///< beats per minute, of iBeat
     glm::vec4 mouse{0};           ///< iMouse, whole pixels, ShaderToy's signs
     Date date{};
     glm::mat4 camera{1}; ///< iCamera, camera to world
@@ -146,6 +152,19 @@ struct FrameInputs {
     std::vector<scene::Setting> knobs{};     ///< values that differ from the scene's
     std::shared_ptr<const LiveMedia> live{}; ///< null: not requested
 };
+
+/// Values of the channel uniforms for one channel.
+struct ChannelFact {
+    std::array<double, 3> resolution{}; ///< iChannelResolution
+    double time = 0;                    ///< iChannelTime
+    bool loaded = false;                ///< iChN.loaded
+};
+using ChannelFacts = std::array<ChannelFact, scene::k_channel_count>;
+
+class UniformNumbers;
+/// Returns the value of a host uniform in a pass: `resolution` is its size in pixels.
+UniformNumbers value_of(scene::HostValue value, const FrameInputs& inputs, Extent resolution,
+                        const ChannelFacts& channels);
 
 inline constexpr double k_sample_rate = 44100; ///< iSampleRate
 
@@ -161,13 +180,14 @@ FrameInputs inputs_of_frame(int frame, double fps);
 
 // One moment of a scene: all that determines a frame apart from the scene's files. Windows, recordings and
 // probes describe a frame by this value, and `inputs_of` computes ShaderToy's uniforms from it. A new field
-// must also be added to `k_frame_fields`.
+// needs a row in `k_frame_fields`.
 
 struct FrameState {
     int frame = 0;                ///< iFrame
     std::optional<double> time{}; ///< iTime, seconds; none: frame / fps
     Extent extent{640, 360};
     double fps = 60;                             ///< iFrameRate
+    double bpm = 120;                            ///< beats per minute, of iBeat
     std::optional<double> time_delta{};          ///< iTimeDelta, seconds; none: 1 / fps
     Mouse mouse{};                               ///< iMouse, and the left button of iMouseButton
     bool right_button = false;                   ///< down; of iMouseButton
@@ -193,6 +213,64 @@ struct FrameState {
     /// Returns whether `other` is a frame of the same run, apart from rounding of its time.
     bool is_in_run_of(const FrameState& other) const;
 };
+
+// The fields of FrameState, from which its JSON and its command line are made. A missing field does not
+// compile.
+
+/// A field of type double is a number above 0 that holds for a whole run. Its option is made from its row,
+/// and an exported page gets it.
+template <class T>
+struct FrameField {
+    std::string_view name;
+    T FrameState::*member;
+    std::string_view option{};                 ///< of `tidemark capture`; empty: none
+    std::string_view placeholder{}, meaning{}; ///< help of a number's option
+};
+template <class T>
+FrameField(std::string_view, T FrameState::*, std::string_view = {}, std::string_view = {},
+           std::string_view = {}) -> FrameField<T>; // for clang 14
+
+inline constexpr auto k_frame_fields = std::tuple{
+    FrameField{"frame", &FrameState::frame, "--frame"},
+    FrameField{"time", &FrameState::time, "--time"},
+    FrameField{"size", &FrameState::extent, "--size"},
+    FrameField{"fps", &FrameState::fps, "--fps", "F", "Time step: iTime = frame / F, iTimeDelta = 1 / F"},
+    FrameField{"bpm", &FrameState::bpm, "--bpm", "B", "Beats per minute: iBeat = iTime * B / 60"},
+    FrameField{"time_delta", &FrameState::time_delta},
+    FrameField{"mouse", &FrameState::mouse, "--mouse"},
+    FrameField{"right_button", &FrameState::right_button},
+    FrameField{"keys", &FrameState::keys},
+    FrameField{"date", &FrameState::date, "--date"},
+    FrameField{"camera", &FrameState::camera, "--camera"},
+    FrameField{"initial_camera", &FrameState::initial_camera},
+    FrameField{"knobs", &FrameState::knobs, "--set"},
+    FrameField{"definitions", &FrameState::definitions, "--define"},
+    FrameField{"channels", &FrameState::channels, "--channel"},
+    FrameField{"pass", &FrameState::pass, "--pass"},
+};
+
+/// Ties all members of a state; compiles only if the number of names is the number of fields.
+constexpr auto tied(const FrameState& state) {
+    const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16] = state;
+    return std::tie(f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16);
+}
+static_assert(std::tuple_size_v<decltype(k_frame_fields)> ==
+              std::tuple_size_v<decltype(tied(std::declval<FrameState>()))>);
+
+/// Calls `see(field)` for each row.
+template <class See>
+void for_each_field(See&& see) {
+    std::apply([&](const auto&... field) { (see(field), ...); }, k_frame_fields);
+}
+
+/// Calls `see(field)` for each number, a field of type double.
+template <class See>
+void for_each_number(See&& see) {
+    for_each_field([&]<class T>(const FrameField<T>& field) {
+        if constexpr (std::is_same_v<T, double>)
+            see(field);
+    });
+}
 
 /// Returns the state at a time, in the frame that contains it; times before 0 are in frame 0.
 FrameState at_time(double seconds, FrameState state = {});

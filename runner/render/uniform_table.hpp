@@ -1,5 +1,5 @@
-// Maps the active uniforms of a linked program to ShaderToy's, once, and computes their values for each
-// frame.
+// Maps the active uniforms of a linked program to the rows of `scene::k_host_uniforms`, channels' structs and
+// knobs, once, and computes their values for each frame.
 #pragma once
 
 #include "base/extent.hpp"
@@ -7,6 +7,7 @@
 #include "render/frame_state.hpp"
 #include "render/gl_program.hpp"
 #include "render/pass_state.hpp"
+#include "scene/host_uniforms.hpp"
 #include "scene/scene.hpp"
 
 #include <functional>
@@ -44,39 +45,24 @@ public:
 
 private:
     enum class Source {
-        resolution,
-        time,
-        time_low, ///< remainder of the time after rounding to binary32
-        time_delta,
-        frame,
-        frame_rate,
-        mouse,
-        relative_mouse, ///< 0 to 1 across the picture
-        mouse_button,
-        date,
-        sample_rate,
-        channel_time,
-        channel_resolution,
+        host,
         struct_size,   ///< iChN.size, iChannel[N].resolution
         struct_time,   ///< iChN.time, iChannel[N].time
         struct_loaded, ///< iChN.loaded
-        camera,
-        view,
-        orbit,
-        orbit_pan,
         knob
     };
-    /// Returns whether a uniform of that type can hold the value.
-    static bool takes(GLenum type, Source source);
-    static bool is_matrix(Source source) { return source == Source::camera || source == Source::view; }
     /// Returns the source of a member of that channel's struct; nothing for other uniforms.
     static std::optional<Source> struct_member(std::string_view name, size_t channel);
 
     struct Entry {
         gl::Uniform uniform;
         Source source;
-        size_t index = 0; ///< of the knob or the channel
+        size_t index = 0; ///< of the row, the knob or the channel
+
+        const scene::HostUniform& row() const { return scene::k_host_uniforms[index]; }
     };
+    static UniformNumbers host_value(const Entry& entry, const FrameInputs& inputs, Extent resolution,
+                                     const ChannelFacts& channels);
     std::vector<Entry> entries_;
 };
 

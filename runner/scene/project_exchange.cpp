@@ -394,11 +394,11 @@ private:
     Json pass_of(const Pass& pass, const char* type, const std::string& name, int output) {
         if (pass.keyboard_helpers)
             warn({}, fmt::format("'{}' says #iKeyboard: ShaderToy has no isKeyDown and the like", pass.name));
-        const std::string camera(k_camera_uniform);
-        if (pass.text.text().find(camera) != std::string::npos ||
-            scene_.common.text().find(camera) != std::string::npos)
-            warn({}, fmt::format("'{}' says {}: ShaderToy has no such uniform, and it is all zeros there",
-                                 pass.name, camera));
+        for (const HostUniform& row : k_host_uniforms)
+            if (row.breaks_as_zero && (pass.text.text().find(row.name) != std::string::npos ||
+                                       scene_.common.text().find(row.name) != std::string::npos))
+                warn({}, fmt::format("'{}' says {}: ShaderToy has no such uniform, and it is all zeros there",
+                                     pass.name, row.name));
         Json inputs = Json::array();
         for (size_t i = 0; i < pass.channels.size(); ++i) {
             const std::string channel = fmt::format("iChannel{}", i);

@@ -1,5 +1,6 @@
 #include "shader/portability.hpp"
 
+#include "scene/channel.hpp"
 #include "scene/host_uniforms.hpp"
 #include "shader/builtin_functions.hpp"
 #include "shader/token_reading.hpp"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -64,9 +66,26 @@ std::string_view instead_of(std::string_view function) {
     return {};
 }
 
-constexpr std::string_view k_image_uniforms[] = {
-    "iResolution",        "iTime",     "iTimeDelta", "iFrameRate", "iFrame",   "iMouse", "iChannelTime",
-    "iChannelResolution", "iChannel0", "iChannel1",  "iChannel2",  "iChannel3"};
+/// Returns the row of a uniform that the site declares in passes that draw pictures; null for other names.
+const scene::HostUniform* site_uniform(std::string_view name) {
+    const scene::HostUniform* row = scene::find_host_uniform(name);
+    return row && row->declared == scene::Declared::by_site && row->image ? row : nullptr;
+}
+
+bool is_site_channel(std::string_view name) {
+    return is_one_of(name, std::span(k_channel_names).first<scene::k_site_channel_count>());
+}
+
+/// Returns whether the site declares the name in passes that draw pictures.
+bool is_on_site(std::string_view name) {
+    return site_uniform(name) != nullptr || is_site_channel(name);
+}
+
+/// Returns whether the site declares the name in those passes, but not where it compiles Common by itself.
+bool is_missing_in_common(std::string_view name) {
+    const scene::HostUniform* row = site_uniform(name);
+    return (row && !row->common) || is_site_channel(name);
+}
 
 bool is_whole_number(const Token& token) {
     return token.kind == TokenKind::number &&
@@ -182,7 +201,8 @@ private:
     }
 
     void word(const Token& token) {
-        if (token.is(scene::k_camera_uniform) && reported_.insert(token.text).second)
+        const scene::HostUniform* row = scene::find_host_uniform(token.text);
+        if (row && row->breaks_as_zero && reported_.insert(token.text).second)
             say(token,
                 fmt::format("{}: the site has no such uniform, and it is all zeros there", token.text));
         if (const std::string_view single = float_type_of(token.text); !single.empty())
@@ -221,8 +241,7 @@ private:
             reserved_name();
         if (is_one_of(token.text, k_with_offset))
             offset();
-        if (common_ && is_one_of(token.text, k_image_uniforms) && !defined_.contains(token.text) &&
-            !is_local())
+        if (common_ && is_missing_in_common(token.text) && !defined_.contains(token.text) && !is_local())
             say(token, fmt::format("{}: the site compiles Common alone, where this is not declared; pass it "
                                    "as a parameter, or use a macro",
                                    token.text));
@@ -267,7 +286,7 @@ private:
         const bool declares = is_word(-1) && !peek(-1).is("struct") &&
                               (peek(1).is(";") || peek(1).is("=") || peek(1).is(",") || peek(1).is("["));
         const bool is_of_the_site =
-            is_one_of(token.text, k_image_uniforms) || token.is("iDate") || token.is("iSampleRate") ||
+            is_on_site(token.text) ||
             std::ranges::find(scene::k_channel_structs, token.text) != scene::k_channel_structs.end();
         if (declares && is_of_the_site && !common_ && !in_parameters())
             say(token, fmt::format("{}: the site declares it already; remove this", token.text));
@@ -390,9 +409,7 @@ private:
     void global_value() {
         for (long i = 3; !peek(i).text.empty() && !peek(i).is(";"); ++i) {
             const Token& part = peek(i);
-            const bool uniform =
-                is_one_of(part.text, k_image_uniforms) || part.is("iDate") || part.is("iSampleRate");
-            if (!uniform || defined_.contains(part.text))
+            if (!is_on_site(part.text) || defined_.contains(part.text))
                 continue;
             say(part, fmt::format("{}: outside functions GLSL ES allows only constant values; set {} in "
                                   "mainImage, or make it a #define",

@@ -149,9 +149,9 @@ std::string site_uniforms(const scene::Pass& pass, const Survey& survey, const D
                           int channels) {
     std::string text;
     const bool sound = pass.kind == scene::PassKind::sound;
-    for (const SiteUniform& uniform : k_site_uniforms)
-        if (sound ? uniform.sound : uniform.image)
-            text += declare(survey, uniform.type, uniform.name, uniform.length > 0 ? channels : 0);
+    for (const scene::HostUniform& row : scene::k_host_uniforms)
+        if (row.declared == scene::Declared::by_site && (sound ? row.sound : row.image))
+            text += declare(survey, row.type, row.name, row.length > 0 ? channels : 0);
     for (size_t i = 0; i < k_channel_structs.size(); ++i) {
         const std::string_view type = sampler_type(dialect.channels[i]);
         text += declare(survey, type, k_channel_names[i]);
@@ -170,11 +170,11 @@ std::string more_uniforms(const scene::Scene& scene, const Survey& survey, const
     for (size_t i = k_channel_structs.size(); i < k_channel_names.size(); ++i)
         if (survey.wants(k_channel_names[i]))
             text += declare(survey, sampler_type(dialect.channels[i]), k_channel_names[i]);
-    if (survey.wants(scene::k_mouse_button_uniform))
-        text += declare(survey, "vec4", scene::k_mouse_button_uniform);
-    if (survey.wants(scene::k_view_uniform))
-        text += scene.moves_view ? fmt::format("uniform mat4 {};\n", scene::k_view_uniform)
-                                 : fmt::format("const mat4 {} = mat4(1.0);\n", scene::k_view_uniform);
+    for (const scene::HostUniform& row : scene::k_host_uniforms)
+        if (row.declared == scene::Declared::by_host_if_read && survey.wants(row.name))
+            text += row.value == scene::HostValue::view && !scene.moves_view
+                        ? fmt::format("const {0} {1} = {0}(1.0);\n", row.type, row.name)
+                        : declare(survey, row.type, row.name);
     for (const scene::Knob& knob : scene.knobs)
         if (survey.uses(knob.name))
             text += declare(survey, scene::info(knob.type).glsl_name, knob.name);

@@ -14,24 +14,17 @@ using text::Token;
 using text::TokenKind;
 
 /// Names of interest that are not in another table.
-constexpr std::string_view k_other_names[] = {"GL_ES",
-                                              "__VERSION__",
-                                              "gl_FragColor",
-                                              "st_assert",
-                                              "iChannel",
-                                              "iKeyboard",
-                                              "main",
-                                              "gl_FragCoord",
-                                              "HW_PERFORMANCE",
-                                              scene::k_mouse_button_uniform,
-                                              scene::k_view_uniform};
+constexpr std::string_view k_other_names[] = {"GL_ES",     "__VERSION__",  "gl_FragColor",
+                                              "st_assert", "iChannel",     "iKeyboard",
+                                              "main",      "gl_FragCoord", "HW_PERFORMANCE"};
 
 std::unordered_map<std::string_view, NameUse> names_of_interest() {
     std::unordered_map<std::string_view, NameUse> names;
     for (const OldName& old : k_old_names)
         names[old.name];
-    for (const SiteUniform& uniform : k_site_uniforms)
-        names[uniform.name];
+    for (const scene::HostUniform& row : scene::k_host_uniforms)
+        if (row.declared != scene::Declared::by_author)
+            names[row.name];
     for (const auto word : k_reserved_words)
         names[word];
     for (const auto name : k_channel_names)
@@ -293,9 +286,9 @@ private:
     static bool is_same_as_site(const OwnUniform& own, int length) {
         if (own.name == "iGlobalTime")
             return own.type == "float" && length == 0;
-        return std::any_of(std::begin(k_site_uniforms), std::end(k_site_uniforms), [&](const auto& site) {
-            return site.name == own.name && site.type == own.type && site.length == length;
-        });
+        const scene::HostUniform* row = scene::find_host_uniform(own.name);
+        return row && row->declared == scene::Declared::by_site && row->type == own.type &&
+               row->length == length;
     }
 
     const std::vector<Token>& tokens_;

@@ -1,5 +1,5 @@
 // Name tables for the front end: names that desktop drivers reserve, keywords, names of old APIs, brackets.
-// ShaderToy's uniforms: scene::k_site_uniforms.
+// The host's uniforms: scene::k_host_uniforms.
 #pragma once
 
 #include "scene/host_uniforms.hpp"
@@ -15,8 +15,6 @@ namespace tidemark::glsl {
 
 using scene::k_channel_names;
 using scene::k_channel_structs;
-using scene::k_site_uniforms;
-using scene::SiteUniform;
 
 /// A name of an old API and its current equivalent.
 struct OldName {

@@ -11,6 +11,7 @@
 #include "media/picture_file.hpp"
 #include "media/texture_files.hpp"
 #include "scene/channel.hpp"
+#include "scene/host_uniforms.hpp"
 #include "scene/scene.hpp"
 #include "shader/pass_reading.hpp"
 #include "web/embedded.hpp"
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -49,7 +51,7 @@ std::vector<size_t> channels_named(const scene::Scene& scene, const scene::Pass&
 // `host/` reads it.
 
 /// Leaves out passes that are not needed and inputs that no text names. Fails like `make_page`.
-Result<Json> scene_data(const scene::Scene& scene);
+Result<Json> scene_data(const scene::Scene& scene, const Json& numbers);
 
 namespace {
 
@@ -425,8 +427,10 @@ private:
 
 } // namespace
 
-Result<Json> scene_data(const scene::Scene& scene) {
-    return Collector(scene).collect();
+Result<Json> scene_data(const scene::Scene& scene, const Json& numbers) {
+    auto data = TRY(Collector(scene).collect());
+    data["numbers"] = numbers;
+    return data;
 }
 
 namespace {
@@ -437,15 +441,48 @@ std::string in_script(const nlohmann::ordered_json& data) {
     return report::in_script(data.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace));
 }
 
+std::string_view name_of(scene::Follows follows) {
+    switch (follows) {
+    case scene::Follows::nothing: return "nothing";
+    case scene::Follows::clock: return "clock";
+    case scene::Follows::mouse: return "mouse";
+    case scene::Follows::camera: return "camera";
+    }
+    return "";
+}
+
+/// Returns the names in quotes, without the empty ones.
+std::string quoted(std::span<const std::string_view> names) {
+    std::string text;
+    for (const std::string_view name : names)
+        if (!name.empty())
+            text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
+    return text;
+}
+
+/// Returns the rows of HOST_UNIFORMS (host/uniforms.js).
+std::string uniform_rows() {
+    std::string rows = "// scene/host_uniforms.hpp\n";
+    for (const scene::HostUniform& row : scene::k_host_uniforms)
+        if (!row.script.empty())
+            rows += fmt::format("    {{names: [{}], others: [{}], follows: \"{}\",{}\n"
+                                "     value: (moment, size, channels) => {}}},\n",
+                                quoted({&row.name, 1}), quoted(row.other_names), name_of(row.follows),
+                                row.length > 0 ? fmt::format(" width: {},", component_count(row)) : "",
+                                row.script);
+    return rows;
+}
+
 } // namespace
 
-Result<std::string> make_page(const scene::Scene& scene, PageForm form) {
-    const auto data = TRY(scene_data(scene));
+Result<std::string> make_page(const scene::Scene& scene, PageForm form, const Json& numbers) {
+    const auto data = TRY(scene_data(scene, numbers));
+    const std::string host = report::filled(k_host, {{"// {{uniforms}}\n", uniform_rows()}});
     const bool whole = form == PageForm::whole;
     const std::string figure = report::filled(k_figure, {{"{{moment}}", whole ? "" : " data-moment=\"\""},
                                                          {"{{style}}", k_style},
                                                          {"{{scene}}", in_script(data)},
-                                                         {"{{host}}", k_host}});
+                                                         {"{{host}}", host}});
     if (!whole)
         return figure;
     const std::string title = report::escaped(scene.name());

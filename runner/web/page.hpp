@@ -25,7 +25,8 @@ enum class PageForm {
     fragment, ///< a `<div>` with its style and script, to be pasted into another page
 };
 
-/// Fails (ErrorCode::load) if a file that the scene reads cannot be read, or is too large for a page.
-Result<std::string> make_page(const scene::Scene& scene, PageForm form);
+/// `numbers`: those of the run by name (cli::run_numbers), which the page's uniforms are computed from. Fails
+/// (ErrorCode::load) if a file that the scene reads cannot be read, or is too large for a page.
+Result<std::string> make_page(const scene::Scene& scene, PageForm form, const Json& numbers);
 
 } // namespace tidemark::web

@@ -184,9 +184,10 @@ double LiveClock::time_at(double now) const {
     return paused_ ? time_ : std::max(0.0, time_ + speed_ * (now - resumed_at_));
 }
 
-FrameState LiveClock::next_frame(double now) {
+FrameState LiveClock::next_frame(double now, FrameState state) {
     measure_rate(now);
-    FrameState state{.frame = next_frame_, .fps = frames_per_second_.value_or(frame_rate_)};
+    state.frame = next_frame_;
+    state.fps = frames_per_second_.value_or(frame_rate_);
     if (!frames_per_second_) {
         state.time = time_at(now);
         state.time_delta = fresh_ || paused_ ? k_usual_delta : std::abs(speed_) * (now - drawn_at_);

@@ -113,8 +113,9 @@ public:
     /// Excludes a break between frames from the next iTimeDelta.
     void rest() { fresh_ = true; }
 
-    /// Returns the state of the frame to draw now, and counts it.
-    FrameState next_frame(double now);
+    /// Returns the state of the frame to draw now, and counts it. `state` holds the fields that do not follow
+    /// the clock.
+    FrameState next_frame(double now, FrameState state = {});
     /// Takes back the last `next_frame`, which was not drawn: the next frame gets its number.
     void give_frame_back();
     /// Returns iTime at `now`.

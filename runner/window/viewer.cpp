@@ -249,7 +249,6 @@ std::vector<std::string> Viewer::trace_words() const {
     state.extent = stage_->renderer().extent();
     state.fps = settings_.frames.state.fps;
     state.date = settings_.frames.state.date;
-    state.pass = settings_.frames.state.pass;
     return cli::trace_words(scene_.request(), settings_.frames, state);
 }
 

@@ -162,7 +162,7 @@ void Viewer::draw(double now) {
 
 /// Returns the state of the frame to draw now.
 render::FrameState Viewer::next_state(double now) {
-    render::FrameState state = clock_.next_frame(now);
+    render::FrameState state = clock_.next_frame(now, settings_.frames.state);
     state.date = settings_.date ? *settings_.date : render::later(render::local_date(), -state.seconds());
     state.extent = stage_->renderer().extent();
     if (replay_)

@@ -69,6 +69,35 @@ class Clock(Told):
                                               "0-9,20-29")
 
 
+class Beat(Told):
+    def beat(self, *options: str, before: str = "uniform float iBeat;\n") -> float:
+        return self.told({"iBeat": "iBeat"}, *options, before=before)["iBeat"]
+
+    def test_two_a_second_are_the_default(self):
+        self.assertEqual(self.beat("--time", "1.25"), 2.5)
+        self.assertEqual(self.beat("--frame", "45", "--fps", "30"), 3)
+
+    def test_bpm(self):
+        self.assertEqual(self.beat("--time", "1.25", "--bpm", "90"), 1.875)
+        self.assertEqual(self.beat("--time", "3600", "--bpm", "174.5"), 10470)
+
+    def test_goes_on_within_a_sequence(self):
+        self.write("told.glsl", probe.shader({"iBeat": "iBeat"}, "uniform float iBeat;\n"))
+        done = self.succeed("capture", "told.glsl", "--size", "64x2", "-o", "-", "--frames", "0-8x4", "--fps", "4", "--bpm", "90")
+        told = [probe.read(png.from_raw(64, 2, done.stdout[i * 384:(i + 1) * 384]), {"iBeat": "iBeat"})["iBeat"] for i in range(3)]
+        self.assertEqual(told, [0, 1.5, 3])
+
+    def test_no_knob_has_its_name(self):
+        self.write("a.glsl", "#iUniform float iBeat = 1.0\n" + GOOD)
+        self.expect_failure(["capture", "a.glsl", "-o", "-"], 3,
+                            "a.glsl:1: error: 'iBeat' is a uniform of the host's own: give the knob another name")
+
+    def test_errors(self):
+        self.refused("--bpm fast", "--bpm: give a number, not 'fast'")
+        self.refused("--bpm 0", "--bpm 0: give a number above 0")
+        self.refused("--bpm -120", "--bpm -120: give a number above 0")
+
+
 class Size(Told):
     RESOLUTION = probe.vector("iResolution", "xyz")
 

@@ -206,7 +206,7 @@ class Json(CaptureTest):
         self.assertEqual(f"tidemark {report['tidemark']}\n".encode(), self.succeed("--version").stdout)
         self.assertEqual(report["left_out"], [
             "uniforms: iResolution, iTime, iTimeDelta, iFrameRate, iMouse, iDate, iSampleRate, iChannelTime, "
-            "iChannelResolution, iCamera, iTimeLow",
+            "iChannelResolution, iCamera, iOrbit, iOrbitPan, iTimeLow, iBeat, iMouseButton, iViewMatrix",
             "channels: iChannel0, iChannel1, iChannel2, iChannel3", "noise texture"])
         self.assertEqual([f["frame"] for f in report["frames"]], [0, 2, 4])
         self.assertEqual([f["iTime"] for f in report["frames"]], [0, 2 / 30, 4 / 30])

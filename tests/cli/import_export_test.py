@@ -101,6 +101,18 @@ class Export(ProgramTest):
         self.succeed("export", "wäve.glsl", "--html", "figure.html", "--embed")
         self.assertTrue((self.folder / "figure.html").read_bytes().isascii())
 
+    def test_a_page_has_the_hosts_uniforms_and_the_tempo(self):
+        self.write("beat.glsl", "uniform float iBeat;\n" + SHADER)
+        self.succeed("export", "beat.glsl", "--html", "beat.html", "--bpm", "90")
+        page = (self.folder / "beat.html").read_text()
+        self.assertIn('"numbers":{"fps":60.0,"bpm":90.0}', page)
+        self.assertIn('names: ["iBeat"], others: [], follows: "clock",', page)
+        self.assertIn("moment.time * moment.bpm / 60", page)
+        self.assertNotIn("{{uniforms}}", page)
+        self.succeed("export", "beat.glsl", "--html", "beat.html")
+        self.assertIn('"bpm":120.0', (self.folder / "beat.html").read_text())
+        self.expect_failure(["export", "beat.glsl", "--bpm", "90"], 2, "tidemark: error: --bpm goes with --html FILE")
+
     def test_usage(self):
         self.write("x.json", "[]")
         self.expect_failure(["export", "x.json"], 2, "tidemark: error: 'x.json' is ShaderToy's JSON already")

@@ -38,8 +38,17 @@ class Scene(ProgramTest):
             {"name": "tint", "type": "color3", "value": [1, 0.5, 0]}])
         self.assertEqual(facts["left_out"], [
             "uniforms: iResolution, iTimeDelta, iFrameRate, iFrame, iMouse, iDate, iSampleRate, iChannelTime, "
-            "iChannelResolution, iCamera, iTimeLow",
+            "iChannelResolution, iCamera, iOrbit, iOrbitPan, iTimeLow, iBeat, iMouseButton, iViewMatrix",
             "knobs: tint", "channels: iChannel0, iChannel2, iChannel3"])
+
+    def test_the_uniforms_left_out_are_those_that_the_scene_does_not_read(self):
+        self.write("own.glsl", "uniform vec4 iOrbit;\nuniform mat4 iCamera;\nvoid mainImage(out vec4 c, in vec2 p) "
+                   "{ c = iOrbit + iCamera[3] + iMouseButton; }\n")
+        facts = json.loads(self.succeed("inspect", "own.glsl", "--json").stdout)
+        self.assertEqual(sorted(facts["uniforms"]), ["iCamera", "iMouseButton", "iOrbit"])
+        left_out = facts["left_out"][0].removeprefix("uniforms: ").split(", ")
+        self.assertEqual([name for name in left_out if name in ("iCamera", "iOrbit", "iOrbitPan", "iMouseButton", "iViewMatrix")],
+                         ["iOrbitPan", "iViewMatrix"])
 
     def test_text(self):
         lines = self.succeed("inspect", "sea.glsl").stdout.decode().splitlines()
@@ -51,7 +60,7 @@ class Scene(ProgramTest):
             "  iChannel1 noise", "  code removed: 1 lines", "  knob      float height = 0.5 in { 0, 2 }",
             "  knob      color3 tint = vec3(1, 0.5, 0)",
             "  left out  uniforms: iResolution, iTimeDelta, iFrameRate, iFrame, iMouse, iDate, iSampleRate, "
-            "iChannelTime, iChannelResolution, iCamera, iTimeLow",
+            "iChannelTime, iChannelResolution, iCamera, iOrbit, iOrbitPan, iTimeLow, iBeat, iMouseButton, iViewMatrix",
             "  left out  knobs: tint", "  left out  channels: iChannel0, iChannel2, iChannel3"])
 
     def test_a_scene_that_reads_no_noise_gets_none(self):

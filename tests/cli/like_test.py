@@ -10,15 +10,16 @@ SCENE = """#iChannel0 "count.glsl"
 #iUniform float height = 0.5 in { 0.0, 2.0 }
 #define TURNS 3
 uniform mat4 iCamera;
+uniform float iBeat;
 void mainImage(out vec4 c, in vec2 p) {
     vec2 uv = p / iResolution.xy;
     c = vec4(fract(height * uv.x + float(TURNS) * uv.y), fract(iCamera[3].x + iCamera[3].y * uv.x),
              texelFetch(iChannel0, ivec2(p), 0).r + distance(uv, iMouse.xy / iResolution.xy), 1.0);
-    c.r = fract(c.r + iDate.w * 0.1);
+    c.r = fract(c.r + iBeat * 0.07 + iDate.w * 0.1);
 }
 """
 ASKED = ["--size", "48x32", "--fps", "30", "--frame", "12", "--set", "height=1.25", "--define", "TURNS=5", "--mouse", "24,16",
-         "--camera", "70,10,4,0.5,0.25,-1", "--date", "2025-03-04T05:06:07"]
+         "--camera", "70,10,4,0.5,0.25,-1", "--date", "2025-03-04T05:06:07", "--bpm", "90"]
 
 
 class Like(ProgramTest):
@@ -38,7 +39,7 @@ class Like(ProgramTest):
         self.assertEqual(png.read(self.folder / "again.png").sha256(), first)
         self.assertEqual(self.bytes_of("--like", "again.png", "-o", "third.png"), first)
         for changed in (["--set", "height=0.5"], ["--define", "TURNS=4"], ["--frame", "11"], ["--mouse", "1,1"],
-                        ["--camera", "70,10,4"], ["--date", "2025-03-04T05:06:09"], ["--fps", "15"]):
+                        ["--camera", "70,10,4"], ["--date", "2025-03-04T05:06:09"], ["--fps", "15"], ["--bpm", "100"]):
             other = self.bytes_of("--like", "first.png", *changed, "-o", "other.png")
             self.assertNotEqual(other, first, changed)
             at = ASKED.index(changed[0])

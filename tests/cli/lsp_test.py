@@ -260,6 +260,8 @@ class Questions(Lsp):
         self.assertIn("An older name of `texture`.\n\n```glsl\n", self.hover("texture2D", text))
         self.assertIn("An older name of `iTime`.\n\n```glsl\nuniform float iTime\n", self.hover("iGlobalTime", text))
         self.assertIn("Given by this host: the orbit camera", self.hover("iCamera[0]", text))
+        text = "uniform float iBeat;\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(fract(iBeat)); }\n"
+        self.assertIn("Given by this host: beats since the start", self.hover("iBeat))", text))
 
     def test_definitions_across_files(self) -> None:
         client, scene, shapes = self.scene()

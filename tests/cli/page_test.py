@@ -241,6 +241,13 @@ class Behaviour(Page):
         self.browser.call("Input.dispatchKeyEvent", type="keyDown", key="r", code="KeyR", windowsVirtualKeyCode=82)
         self.wait_for_pixel(before)
 
+    def test_beats(self):
+        self.write("beat.glsl", "uniform float iBeat;\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(fract(iBeat), iBeat / 8.0, 0.0, 1.0); }\n")
+        self.export("beat.glsl")
+        self.assert_same("beat.glsl", "time=1.3&size=8x4", "--time", "1.3", "--size", "8x4")
+        self.export("beat.glsl", "--bpm", "90")
+        self.assert_same("beat.glsl", "time=1.3&size=8x4", "--time", "1.3", "--size", "8x4", "--bpm", "90")
+
     def test_a_drag_moves_a_scene_of_its_own_view(self):
         self.write("own.glsl", "uniform vec4 iOrbit;\nuniform vec3 iOrbitPan;\nvoid mainImage(out vec4 c, in vec2 p) "
                    "{ c = vec4(0.5 + 0.1 * (p.x < 32.0 ? iOrbit.xyz : iOrbitPan), 1.0); }\n")
@@ -372,6 +379,7 @@ class Words(ProgramTest):
     def test_of_the_command(self):
         self.write("a.glsl", MOUSE)
         for words, message in ((["--embed"], "--embed goes with --html FILE"), (["--media", "."], "--media goes with --html FILE"),
+                               (["--bpm", "90"], "--bpm goes with --html FILE"),
                                (["--html", "-", "--json"], "--json and --html - both want standard output: give one of them")):
             self.expect_failure(["export", "a.glsl", *words], 2, f"tidemark: error: {message}")
         self.assertEqual(self.succeed("export", "a.glsl", "--html", "a.html").stderr, "wrote a.html\n")

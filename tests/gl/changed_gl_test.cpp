@@ -118,6 +118,10 @@ TEST_F(ChangedTest, what_follows_the_clock_says_so) {
         open_scene(scene_of(telling({read})));
         EXPECT_TRUE(sparing_->follows_clock()) << read;
     }
+    for (const char* name : {"iBeat", "iTimeLow"}) {
+        open_scene(scene_of(std::string("uniform float ") + name + ";\n" + telling({name})));
+        EXPECT_TRUE(sparing_->follows_clock()) << name;
+    }
     for (const char* read : {"iMouse.x", "iResolution.x", "iSampleRate", "texture(iChannel0, p).x"}) {
         open_scene(scene_of(telling({read})));
         EXPECT_FALSE(sparing_->follows_clock()) << read;

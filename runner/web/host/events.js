@@ -40,7 +40,7 @@ class Drag {
 }
 
 function listenToPointer(figure) {
-    const {canvas, camera, renderer} = figure, turnsCamera = renderer.uses("iCamera", "iViewMatrix", "iOrbit");
+    const {canvas, camera, renderer} = figure, turnsCamera = renderer.uses(...uniformsThatFollow("camera"));
     const drag = new Drag(figure, turnsCamera);
     const on = (name, act, options) => canvas.addEventListener(name, event => {
         act(event);
@@ -58,7 +58,7 @@ function listenToPointer(figure) {
             event.preventDefault();
             camera.zoom(-Math.sign(event.deltaY));
         }, {passive: false});
-    if (turnsCamera || renderer.uses("iMouse", "iMouseButton", "mouse"))
+    if (turnsCamera || renderer.uses(...uniformsThatFollow("mouse")))
         canvas.style.touchAction = "none"; // dragging with a finger moves the picture, not the page
     if (renderer.uses("iMouseButton"))
         on("contextmenu", event => event.preventDefault());

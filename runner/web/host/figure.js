@@ -1,20 +1,20 @@
 
 // ---- The figure: a scene on a page
 
-const FPS = 60; // frame rate up to a requested moment
 const LAST_FRAME = 2 ** 31 - 2; // iFrame is an int, and one more frame must follow
 
-// Parses `time=2.5&frame=3&size=640x360&paused`: the first moment, and whether to stay there.
-function readMoment(text) {
+// Parses `time=2.5&frame=3&size=640x360&paused`: the first moment, and whether to stay there. `fps`: the frame rate up
+// to that moment.
+function readMoment(text, fps) {
     const words = new URLSearchParams(text);
     const number = (name, most) => {
         const value = words.has(name) ? Number(words.get(name)) : NaN;
         return Number.isFinite(value) ? Math.max(-most, Math.min(value, most)) : undefined;
     };
-    const time = number("time", LAST_FRAME / FPS), size = /^(\d+)x(\d+)$/.exec(words.get("size") ?? "");
+    const time = number("time", LAST_FRAME / fps), size = /^(\d+)x(\d+)$/.exec(words.get("size") ?? "");
     const frameAt = value => value === undefined ? undefined : Math.max(0, Math.floor(value));
-    const frame = frameAt(number("frame", LAST_FRAME) ?? (time === undefined ? undefined : time * FPS));
-    return {frame, time: time ?? (frame === undefined ? undefined : frame / FPS), paused: words.has("paused"),
+    const frame = frameAt(number("frame", LAST_FRAME) ?? (time === undefined ? undefined : time * fps));
+    return {frame, time: time ?? (frame === undefined ? undefined : frame / fps), paused: words.has("paused"),
             size: size && [Number(size[1]), Number(size[2])]};
 }
 
@@ -33,7 +33,7 @@ class Figure {
     constructor(div) {
         this.div = Object.assign(div, {tidemark: this}); // for scripts of the surrounding page
         this.scene = JSON.parse(div.querySelector("script[type='application/json']").textContent);
-        this.asked = readMoment(div.dataset.moment ?? location.hash.slice(1));
+        this.asked = readMoment(div.dataset.moment ?? location.hash.slice(1), this.scene.numbers.fps);
         this.canvas = element("canvas", {tabIndex: 0, ariaLabel: this.scene.name});
         if (this.scene.size) // only the author's proportions are used; the page decides the size
             this.canvas.style.setProperty("--proportion", this.scene.size[0] / this.scene.size[1]);
@@ -131,13 +131,13 @@ class Figure {
     // If frames depend on earlier ones, draws all frames on the way, a few at a time so that the page
     // responds.
     async #goTo({frame, time, paused}) {
-        const isAsked = frame !== undefined, last = frame ?? 0, end = time ?? 0;
+        const isAsked = frame !== undefined, last = frame ?? 0, end = time ?? 0, {fps} = this.scene.numbers;
         this.clock.pause(paused, this.now());
         for (let i = this.renderer.hasFeedback ? 0 : last; isAsked && i <= last; ++i) {
-            const at = end - (last - i) / FPS;
+            const at = end - (last - i) / fps;
             if (i === last)
                 await Promise.all(this.videos.map(video => video.seek(at)));
-            this.#draw({frame: i, time: at, delta: 1 / FPS, rate: FPS, date: dateAt(at)});
+            this.#draw({frame: i, time: at, delta: 1 / fps, rate: fps, date: dateAt(at)});
             if (i % 8 === 7)
                 await new Promise(resolve => setTimeout(resolve));
         }
@@ -176,7 +176,7 @@ class Figure {
     }
 
     // Jumps to a time; buffers keep their contents.
-    seek(time, frame = Math.floor(time * FPS)) {
+    seek(time, frame = Math.floor(time * this.scene.numbers.fps)) {
         this.clock.seek(time, frame, this.now());
         this.needsFrame = true;
         this.#playOn();

@@ -30,8 +30,10 @@ class InputTextures {
 
 // A pass and the objects needed to draw it.
 class DrawnPass {
-    constructor(gl, pass, program, textures) {
-        Object.assign(this, {gl, program, index: 0, kind: pass.kind, discards: pass.discards, isForeign: pass.foreign});
+    // `numbers`: the scene's numbers for the whole run, which uniforms are computed from.
+    constructor(gl, pass, program, textures, numbers) {
+        Object.assign(this, {gl, program, numbers, index: 0, kind: pass.kind, discards: pass.discards,
+                             isForeign: pass.foreign});
         this.uniforms = reflect(gl, program);
         this.channels = pass.channels.map(channel => ({
             ...channel, names: [`iChannel${channel.number}`, `iCh${channel.number}.sampler`],
@@ -61,7 +63,7 @@ class DrawnPass {
                 facts[channel.number] = texture;
             this.#bind(channel, texture);
         }
-        const values = {...uniformsAt(moment, size, facts), ...(this.isForeign ? uniformsOfOthersAt(moment, size) : {})};
+        const values = uniformsAt({...this.numbers, ...moment}, size, facts, this.isForeign);
         for (const {name, value} of moment.knobs) // a knob may have a name that only other hosts use
             values[name] = [value];
         for (const [name, [numbers, width]] of Object.entries(values))
@@ -89,7 +91,7 @@ class Renderer {
         const renderer = new Renderer();
         Object.assign(renderer, {gl, textures, passes: []});
         for (const [i, pass] of passes.entries())
-            renderer.passes.push(new DrawnPass(gl, pass, await compilations[i].link(), textures));
+            renderer.passes.push(new DrawnPass(gl, pass, await compilations[i].link(), textures, scene.numbers));
         renderer.#makeTargets();
         return renderer;
     }

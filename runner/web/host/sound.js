@@ -11,7 +11,8 @@ class SoundPass {
         if (!pass)
             return null;
         const program = await new Compilation(gl, pass).link();
-        const sound = Object.assign(new SoundPass(), {gl, pass: new DrawnPass(gl, pass, program, textures)});
+        const drawn = new DrawnPass(gl, pass, program, textures, scene.numbers);
+        const sound = Object.assign(new SoundPass(), {gl, pass: drawn});
         sound.texture = gl.createTexture();
         gl.bindTexture(gl.TEXTURE_2D, sound.texture);
         gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA8, SOUND_TILE, SOUND_TILE);

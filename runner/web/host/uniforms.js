@@ -38,24 +38,23 @@ function setUniform(gl, {type, size, place}, numbers, width = numbers.length) {
     gl[`uniform${call}`](place, values);
 }
 
-// Returns the uniforms' values: numbers, and how many make an element. `channels` has textures by number,
-// with gaps.
-function uniformsAt(moment, size, channels) {
-    const [width, height] = size, mouse = moment.mouse.uniform;
-    const {orbit, pan} = moment.camera.motion;
-    const all = read => Array.from({length: 10}, (_, i) => channels[i] && read(channels[i]));
-    const values = {
-        iResolution: [[width, height, 1]],
-        iTime: [[moment.time]], iTimeLow: [[moment.time - Math.fround(moment.time)]],
-        iTimeDelta: [[moment.delta]], iFrame: [[moment.frame]], iFrameRate: [[moment.rate]],
-        iMouse: [mouse],
-        iMouseButton: [[Number(moment.mouse.down), Number(moment.mouse.right), 0, 0]],
-        iDate: [moment.date], iSampleRate: [[SAMPLE_RATE]],
-        iChannelTime: [all(texture => texture.time).map(time => time ?? 0), 1],
-        iChannelResolution: [all(texture => texture.size).flatMap(of => of ?? [0, 0, 0]), 3],
-        iCamera: [moment.camera.matrix], iViewMatrix: [moment.camera.seenFrom(new OrbitCamera())],
-        iOrbit: [[...orbit, 1]], iOrbitPan: [pan],
-    };
+// Returns the values of iChannelTime and iChannelResolution. `channels` has textures by number, with gaps.
+const channelTimes = channels => Array.from({length: 10}, (_, i) => channels[i]?.time ?? 0);
+const channelSizes = channels => Array.from({length: 10}, (_, i) => channels[i]?.size ?? [0, 0, 0]).flat();
+
+// The host's uniforms: their names, other hosts' names for them, what changes them (clock, mouse, camera), how many
+// numbers make an element of an array, and their numbers. `export` writes the rows, from scene/host_uniforms.hpp.
+const HOST_UNIFORMS = [
+    // {{uniforms}}
+];
+
+// Returns the uniforms' values: numbers, and how many make an element. `isForeign`: by other hosts' names too, which
+// ShaderToy's own shaders do not get: one declared there stays zero.
+function uniformsAt(moment, size, channels, isForeign) {
+    const values = {};
+    for (const {names, others, width, value} of HOST_UNIFORMS)
+        for (const name of isForeign ? [...names, ...others] : names)
+            values[name] = [value(moment, size, channels), width];
     channels.forEach((texture, i) => {
         values[`iCh${i}.size`] = values[`iChannel[${i}].resolution`] = [texture.size];
         values[`iCh${i}.time`] = values[`iChannel[${i}].time`] = [[texture.time ?? 0]];
@@ -64,13 +63,7 @@ function uniformsAt(moment, size, channels) {
     return values;
 }
 
-// Returns the uniforms of the VS Code extension, glslsandbox.com and glslViewer. ShaderToy's own shaders do
-// not get them: one declared there stays zero.
-function uniformsOfOthersAt(moment, [width, height]) {
-    const mouse = moment.mouse.uniform;
-    return {
-        resolution: [[width, height, 1]], time: [[moment.time]], mouse: [[mouse[0] / width, mouse[1] / height]],
-        u_resolution: [[width, height]], u_mouse: [[mouse[0], mouse[1]]], u_time: [[moment.time]],
-        u_delta: [[moment.delta]], u_frame: [[moment.frame]], u_date: [moment.date],
-    };
+// Returns the names of the uniforms that the mouse or the camera changes.
+function uniformsThatFollow(what) {
+    return HOST_UNIFORMS.filter(({follows}) => follows === what).flatMap(({names, others}) => [...names, ...others]);
 }

@@ -31,7 +31,8 @@ TEST(Resolve, defaults) {
 TEST(Resolve, everything) {
     FrameOptions options;
     options.size = "8x4";
-    options.fps = 29.97;
+    options.numbers["--fps"] = 29.97;
+    options.numbers["--bpm"] = 90;
     options.frames = "1-2";
     options.mouse = "3,4";
     options.date = "2020-02-03";
@@ -40,6 +41,7 @@ TEST(Resolve, everything) {
     ASSERT_TRUE(request);
     EXPECT_EQ(request->state.extent, (Extent{8, 4}));
     EXPECT_EQ(request->state.fps, 29.97);
+    EXPECT_EQ(request->state.bpm, 90);
     EXPECT_THAT(request->frames, ElementsAre(1, 2));
     EXPECT_EQ(request->state.mouse.uniform(), glm::vec4(3, 4, -3, -4));
     EXPECT_EQ(request->state.date, (render::Date{2020, 1, 3, 0}));
@@ -64,9 +66,11 @@ TEST(Resolve, rates_that_are_none) {
                                     {-30.0, "-30"},
                                     {std::numeric_limits<double>::infinity(), "inf"},
                                     {std::numeric_limits<double>::quiet_NaN(), "nan"}}) {
-        options.fps = fps;
+        options.numbers["--fps"] = fps;
         EXPECT_EQ(refusal(options), std::string("--fps ") + text + ": give a number above 0");
     }
+    options.numbers = {{"--bpm", 0}};
+    EXPECT_EQ(refusal(options), "--bpm 0: give a number above 0");
 }
 
 TEST(Resolve, frames_and_times_that_are_none) {

@@ -1,7 +1,7 @@
 // A FrameState's way into JSON and onto a command line: no field is lost.
-#include "host/requests.hpp"
 #include "host/json.hpp"
-#include "render/frame_fields.hpp"
+#include "host/requests.hpp"
+#include "render/frame_state.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -17,6 +17,7 @@ FrameState unusual() {
                      .time = 0.1,
                      .extent = {3, 2},
                      .fps = 24,
+                     .bpm = 90,
                      .time_delta = 0.25,
                      .mouse = render::Mouse::dragged({1, 2}, {-3, 4}, true),
                      .right_button = true,
@@ -55,10 +56,11 @@ TEST(FrameFields, are_all_of_a_state_in_their_order) {
 TEST(OptionWords, say_what_is_not_usual) {
     EXPECT_THAT(option_words(FrameState{.frame = 3}), ElementsAre("--frame", "3", "--size", "640x360"));
     EXPECT_THAT(option_words(unusual()),
-                ElementsAre("--time", "0.1", "--size", "3x2", "--fps", "24", "--mouse", "-3,4,1,2,down",
-                            "--date", "2020-02-29T01:02:3.5", "--camera", "0.3333333333333333,-5,7.5,1,2,3",
-                            "--set", "k=vec2(0, 1)", "--set", "l=2", "--define", "N=3 + 4", "--channel",
-                            "0=none", "--channel", "1=it's.png", "--pass", "Buffer A"));
+                ElementsAre("--time", "0.1", "--size", "3x2", "--fps", "24", "--bpm", "90", "--mouse",
+                            "-3,4,1,2,down", "--date", "2020-02-29T01:02:3.5", "--camera",
+                            "0.3333333333333333,-5,7.5,1,2,3", "--set", "k=vec2(0, 1)", "--set", "l=2",
+                            "--define", "N=3 + 4", "--channel", "0=none", "--channel", "1=it's.png", "--pass",
+                            "Buffer A"));
 }
 
 TEST(OptionWords, of_a_mouse_and_a_date_are_read_as_they_were) {

@@ -1,10 +1,15 @@
 #include "render/frame_state.hpp"
+#include "render/pass_state.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <ctime>
+#include <span>
+#include <vector>
 
 namespace tidemark::render::frame_inputs_test {
+
+using testing::ElementsAre;
 
 TEST(ParseDate, a_day_begins_at_midnight) {
     EXPECT_EQ(parse_date("2024-12-31"), (Date{2024, 11, 31, 0}));
@@ -117,6 +122,41 @@ TEST(FrameInputs, deterministic_by_default) {
     EXPECT_EQ(inputs.mouse, glm::vec4(0));
     EXPECT_EQ(inputs.camera, glm::mat4(1));
     EXPECT_EQ(k_sample_rate, 44100);
+}
+
+std::vector<double> value(scene::HostValue host, const FrameInputs& inputs,
+                          const ChannelFacts& channels = {}) {
+    const UniformNumbers numbers = value_of(host, inputs, {8, 4}, channels);
+    const std::span<const double> all = numbers;
+    return {all.begin(), all.end()};
+}
+
+TEST(ValueOf, has_the_components_of_its_type) {
+    for (const scene::HostUniform& row : scene::k_host_uniforms) {
+        const size_t elements = row.length > 0 ? size_t(scene::k_channel_count) : 1;
+        EXPECT_EQ(value(row.value, {}).size(), elements * component_count(row)) << row.name;
+    }
+}
+
+TEST(ValueOf, is_of_the_frame_the_pass_and_its_channels) {
+    FrameInputs inputs;
+    inputs.time = 0.1;
+    inputs.mouse = {2, 3, -1, 0};
+    ChannelFacts channels;
+    channels[1].time = 7;
+    EXPECT_THAT(value(scene::HostValue::resolution, inputs), ElementsAre(8, 4, 1));
+    EXPECT_THAT(value(scene::HostValue::time, inputs), ElementsAre(0.1));
+    EXPECT_THAT(value(scene::HostValue::time_low, inputs), ElementsAre(0.1 - double(0.1f)));
+    EXPECT_THAT(value(scene::HostValue::relative_mouse, inputs), ElementsAre(0.25, 0.75));
+    EXPECT_EQ(value(scene::HostValue::channel_time, inputs, channels)[1], 7);
+}
+
+TEST(ValueOf, a_beat_is_the_time_in_parts_of_a_minute) {
+    const auto beat = [](const FrameState& state) { return value(scene::HostValue::beat, inputs_of(state)); };
+    EXPECT_THAT(beat({.time = 1.25}), ElementsAre(2.5));
+    EXPECT_THAT(beat({.time = 1.25, .bpm = 90}), ElementsAre(1.875));
+    EXPECT_THAT(beat({.frame = 60, .fps = 30, .bpm = 60}), ElementsAre(2));
+    EXPECT_THAT(value(scene::HostValue::beat, inputs_of_frame(90, 60)), ElementsAre(3));
 }
 
 } // namespace tidemark::render::frame_inputs_test

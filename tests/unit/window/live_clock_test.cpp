@@ -211,4 +211,12 @@ TEST(LiveClockTest, a_frame_that_is_given_back_was_none) {
     EXPECT_EQ(counted.next_frame(0).seconds(), 0);
 }
 
+TEST(LiveClock, keeps_what_the_clock_does_not_set) {
+    LiveClock clock(0);
+    const FrameState state = clock.next_frame(0.5, {.frame = 7, .fps = 24, .bpm = 90});
+    EXPECT_EQ(state.bpm, 90);
+    EXPECT_EQ(state.frame, 0);
+    EXPECT_EQ(state.fps, 60);
+}
+
 } // namespace tidemark::render::live_clock_test
