@@ -1,5 +1,6 @@
 #include "scene/directives.hpp"
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/tokens.hpp"
 #include "scene/host_uniforms.hpp"
@@ -8,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <unordered_map>
 
@@ -469,13 +469,12 @@ Result<double> DirectiveReader::read_number(bool& whole) {
     if (!peek() || peek()->kind != TokenKind::number)
         return wanted("a number");
     const std::string_view digits = peek()->text;
-    double number = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (error != std::errc{} || end != digits.data() + digits.size())
+    const auto number = number_from<double>(digits);
+    if (!number)
         return wanted("a decimal number");
     ++position_;
     whole = whole && digits.find_first_of(".eE") == std::string_view::npos;
-    return negative ? -number : number;
+    return negative ? -*number : *number;
 }
 
 } // namespace

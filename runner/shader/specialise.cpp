@@ -3,6 +3,7 @@
 
 #include "shader/specialise.hpp"
 
+#include "base/encoding.hpp"
 #include "scene/knob.hpp"
 #include "shader/parsed_text.hpp"
 #include "shader/tree_facts.hpp"
@@ -12,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -75,13 +75,6 @@ constexpr int k_most_constants = 30;
 /// Largest magnitude up to which every whole number is a float.
 constexpr double k_largest_whole_float = 16777216.0;
 
-std::optional<float> parse_float(std::string_view digits) {
-    float number = 0;
-    const char* const end = digits.data() + digits.size();
-    const auto read = std::from_chars(digits.data(), end, number);
-    return read.ec == std::errc{} && read.ptr == end ? std::optional(number) : std::nullopt;
-}
-
 /// Returns whether the number is zero or a normal float: a device may flush smaller ones to zero.
 bool is_plain(double number) {
     return number == 0 || std::isnormal(float(number));
@@ -111,7 +104,7 @@ auto ConstantFolding::literal(std::string_view digits) const -> Known {
         !digits.starts_with("0X")) {
         if (digits.ends_with('f') || digits.ends_with('F'))
             digits.remove_suffix(1);
-        const auto number = parse_float(digits);
+        const auto number = number_from<float>(digits);
         return number && is_plain(*number) ? Known({Kind::floating, *number}) : std::nullopt;
     }
     const auto number = whole_number(digits);
