@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <span>
 
@@ -64,8 +63,7 @@ std::vector<TextNumber> text_numbers(const scene::Scene& scene) {
 }
 
 bool speaks_of(std::string_view name, std::initializer_list<std::string_view> words) {
-    std::string lower(name);
-    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string lower = lower_case(std::string(name));
     return std::ranges::any_of(words, [&](std::string_view word) { return lower.find(word) != lower.npos; });
 }
 
