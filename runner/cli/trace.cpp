@@ -35,9 +35,6 @@ struct TraceReport {
     lab::PixelTrace trace{};
 };
 
-std::string trace_text(const TraceReport& report);
-Json trace_json(const TraceReport& report);
-
 namespace {
 
 using lab::LineInCall;

@@ -63,11 +63,6 @@ private:
 // Moves costly expressions of uniforms out of loops into global variables with a value, which are computed
 // once per pixel. llvmpipe does not do this itself.
 
-/// Adds the changes to `edits` and returns the number of moved expressions. Leaves `gone` tokens and globals
-/// that are not `reached`.
-int move_loop_invariants(const ParsedText& text, const std::vector<Global>& globals,
-                         const std::vector<bool>& reached, const std::vector<bool>& gone, WordEdits& edits);
-
 namespace {
 
 /// Longest chain of constants defined by constants.
@@ -410,6 +405,8 @@ private:
 
 } // namespace
 
+/// Adds the changes to `edits` and returns the number of moved expressions. Leaves `gone` tokens and globals
+/// that are not `reached`.
 int move_loop_invariants(const ParsedText& text, const std::vector<Global>& globals,
                          const std::vector<bool>& reached, const std::vector<bool>& gone, WordEdits& edits) {
     return Hoister(text, globals, reached, gone, edits).run();
