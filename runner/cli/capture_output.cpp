@@ -116,8 +116,7 @@ Result<void> put_raw(const image::Image& image) {
         block.resize(size_t(rows) * row_bytes);
         for (int i = 0; i < rows; ++i)
             copy_colours(image, --row, block.data() + size_t(i) * row_bytes);
-        if (auto done = put(block); !done)
-            return done;
+        TRY(put(block));
     }
     return {};
 }

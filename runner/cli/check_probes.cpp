@@ -231,8 +231,7 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
         if (!run->crash.empty())
             last.answer = {Verdict::fail, run->crash};
         last.seconds = seconds_since(began) - seconds;
-        if (auto taken = take(std::move(last)); !taken)
-            return taken;
+        TRY(take(std::move(last)));
         probes = probes.subspan(1);
     }
     return {};
@@ -302,8 +301,7 @@ Result<int> check_probes(const ProbesRequest& request) {
             if (findings_are_diagnostics() && is_finding(asked.answer))
                 say(finding(scene, asked));
             const bool as_row = !request.json && !findings_are_diagnostics();
-            if (auto shown = put(as_row ? row(request, asked) : ""); !shown)
-                return shown;
+            TRY(put(as_row ? row(request, asked) : ""));
             all.push_back(std::move(asked));
             progress.advance();
             return {};

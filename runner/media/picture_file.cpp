@@ -508,8 +508,7 @@ Result<void> PictureStream::finish() {
     const auto finished = encoder_->finish();
     encoder_.reset();
     file_->finish();
-    if (auto written = checked(finished ? std::string() : finished.error()); !written)
-        return written;
+    TRY(checked(finished ? std::string() : finished.error()));
     return staged_.commit();
 }
 
