@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -16,6 +17,28 @@ namespace tidemark {
 inline std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r\n") {
     text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
     return text.substr(0, text.find_last_not_of(blanks) + 1); // npos + 1 is 0
+}
+
+/// Returns the text with A to Z as small letters.
+inline std::string lower_case(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z')
+            c = char(c - 'A' + 'a');
+    return text;
+}
+
+/// Returns the last line that is not empty, without its end.
+inline std::string last_line(std::string text) {
+    text.erase(text.find_last_not_of("\r\n") + 1);
+    return text.substr(text.rfind('\n') + 1);
+}
+
+/// Returns the number of type T that the whole text spells as std::from_chars reads it: no blanks, no plus.
+template <class T>
+std::optional<T> number_from(std::string_view text) {
+    T number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc{} && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
 // Makes texts of scenes, files and drivers safe to show in a terminal, a title or a shell: characters that

@@ -1,5 +1,6 @@
 #include "base/file.hpp"
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 
 #include <fcntl.h>
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <system_error>
 #include <utility>
 
@@ -75,10 +75,7 @@ std::optional<int> descriptor_named(const fs::path& path) {
     const fs::path folder = fs::canonical(parent.empty() ? "." : parent, error);
     if (error || folder != fs::canonical("/proc/self/fd", error))
         return std::nullopt;
-    const std::string digits = path.filename().string();
-    int number = 0;
-    const auto [end, wrong] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    return wrong == std::errc() && *end == '\0' ? std::optional(number) : std::nullopt;
+    return number_from<int>(path.filename().string());
 }
 
 /// Follows links to their final target, which need not exist: the target is replaced, not the link.

@@ -273,8 +273,7 @@ private:
             result_.text.append(std::string_view(text).substr(copied, include.begin - copied), path.string(),
                                 line);
             chain_.back().line = include.line;
-            if (auto followed = follow(path, include, text); !followed)
-                return followed;
+            TRY(follow(path, include, text));
             copied = include.end;
             line = include.line;
         }

@@ -1,5 +1,6 @@
 #include "base/process.hpp"
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 
@@ -111,13 +112,6 @@ int wait_ms(Clock::time_point until) {
         return k_patience_ms;
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
     return int(std::clamp<int64_t>(left, 0, k_longest_wait_ms));
-}
-
-std::string last_line(std::string text) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == '\r'))
-        text.pop_back();
-    const size_t end = text.rfind('\n');
-    return end == text.npos ? text : text.substr(end + 1);
 }
 
 } // namespace

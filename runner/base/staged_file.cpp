@@ -343,8 +343,7 @@ Result<void> check_writable(const OutputPath& output) {
 }
 
 Result<void> make_folder(const OutputPath& folder) {
-    if (auto clean = folder.check_links(); !clean)
-        return clean;
+    TRY(folder.check_links());
     std::error_code error;
     fs::create_directories(folder.path(), error);
     if (error)

@@ -89,8 +89,7 @@ Result<void> put_tables() {
         return printed;
     for (const bake::KnownCase& known : bake::known_cases())
         for (const auto stencil : {bake::Stencil::first_order, bake::Stencil::second_order})
-            if (auto printed = put_table(known, stencil); !printed)
-                return printed;
+            TRY(put_table(known, stencil));
     return {};
 }
 

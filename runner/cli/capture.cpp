@@ -35,14 +35,6 @@
 
 namespace tidemark::cli {
 
-/// Completes the options from the picture's metadata; without --like they are unchanged. Paths outside the
-/// scene's folder are left out with a message, since a file must not cause others to be read. Fails if the
-/// picture holds no moment, or if its scene does not exist.
-Result<CaptureOptions> with_likeness(CaptureOptions options);
-
-/// Prints a line if the picture was drawn from another text, with other inputs, or by another driver.
-void say_what_is_unlike(const CapturePlan& plan);
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -129,6 +121,9 @@ SceneRequest completed(SceneRequest typed, Moment& moment) {
 
 } // namespace
 
+/// Completes the options from the picture's metadata; without --like they are unchanged. Paths outside the
+/// scene's folder are left out with a message, since a file must not cause others to be read. Fails if the
+/// picture holds no moment, or if its scene does not exist.
 Result<CaptureOptions> with_likeness(CaptureOptions options) {
     SceneRequest& scene = options.scene;
     if (options.like.empty())
@@ -166,6 +161,7 @@ Result<CaptureOptions> with_likeness(CaptureOptions options) {
     return options;
 }
 
+/// Prints a line if the picture was drawn from another text, with other inputs, or by another driver.
 void say_what_is_unlike(const CapturePlan& plan) {
     if (plan.like.empty() || !plan.likeness)
         return;

@@ -1,5 +1,6 @@
 #include "cli/capture_frames.hpp"
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/extent.hpp"
 #include "base/file.hpp"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
@@ -120,16 +120,9 @@ void Sheet::add(const image::Image& cell) {
 
 namespace {
 
-/// Parses the whole text as an integer.
-std::optional<int> number_in(std::string_view text) {
-    int number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc{} && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
-}
-
 Result<int> slurm_number(const char* name, std::optional<int> otherwise = {}) {
     const char* const text = std::getenv(name);
-    const std::optional<int> number = text ? number_in(text) : otherwise;
+    const std::optional<int> number = text ? number_from<int>(text) : otherwise;
     if (!number)
         return fail(ErrorCode::usage,
                     fmt::format("--shard slurm: {} is {}; start it as a task of `sbatch --array`", name,
@@ -155,8 +148,8 @@ Result<Shard> parse_shard(std::string_view text) {
     if (text == "slurm")
         return shard_of_slurm();
     const size_t slash = std::min(text.find('/'), text.size());
-    const auto number = number_in(text.substr(0, slash));
-    const auto count = number_in(text.substr(std::min(slash + 1, text.size())));
+    const auto number = number_from<int>(text.substr(0, slash));
+    const auto count = number_from<int>(text.substr(std::min(slash + 1, text.size())));
     if (!number || !count || *number < 1 || *number > *count || *count > k_most_shards)
         return fail(ErrorCode::usage,
                     fmt::format("--shard {}: give K/N, K from 1 to N, as in 2/8, or slurm", text));

@@ -264,10 +264,8 @@ Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options
         return fail(ErrorCode::usage, fmt::format("--fps {}: a GIF shows {} frames a second at most",
                                                   plan.frames.state.fps, image::k_fastest_gif));
     if (plan.to_picture_files()) {
-        if (auto known = image::check_picture_format(output.pattern(), plan.depth); !known)
-            return known;
-        if (auto fits = image::PictureStream::check_extent(output.pattern(), plan.written); !fits)
-            return fits;
+        TRY(image::check_picture_format(output.pattern(), plan.depth));
+        TRY(image::PictureStream::check_extent(output.pattern(), plan.written));
     }
     TRY(check_sheet(plan));
     TRY(check_keeping(options, output, extent));
@@ -358,8 +356,7 @@ Result<void> spare_what_is_read(const CaptureOptions& options, CapturePlan& plan
     if (plan.output.standard_output())
         return {};
     plan.output.spare(read);
-    if (auto writable = check_writable(plan.output.of_frame(plan.frames.frames.front())); !writable)
-        return writable;
+    TRY(check_writable(plan.output.of_frame(plan.frames.frames.front())));
     for (const std::filesystem::path& file : read)
         if (const auto frame = frame_of(file, plan.output);
             frame && std::ranges::find(plan.frames.frames, *frame) != plan.frames.frames.end())

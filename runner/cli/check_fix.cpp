@@ -37,15 +37,6 @@ struct RemainingCard {
     std::string why;
 };
 
-/// `cut`: why there may be more findings; empty: the run was complete.
-std::string fix_page(const std::string& scene, std::span<const CureCard> cures,
-                     std::span<const RemainingCard> remaining, const std::string& cut);
-
-// Formats an offered fix as text and as JSON: what was measured before and after.
-
-std::string to_text(const lab::Offer& offer, const glsl::Cure& cure);
-Json to_json(const lab::Offer& offer, const glsl::Cure& cure);
-
 namespace {
 
 using report::escaped;
@@ -68,6 +59,7 @@ std::string section(const char* heading, const std::string& body) {
 
 } // namespace
 
+/// `cut`: why there may be more findings; empty: the run was complete.
 std::string fix_page(const std::string& scene, std::span<const CureCard> cures,
                      std::span<const RemainingCard> remaining, const std::string& cut) {
     std::string mended, left;

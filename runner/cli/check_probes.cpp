@@ -31,15 +31,6 @@
 
 namespace tidemark::cli {
 
-/// Starts a process that sleeps until `drawn_by`. Call it before this process has a context.
-Result<ForkedHelper> one_thread_painter(const scene::Scene& scene, const platform::DeviceChoice& device);
-
-/// Returns true if the driver of the current context can be limited to one thread.
-bool counts_threads();
-
-/// Draws the picture, once: RGB of Image as ProbeBench::picture returns it.
-Result<image::Image> drawn_by(ForkedHelper& painter, const render::FrameState& state, double seconds);
-
 namespace {
 
 Result<image::Image> picture(const scene::Scene& scene, const platform::DeviceChoice& device,
@@ -58,6 +49,7 @@ Json bits_of(const image::Image& picture) {
 
 } // namespace
 
+/// Starts a process that sleeps until `drawn_by`. Call it before this process has a context.
 Result<ForkedHelper> one_thread_painter(const scene::Scene& scene, const platform::DeviceChoice& device) {
     return ForkedHelper::start([&](const std::string& question, const Tell& tell) {
         ::setenv("LP_NUM_THREADS", "0", 1); // no threads in addition to the calling one
@@ -66,10 +58,12 @@ Result<ForkedHelper> one_thread_painter(const scene::Scene& scene, const platfor
     });
 }
 
+/// Returns true if the driver of the current context can be limited to one thread.
 bool counts_threads() {
     return gl::query_capabilities().renderer.starts_with("llvmpipe");
 }
 
+/// Draws the picture, once: RGB of Image as ProbeBench::picture returns it.
 Result<image::Image> drawn_by(ForkedHelper& painter, const render::FrameState& state, double seconds) {
     const auto run = TRY(painter.ask(dump(to_json(state)), seconds));
     if (run.timed_out)
@@ -237,8 +231,7 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
         if (!run->crash.empty())
             last.answer = {Verdict::fail, run->crash};
         last.seconds = seconds_since(began) - seconds;
-        if (auto taken = take(std::move(last)); !taken)
-            return taken;
+        TRY(take(std::move(last)));
         probes = probes.subspan(1);
     }
     return {};
@@ -308,8 +301,7 @@ Result<int> check_probes(const ProbesRequest& request) {
             if (findings_are_diagnostics() && is_finding(asked.answer))
                 say(finding(scene, asked));
             const bool as_row = !request.json && !findings_are_diagnostics();
-            if (auto shown = put(as_row ? row(request, asked) : ""); !shown)
-                return shown;
+            TRY(put(as_row ? row(request, asked) : ""));
             all.push_back(std::move(asked));
             progress.advance();
             return {};

@@ -28,9 +28,6 @@ struct ManPage {
     std::string roff;
 };
 
-/// Returns the page of the program or of one of its commands, including its sub-commands.
-ManPage man_page(const CLI::App& command);
-
 namespace {
 
 /// Escapes text for roff, so that no line is a request.
@@ -139,6 +136,7 @@ std::string examples(const CLI::App& command) {
 
 } // namespace
 
+/// Returns the page of the program or of one of its commands, including its sub-commands.
 ManPage man_page(const CLI::App& command) {
     const bool whole = command.get_parent() == nullptr;
     const std::string name = words_of(command, "-");

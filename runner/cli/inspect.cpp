@@ -36,11 +36,6 @@
 
 namespace tidemark::cli {
 
-/// Returns one line for each loop; empty if the pass has none or cannot be analysed.
-std::string march_lines(const scene::Scene& scene, const scene::Pass& pass);
-/// Returns [{"file", "line", "kind"}], or {"not_followed": reason}.
-Json marches_of(const scene::Scene& scene, const scene::Pass& pass);
-
 // The size of a scene's compiled passes, in bytes of the driver's own program format and in instructions if
 // its compiler reports them, for each level of specialisation.
 
@@ -62,14 +57,7 @@ private:
     ScratchFolder folder_;
 };
 
-/// Returns the sizes of each pass of the scene; nothing for a pass that does not link. A context must be
-/// current.
-std::vector<std::optional<CompiledSizes>> compiled_sizes(const scene::Scene& scene,
-                                                         glsl::Precision precision);
-
-std::string to_lines(const CompiledSizes& sizes);
-nlohmann::ordered_json to_json(const CompiledSizes& sizes);
-
+/// Returns one line for each loop; empty if the pass has none or cannot be analysed.
 std::string march_lines(const scene::Scene& scene, const scene::Pass& pass) {
     const auto function = lab::PassFunction::create(scene, pass);
     std::string text;
@@ -85,6 +73,7 @@ std::string march_lines(const scene::Scene& scene, const scene::Pass& pass) {
     return text;
 }
 
+/// Returns [{"file", "line", "kind"}], or {"not_followed": reason}.
 Json marches_of(const scene::Scene& scene, const scene::Pass& pass) {
     const auto function = lab::PassFunction::create(scene, pass);
     if (!function)
@@ -175,6 +164,8 @@ FreshDriverCache::FreshDriverCache() {
     platform::do_without_full_driver_cache();
 }
 
+/// Returns the sizes of each pass of the scene; nothing for a pass that does not link. A context must be
+/// current.
 std::vector<std::optional<CompiledSizes>> compiled_sizes(const scene::Scene& scene,
                                                          glsl::Precision precision) {
     std::vector<std::optional<CompiledSizes>> sizes;

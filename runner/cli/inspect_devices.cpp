@@ -20,10 +20,6 @@
 
 namespace tidemark::cli {
 
-/// Lists devices like platform::list_headless_devices; call it before this process has a driver. Fails
-/// (ErrorCode::no_context) if the listing itself crashes or hangs.
-Result<std::vector<platform::HeadlessDevice>> list_devices_apart();
-
 namespace {
 
 using platform::HeadlessDevice;
@@ -49,6 +45,8 @@ HeadlessDevice device_of(const Json& json) {
 
 } // namespace
 
+/// Lists devices like platform::list_headless_devices; call it before this process has a driver. Fails
+/// (ErrorCode::no_context) if the listing itself crashes or hangs.
 Result<std::vector<HeadlessDevice>> list_devices_apart() {
     std::vector<HeadlessDevice> found;
     for (;;) {

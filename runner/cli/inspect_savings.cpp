@@ -35,16 +35,10 @@ struct OptionalLibrary {
     bool is_loaded() const;
 };
 
-std::span<const OptionalLibrary> optional_libraries();
-
 struct LibraryCost {
     lab::Elapsed time; ///< medians
     double mebibytes = 0;
 };
-
-/// Loads the library in child processes, since a process loads it only once: at least once, and repeatedly
-/// for up to `seconds`. Call it before there is an OpenGL context.
-Result<LibraryCost> measure_loading(const OptionalLibrary& library, double seconds);
 
 namespace {
 
@@ -76,6 +70,8 @@ bool OptionalLibrary::is_loaded() const {
     return ::dl_iterate_phdr(visit, const_cast<OptionalLibrary*>(this)) != 0;
 }
 
+/// Loads the library in child processes, since a process loads it only once: at least once, and repeatedly
+/// for up to `seconds`. Call it before there is an OpenGL context.
 Result<LibraryCost> measure_loading(const OptionalLibrary& library, double seconds) {
     const lab::Stopwatch whole;
     std::vector<double> wall, cpu, memory;
@@ -180,8 +176,9 @@ std::string milliseconds_text(double value) {
 }
 
 std::string to_text(const Saved& saved) {
-    return fmt::format("{} {} [{}, {}]", milliseconds_text(saved.without).substr(1), milliseconds_text(saved.more),
-                       milliseconds_text(saved.interval.low), milliseconds_text(saved.interval.high));
+    return fmt::format("{} {} [{}, {}]", milliseconds_text(saved.without).substr(1),
+                       milliseconds_text(saved.more), milliseconds_text(saved.interval.low),
+                       milliseconds_text(saved.interval.high));
 }
 
 std::string change(size_t without, size_t with_it) {

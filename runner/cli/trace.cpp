@@ -1,5 +1,6 @@
 // Formats the result of `tidemark trace` as text and as JSON.
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/extent.hpp"
 #include "cli/commands.hpp"
@@ -19,7 +20,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -34,9 +34,6 @@ struct TraceReport {
     lab::PixelRequest request{};
     lab::PixelTrace trace{};
 };
-
-std::string trace_text(const TraceReport& report);
-Json trace_json(const TraceReport& report);
 
 namespace {
 
@@ -371,9 +368,11 @@ struct TraceCommand {
     bool json = false;
 };
 
-bool read(std::string_view text, auto& number) {
-    const auto end = std::from_chars(text.data(), text.data() + text.size(), number);
-    return end.ec == std::errc{} && end.ptr == text.data() + text.size();
+template <class T>
+bool read(std::string_view text, T& number) {
+    const auto whole = number_from<T>(text);
+    number = whole.value_or(number);
+    return whole.has_value();
 }
 
 /// Parses `N` or `FILE:N`.

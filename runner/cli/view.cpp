@@ -28,12 +28,6 @@ struct WindowOptions {
     std::optional<int> output_monitor;
 };
 
-/// Adds --on-top, --monitor, --position, --output-window and --output-monitor.
-void add_window_options(Command command, WindowOptions& options);
-
-/// Returns the placement of the first window.
-Result<platform::WindowWishes> resolve(const WindowOptions& options);
-
 namespace {
 
 /// Bound of plausible screen coordinates, in pixels.
@@ -55,6 +49,7 @@ Result<platform::ScreenPoint> parse_position(const std::string& text) {
 
 } // namespace
 
+/// Adds --on-top, --monitor, --position, --output-window and --output-monitor.
 void add_window_options(Command command, WindowOptions& options) {
     command.add_flag("--on-top", options.on_top, "The window stays above the others");
     command
@@ -75,6 +70,7 @@ void add_window_options(Command command, WindowOptions& options) {
         .check(number<int>("a monitor's number from 1", 1));
 }
 
+/// Returns the placement of the first window.
 Result<platform::WindowWishes> resolve(const WindowOptions& options) {
     platform::WindowWishes wishes;
     wishes.monitor = options.monitor;

@@ -16,37 +16,6 @@
 
 namespace tidemark::lsp {
 
-/// Returns the ColorInformations of the first file.
-Json document_colours(const Workspace& workspace, Encoding encoding);
-
-/// Returns the ColorPresentations of a Color: `color3(1, 0.5, 0)`.
-Json colour_presentations(const Json& colour, const Json& range);
-
-// The text for the name under the pointer.
-
-/// Returns Markdown: a knob's value and range, a declaration with the comment above it, a built-in function's
-/// signatures and the cases where it is undefined, a uniform of the host, or the first comment of an included
-/// file. Empty where nothing is known.
-std::string hover_text(const Workspace& workspace, size_t offset, const Documents& documents);
-
-// Locations for the editor: where a name is declared, what a file declares.
-
-/// Returns Locations: the declarations of a name, all overloads included; for an `#include` the file.
-Json definitions(const Workspace& workspace, size_t offset, const Documents& documents, Encoding encoding);
-
-/// Returns the DocumentSymbols of the first file.
-Json document_symbols(const Workspace& workspace, Encoding encoding);
-
-// Renames a knob in all files of the scene.
-
-/// Returns the range of the knob's name at an offset; null without a knob there.
-Json renamed_range(const Workspace& workspace, size_t offset, Encoding encoding);
-
-/// Returns a WorkspaceEdit. Fails without a knob there, or where the name is not valid or is used in the
-/// scene already.
-Result<Json> rename_knob(const Workspace& workspace, size_t offset, const std::string& name,
-                         const Documents& documents, Encoding encoding);
-
 namespace {
 
 /// Returns begin and end (offsets) of the default in a knob's line: after the `=`, through the first `)` or
@@ -75,6 +44,7 @@ double rounded(const Json& number) {
 
 } // namespace
 
+/// Returns the ColorInformations of the first file.
 Json document_colours(const Workspace& workspace, Encoding encoding) {
     Json colours = Json::array();
     const SourceFile& file = workspace.files.front();
@@ -90,6 +60,7 @@ Json document_colours(const Workspace& workspace, Encoding encoding) {
     return colours;
 }
 
+/// Returns the ColorPresentations of a Color: `color3(1, 0.5, 0)`.
 Json colour_presentations(const Json& colour, const Json& range) {
     const scene::Knob knob{
         .name = {},
@@ -182,6 +153,9 @@ std::string of_host(std::string_view name) {
 
 } // namespace
 
+/// Returns Markdown: a knob's value and range, a declaration with the comment above it, a built-in function's
+/// signatures and the cases where it is undefined, a uniform of the host, or the first comment of an included
+/// file. Empty where nothing is known.
 std::string hover_text(const Workspace& workspace, size_t offset, const Documents& documents) {
     if (const auto included = included_at(workspace, offset); !included.empty()) {
         const auto text = documents.text_of(included);
@@ -229,6 +203,7 @@ int number_of(Symbol::Kind kind) {
 
 } // namespace
 
+/// Returns Locations: the declarations of a name, all overloads included; for an `#include` the file.
 Json definitions(const Workspace& workspace, size_t offset, const Documents& documents, Encoding encoding) {
     Json found = Json::array();
     if (const auto included = included_at(workspace, offset); !included.empty()) {
@@ -249,6 +224,7 @@ Json definitions(const Workspace& workspace, size_t offset, const Documents& doc
     return found;
 }
 
+/// Returns the DocumentSymbols of the first file.
 Json document_symbols(const Workspace& workspace, Encoding encoding) {
     const SourceFile& file = workspace.files.front();
     const Lines lines(file.text, encoding);
@@ -303,6 +279,7 @@ std::string why_not(const Workspace& workspace, const std::string& name) {
 
 } // namespace
 
+/// Returns the range of the knob's name at an offset; null without a knob there.
 Json renamed_range(const Workspace& workspace, size_t offset, Encoding encoding) {
     const std::string& text = workspace.files.front().text;
     const auto tokens = text::tokenize(text);
@@ -310,6 +287,8 @@ Json renamed_range(const Workspace& workspace, size_t offset, Encoding encoding)
     return knob ? Lines(text, encoding).range(knob->begin, knob->end()) : Json();
 }
 
+/// Returns a WorkspaceEdit. Fails without a knob there, or where the name is not valid or is used in the
+/// scene already.
 Result<Json> rename_knob(const Workspace& workspace, size_t offset, const std::string& name,
                          const Documents& documents, Encoding encoding) {
     const auto tokens = text::tokenize(workspace.files.front().text);

@@ -18,12 +18,6 @@
 
 namespace tidemark::lsp {
 
-/// Returns the offsets of a line's first byte and of its end in `json`, where the code is one string with
-/// escapes. `pass` is a name by scene::pass_names, `line` counts from 1. None if the JSON has no such pass or
-/// line.
-std::optional<std::pair<size_t, size_t>> find_code_line(std::string_view json, std::string_view pass,
-                                                        int line);
-
 namespace {
 
 size_t end_of_string(std::string_view json, size_t begin) {
@@ -63,6 +57,9 @@ size_t after_line_end(std::string_view json, size_t at) {
 
 } // namespace
 
+/// Returns the offsets of a line's first byte and of its end in `json`, where the code is one string with
+/// escapes. `pass` is a name by scene::pass_names, `line` counts from 1. None if the JSON has no such pass or
+/// line.
 std::optional<std::pair<size_t, size_t>> find_code_line(std::string_view json, std::string_view pass,
                                                         int line) {
     const auto project = scene::read_project(json, "");

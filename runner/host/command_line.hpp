@@ -2,13 +2,13 @@
 // made from the options (help/) include CLI11, which takes seconds to compile.
 #pragma once
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <functional>
 #include <limits>
 #include <span>
@@ -31,11 +31,9 @@ template <class T>
 ValueCheck number(std::string what, T low = std::numeric_limits<T>::lowest(),
                   T high = std::numeric_limits<T>::max()) {
     return [what = std::move(what), low, high](const std::string& text) {
-        T number{};
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        const bool good =
-            error == std::errc{} && end == text.data() + text.size() && number >= low && number <= high;
-        return good ? std::string() : fmt::format("give {}, not '{}'", what, text);
+        const auto number = number_from<T>(text);
+        return number && *number >= low && *number <= high ? std::string()
+                                                           : fmt::format("give {}, not '{}'", what, text);
     };
 }
 

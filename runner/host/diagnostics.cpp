@@ -23,9 +23,6 @@
 
 namespace tidemark::cli {
 
-/// Returns a log with one run of this program. File names become URIs, relative if the name is.
-Json sarif_log(std::span<const Finding> findings);
-
 namespace {
 
 Rule rule_of(ErrorCode code) {
@@ -113,6 +110,7 @@ Json result_of(const Finding& finding, size_t rule) {
 
 } // namespace
 
+/// Returns a log with one run of this program. File names become URIs, relative if the name is.
 Json sarif_log(std::span<const Finding> findings) {
     std::vector<Rule> rules;
     Json results = Json::array();

@@ -1,5 +1,6 @@
 #include "host/input_script.hpp"
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "host/requests.hpp"
@@ -8,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
 namespace tidemark::cli {
@@ -137,9 +137,9 @@ std::string_view take_word(std::string_view& line) {
 
 template <class T>
 bool take_number(std::string_view& line, T& number, T least, T most) {
-    const std::string_view word = take_word(line);
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    return error == std::errc{} && end == word.data() + word.size() && number >= least && number <= most;
+    const auto read = number_from<T>(take_word(line));
+    number = read.value_or(number);
+    return read && number >= least && number <= most;
 }
 
 bool take_position(std::string_view& line, platform::PointerPosition& at) {

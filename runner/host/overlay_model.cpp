@@ -1,5 +1,6 @@
 #include "host/overlay_model.hpp"
 
+#include "base/encoding.hpp"
 #include "base/overloaded.hpp"
 #include "host/overlay_fields.hpp"
 
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -17,9 +17,10 @@ namespace tidemark::live {
 std::optional<DefinitionField> definition_field(std::string_view name, std::string_view text, bool held) {
     DefinitionField field{.name = std::string(name), .held = held};
     const std::string_view digits = text.substr(text.starts_with('+') ? 1 : 0);
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), field.value);
-    if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(field.value))
+    const auto value = number_from<double>(digits);
+    if (!value || !std::isfinite(*value))
         return std::nullopt;
+    field.value = *value;
     field.whole = digits.find_first_of(".eE") == std::string_view::npos;
     return field;
 }

@@ -78,8 +78,7 @@ lab::Circumstances circumstances_of(const scene::Scene& scene) {
 }
 
 Result<void> prepare_report(const OutputPath& folder) {
-    if (auto made = make_folder(folder); !made)
-        return made;
+    TRY(make_folder(folder));
     return check_writable(folder / "study.json");
 }
 

@@ -323,8 +323,7 @@ private:
                     !moves(axis, start.objective))
                     continue;
                 followed_.insert(start.objective);
-                if (auto stepped = step(start, axis, point); !stepped)
-                    return stepped;
+                TRY(step(start, axis, point));
             }
         }
         return {};
@@ -390,8 +389,7 @@ private:
             glsl::DomainRoom room = best->rooms[objective];
             while (grid.stride > 1 && room.least != k_far && !reached_[objective]) {
                 grid = finer(grid, k_part, room.pixel, extent_);
-                if (auto seen = look(best->point, grid); !seen)
-                    return seen;
+                TRY(look(best->point, grid));
                 room = last_.rooms[objective];
             }
         }

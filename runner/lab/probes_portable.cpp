@@ -41,8 +41,7 @@ public:
         const auto texts = TRY(read_texts(bench_, false));
         for (const PassText& pass : texts)
             if (const auto varied = manner.vary(*pass.text, pass.facts); varied.places > 0)
-                if (auto done = compare(pass.pass, varied, manner.modes); !done)
-                    return done;
+                TRY(compare(pass.pass, varied, manner.modes));
         return {};
     }
 

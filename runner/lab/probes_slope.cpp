@@ -22,8 +22,6 @@
 
 namespace tidemark::lab {
 
-bool has_march_field(const scene::Scene& scene);
-
 /// A GLSL function that is evaluated in each ray's pixel.
 struct FieldQuestion {
     /// A mainHit in GLSL, placed after `#undef mainHit`. It may call the scene's own as tidemark_own_hit.

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <span>
 
@@ -21,10 +20,8 @@ std::vector<DefinedNumber> defined_numbers(const scene::Scene& scene) {
     std::vector<DefinedNumber> numbers;
     for (const std::string& name : glsl::definition_names(scene)) {
         const std::string text = glsl::definition_of(scene, name).value_or("");
-        double value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error == std::errc{} && end == text.data() + text.size())
-            numbers.push_back({name, value, text.find_first_of(".eE") == text.npos});
+        if (const auto value = number_from<double>(text))
+            numbers.push_back({name, *value, text.find_first_of(".eE") == text.npos});
     }
     return numbers;
 }
@@ -66,8 +63,7 @@ std::vector<TextNumber> text_numbers(const scene::Scene& scene) {
 }
 
 bool speaks_of(std::string_view name, std::initializer_list<std::string_view> words) {
-    std::string lower(name);
-    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string lower = lower_case(std::string(name));
     return std::ranges::any_of(words, [&](std::string_view word) { return lower.find(word) != lower.npos; });
 }
 
@@ -78,10 +74,8 @@ int take_number(std::string_view& text) {
     const size_t colon = text.rfind(':');
     if (colon == text.npos)
         return 0;
-    const std::string_view digits = text.substr(colon + 1);
-    int number = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (error != std::errc{} || end != digits.data() + digits.size() || number < 1)
+    const int number = number_from<int>(text.substr(colon + 1)).value_or(0);
+    if (number < 1)
         return 0;
     text = text.substr(0, colon);
     return number;

@@ -1,5 +1,6 @@
 #include "lab/study.hpp"
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "scene/json_text.hpp"
 
@@ -158,10 +159,8 @@ std::vector<Series> series_of(const std::vector<Axis>& axes) {
 }
 
 std::optional<double> number_of(const std::string& text) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool whole_text = error == std::errc{} && end == text.data() + text.size();
-    return whole_text && std::isfinite(number) ? std::optional(number) : std::nullopt;
+    const auto number = number_from<double>(text);
+    return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 bool is_int(const std::string& number) {

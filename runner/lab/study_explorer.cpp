@@ -22,12 +22,6 @@ size_t plotted_series(const WorkPrecisionSet& set, const Point& point);
 /// Returns the series' mark as SVG, to be placed before a text.
 std::string series_key(size_t series, bool hollow = false);
 
-/// Returns the number of points in the diagram; an error of 0 has no place on a logarithmic axis.
-size_t plotted_points(const WorkPrecisionSet& set, Across across);
-
-/// Returns two SVGs, for wide and narrow windows; empty if no point can be drawn.
-std::string error_plot(const WorkPrecisionSet& set, Across across);
-
 // The card of a point on a study's page: settings, error, time, work, pictures. Returns HTML.
 
 /// Takes the index of a point that was measured.
@@ -80,10 +74,12 @@ std::string series_key(size_t series, bool hollow) {
     return R"(<svg viewBox="-8 -8 16 16" aria-hidden="true">)" + report::mark_of(series, hollow) + "</svg>";
 }
 
+/// Returns the number of points in the diagram; an error of 0 has no place on a logarithmic axis.
 size_t plotted_points(const WorkPrecisionSet& set, Across across) {
     return plot_of(set, across).points.size();
 }
 
+/// Returns two SVGs, for wide and narrow windows; empty if no point can be drawn.
 std::string error_plot(const WorkPrecisionSet& set, Across across) {
     const report::ScatterPlot plot = plot_of(set, across);
     if (plot.points.empty())

@@ -39,18 +39,6 @@ std::string error_text(const WorkPrecisionSet& set, const Outcome& outcome) {
 
 // The tables of a study's page, as HTML.
 
-/// Returns a row for each point, with the numbers of all views together and a link to the point's card.
-std::string points_table(const WorkPrecisionSet& set);
-
-/// Returns the error and time of each point in each view.
-std::string views_table(const WorkPrecisionSet& set);
-
-/// Returns the causes of wrong hits, with a heading; empty if they are not known.
-std::string causes_table(const WorkPrecisionSet& set);
-
-/// Returns the shares of the error, with a heading; empty if no error source was removed.
-std::string shares_table(const WorkPrecisionSet& set);
-
 namespace {
 
 using report::escaped;
@@ -131,6 +119,7 @@ std::string point_row(const WorkPrecisionSet& set, const std::vector<Column>& co
 
 } // namespace
 
+/// Returns a row for each point, with the numbers of all views together and a link to the point's card.
 std::string points_table(const WorkPrecisionSet& set) {
     const std::vector<Column> columns = columns_of(set);
     std::string rows = "<tr><th>setting</th>";
@@ -144,6 +133,7 @@ std::string points_table(const WorkPrecisionSet& set) {
            "&#9675;: hollow, the error is under ten times the reference's own.</p>\n";
 }
 
+/// Returns the error and time of each point in each view.
 std::string views_table(const WorkPrecisionSet& set) {
     std::string rows = "<tr><th>setting</th>";
     for (const View& view : set.study.views)
@@ -163,6 +153,7 @@ std::string views_table(const WorkPrecisionSet& set) {
            report::table("Error and time on each view", rows);
 }
 
+/// Returns the shares of the error, with a heading; empty if no error source was removed.
 std::string shares_table(const WorkPrecisionSet& set) {
     std::string head, rows;
     for (const WorkPrecision& point : set.points) {
@@ -186,6 +177,7 @@ std::string shares_table(const WorkPrecisionSet& set) {
         report::table("Sources of error", "<tr><th>setting</th>" + head + "</tr>\n" + rows));
 }
 
+/// Returns the causes of wrong hits, with a heading; empty if they are not known.
 std::string causes_table(const WorkPrecisionSet& set) {
     if (!set.has_hits() || !set.has_pictures())
         return {};
@@ -214,13 +206,7 @@ std::string causes_table(const WorkPrecisionSet& set) {
 // Describes as HTML how a study's figures were measured: truths, clock, machine, scene, observed orders,
 // omissions.
 
-/// Returns an empty text if no curve has enough points.
-std::string orders(const WorkPrecisionSet& set);
-
 std::string method(const WorkPrecisionSet& set);
-
-/// Returns an empty text if nothing was left out.
-std::string left_out(const WorkPrecisionSet& set);
 
 namespace {
 
@@ -259,6 +245,7 @@ std::string held(const WorkPrecisionSet& set) {
 
 } // namespace
 
+/// Returns an empty text if no curve has enough points.
 std::string orders(const WorkPrecisionSet& set) {
     std::vector<std::string> items;
     for (const ObservedOrder& order : set.orders) {
@@ -303,6 +290,7 @@ std::string method(const WorkPrecisionSet& set) {
     return html;
 }
 
+/// Returns an empty text if nothing was left out.
 std::string left_out(const WorkPrecisionSet& set) {
     std::vector<std::string> items = set.study.omissions;
     items.insert(items.end(), set.circumstances.remarks.begin(), set.circumstances.remarks.end());

@@ -29,8 +29,7 @@ public:
     /// Creates all contents before it writes the first file, so a report that fails leaves an older one
     /// intact.
     Result<void> write() {
-        if (auto done = make_maps(); !done)
-            return done;
+        TRY(make_maps());
         add("points.csv", to_csv(set_));
         add("report.html", to_html(set_, media_));
         add("study.json", to_json(set_));
@@ -47,13 +46,11 @@ private:
                 !made)
                 return made;
             auto file = TRY(StagedFile::create(folder_ / name));
-            if (auto done = file.write(std::as_bytes(std::span(bytes))); !done)
-                return done;
+            TRY(file.write(std::as_bytes(std::span(bytes))));
             staged.push_back(std::move(file));
         }
         for (StagedFile& file : staged)
-            if (auto done = file.commit(); !done)
-                return done;
+            TRY(file.commit());
         return {};
     }
 

@@ -1,5 +1,6 @@
 #include "lab/tune.hpp"
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/measurement.hpp"
 #include "lab/conduct.hpp"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 
@@ -59,9 +59,8 @@ Result<Goal> parse_goal(std::string_view text) {
     std::string_view number = text.substr(equals + 1);
     if (!unit->unit.empty() && number.ends_with(unit->unit))
         number.remove_suffix(unit->unit.size());
-    double value = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-    if (error != std::errc{} || end != number.data() + number.size() || !(value > 0) || !std::isfinite(value))
+    const double value = number_from<double>(number).value_or(0);
+    if (!(value > 0) || !std::isfinite(value))
         return fail(not_a_goal(text));
     return Goal{unit->measure, name == "psnr" ? std::pow(10.0, -value / 20) : value, {}};
 }

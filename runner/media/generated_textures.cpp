@@ -23,11 +23,6 @@ namespace tidemark::image {
 /// The side of the mask.
 inline constexpr int k_blue_side = 128;
 
-/// Returns a mask of k_blue_side² bytes, row by row, that tiles; each value 0..255 occurs 64 times. Void and
-/// cluster (R. Ulichney, "The void-and-cluster method for dither array generation", 1993) with a Gaussian of
-/// deviation 1.5 texels. The energies are integers, so the bytes are the same on every machine.
-std::vector<uint8_t> make_blue_mask(std::mt19937& random);
-
 namespace {
 
 constexpr int k_side = k_blue_side;
@@ -156,6 +151,9 @@ Pattern initial_pattern(std::mt19937& random, const Energies& kernel) {
 
 } // namespace
 
+/// Returns a mask of k_blue_side² bytes, row by row, that tiles; each value 0..255 occurs 64 times. Void and
+/// cluster (R. Ulichney, "The void-and-cluster method for dither array generation", 1993) with a Gaussian of
+/// deviation 1.5 texels. The energies are integers, so the bytes are the same on every machine.
 std::vector<uint8_t> make_blue_mask(std::mt19937& random) {
     const Energies kernel = gaussian();
     const Pattern initial = initial_pattern(random, kernel);

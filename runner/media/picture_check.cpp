@@ -2,6 +2,7 @@
 
 #include "media/picture_check.hpp"
 
+#include "base/encoding.hpp"
 #include "base/file.hpp"
 #include "media/byte_order.hpp"
 #include "media/picture_codecs.hpp"
@@ -47,9 +48,6 @@ inline std::optional<PngChunk> take_png_chunk(std::string_view& rest) {
 
 // Checks that a TIFF contains all its directories and the data of its first picture, because libtiff silently
 // fills missing pixels with black. Handles classic TIFF and BigTIFF in either byte order. Does not decode.
-
-/// Returns the error, or nothing.
-std::optional<std::string> tiff_objection(std::string_view file);
 
 namespace {
 
@@ -170,6 +168,7 @@ private:
 
 } // namespace
 
+/// Returns the error, or nothing.
 std::optional<std::string> tiff_objection(std::string_view file) {
     if (TiffWalk(file).is_whole())
         return {};
@@ -212,10 +211,7 @@ bool is_pnm(std::string_view file) {
 }
 
 bool has_tga_name(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-    return extension == ".tga";
+    return lower_case(path.extension().string()) == ".tga";
 }
 
 // --- PNG -------------------------------------------------------------------------------------------

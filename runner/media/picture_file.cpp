@@ -2,6 +2,7 @@
 
 #include "media/picture_file.hpp"
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "media/file_samples.hpp"
@@ -30,10 +31,6 @@
 #include <vector>
 
 namespace tidemark::image {
-
-/// Returns a version 4 profile with BT.709's primaries and the transfer curve, always the same bytes; empty
-/// for Transfer::data.
-std::vector<std::byte> icc_profile(Transfer transfer);
 
 namespace {
 
@@ -121,6 +118,8 @@ std::string header(size_t size) {
 
 } // namespace
 
+/// Returns a version 4 profile with BT.709's primaries and the transfer curve, always the same bytes; empty
+/// for Transfer::data.
 std::vector<std::byte> icc_profile(Transfer transfer) {
     if (transfer == Transfer::data)
         return {};
@@ -166,11 +165,7 @@ const std::vector<WrittenFormat>& written_formats() {
 }
 
 std::string lower_extension(const fs::path& path) {
-    std::string extension = path.extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z')
-            c = char(c - 'A' + 'a');
-    return extension;
+    return lower_case(path.extension().string());
 }
 
 const WrittenFormat* written_format(const fs::path& path) {
@@ -513,8 +508,7 @@ Result<void> PictureStream::finish() {
     const auto finished = encoder_->finish();
     encoder_.reset();
     file_->finish();
-    if (auto written = checked(finished ? std::string() : finished.error()); !written)
-        return written;
+    TRY(checked(finished ? std::string() : finished.error()));
     return staged_.commit();
 }
 

@@ -29,10 +29,6 @@ struct AlsaLibrary {
     decltype(&snd_lib_error_set_handler) set_handler = nullptr;
 };
 
-/// Returns the library, loaded by the first call, which also turns off its messages. ErrorCode::load names
-/// the missing library or function.
-const Result<AlsaLibrary>& alsa_library();
-
 /// An open device; closed by the destructor.
 struct AlsaDevice {
     const AlsaLibrary& alsa;
@@ -56,9 +52,6 @@ struct AlsaFormat {
     unsigned rate;                ///< samples per second and channel
     unsigned buffer_microseconds; ///< length of the device's buffer
 };
-
-/// Opens a device without waiting. The error is ALSA's own message.
-Result<std::unique_ptr<AlsaDevice>> open_device(const AlsaFormat& format);
 
 namespace {
 
@@ -86,11 +79,14 @@ Result<AlsaLibrary> load_alsa() {
 
 } // namespace
 
+/// Returns the library, loaded by the first call, which also turns off its messages. ErrorCode::load names
+/// the missing library or function.
 const Result<AlsaLibrary>& alsa_library() {
     static const Result<AlsaLibrary> library = load_alsa();
     return library;
 }
 
+/// Opens a device without waiting. The error is ALSA's own message.
 Result<std::unique_ptr<AlsaDevice>> open_device(const AlsaFormat& format) {
     constexpr int k_resample = 1;
     const auto& alsa = alsa_library();

@@ -26,13 +26,6 @@
 
 namespace tidemark::sound {
 
-/// Returns false if parts that the file declares lie beyond its end. Returns true for unknown formats and for
-/// streams whose writer did not know their length.
-bool is_whole(std::string_view file);
-
-/// Returns the length in a FLAC's header; nothing for other formats or if the header has none.
-std::optional<uint64_t> promised_frames(std::string_view file);
-
 namespace {
 
 uint8_t byte_at(std::string_view file, size_t at) {
@@ -156,6 +149,8 @@ bool has_all_mp3_frames(std::string_view file) {
 
 } // namespace
 
+/// Returns false if parts that the file declares lie beyond its end. Returns true for unknown formats and for
+/// streams whose writer did not know their length.
 bool is_whole(std::string_view file) {
     if (file.starts_with("RIFF") && has(file, 8, "WAVE"))
         return has_all_chunks(file, Order::little);
@@ -168,6 +163,7 @@ bool is_whole(std::string_view file) {
     return true;
 }
 
+/// Returns the length in a FLAC's header; nothing for other formats or if the header has none.
 std::optional<uint64_t> promised_frames(std::string_view file) {
     constexpr size_t place = 4 + 4 + 13; // of the lower 36 bits of five bytes in STREAMINFO
     if (!file.starts_with("fLaC") || file.size() < place + 5)

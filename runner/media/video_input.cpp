@@ -1,5 +1,6 @@
 #include "media/video_input.hpp"
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/process.hpp"
@@ -9,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -26,13 +26,10 @@ namespace {
 constexpr size_t k_most_pixels = size_t{1} << 26;
 
 std::optional<int64_t> number(std::string_view text) {
-    int64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto value = number_from<int64_t>(text);
     // A range of ticks in which sums and differences do not overflow.
     constexpr int64_t most = std::numeric_limits<int64_t>::max() / 4;
-    if (error != std::errc() || end != text.data() + text.size() || value > most || value < -most)
-        return {};
-    return value;
+    return value && *value <= most && *value >= -most ? value : std::nullopt;
 }
 
 /// A line of the form "section|key=value|key=value…".

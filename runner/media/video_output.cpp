@@ -40,28 +40,16 @@ struct VideoEncoding {
     std::vector<std::string> whole;
 };
 
-const std::vector<VideoEncoding>& encodings();
-
 /// Returns the file extension of segments: ProRes needs .mov, because MP4 has no ProRes.
 std::string_view segment_extension(const VideoEncoding& encoding);
-/// Returns ffmpeg's format name for files of that extension.
-std::string_view muxer_of(std::string_view extension);
 
 /// Finds an encoding by the file's extension, the codec (empty: the extension's default) and the required
 /// alpha; null if there is none.
 const VideoEncoding* encoding_of(const std::filesystem::path& path, std::string_view codec = {},
                                  Alpha alpha = Alpha::where_needed);
 
-/// Returns ffmpeg's name of the first encoder of that codec that this ffmpeg has and that supports the size.
-/// Empty for a codec without a choice of encoders. Fails (ErrorCode::write) if none fits.
-Result<std::string_view> encoder_of(std::string_view codec, Extent extent);
-
 /// Returns the colour tags for planes of 10 bits, which are BT.709 already.
 std::vector<std::string> colour_words();
-/// Returns the start of the command line for encoding and joining.
-std::vector<std::string> ffmpeg_words();
-/// Returns options that keep date and version out of the file, so that equal frames give equal files.
-std::vector<std::string> reproducible_words();
 
 namespace {
 
@@ -240,6 +228,7 @@ std::string_view segment_extension(const VideoEncoding& encoding) {
     return encoding.codec == "prores" ? ".mov" : ".mp4";
 }
 
+/// Returns ffmpeg's format name for files of that extension.
 std::string_view muxer_of(std::string_view extension) {
     return extension == ".mkv" ? "matroska" : extension.substr(1);
 }
@@ -253,6 +242,8 @@ const VideoEncoding* encoding_of(const std::filesystem::path& path, std::string_
     return found == encodings().end() ? nullptr : &*found;
 }
 
+/// Returns ffmpeg's name of the first encoder of that codec that this ffmpeg has and that supports the size.
+/// Empty for a codec without a choice of encoders. Fails (ErrorCode::write) if none fits.
 Result<std::string_view> encoder_of(std::string_view codec, Extent extent) {
     Words missing;
     for (const Encoder& encoder : k_encoders) {
@@ -278,11 +269,13 @@ Words colour_words() {
             "-color_primaries", "bt709", "-color_trc",  "iec61966-2-1"};
 }
 
+/// Returns the start of the command line for encoding and joining.
 Words ffmpeg_words() {
     // Without -xerror ffmpeg reports success when a full disk lost the last blocks of the file.
     return {"ffmpeg", "-xerror", "-nostats", "-loglevel", "error", "-y"};
 }
 
+/// Returns options that keep date and version out of the file, so that equal frames give equal files.
 Words reproducible_words() {
     return {"-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-flags:a", "+bitexact"};
 }
@@ -357,12 +350,6 @@ std::string list_of(std::span<const SegmentFile> segments, double fps) {
         list += fmt::format("file {}\nduration {}us\n", quoted(segment.path), microseconds() - start);
     }
     return list;
-}
-
-std::string last_line(std::string text) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == '\r'))
-        text.pop_back();
-    return text.substr(text.rfind('\n') + 1);
 }
 
 tl::unexpected<Error> failure(const fs::path& video, const std::string& words) {

@@ -84,8 +84,7 @@ Result<void> Renderer::bind_channels() {
             return {};
         };
         for (const int number : planned.channels)
-            if (auto added = add(number, scene().passes[planned.pass].channels[size_t(number)]); !added)
-                return added;
+            TRY(add(number, scene().passes[planned.pass].channels[size_t(number)]));
         if (planned.keyboard_helpers)
             if (auto added = add(k_keyboard_unit, {scene::Keyboard{4}, scene::k_keyboard_sampling, {}});
                 !added)

@@ -1,5 +1,6 @@
 #include "scene/directives.hpp"
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/tokens.hpp"
 #include "scene/host_uniforms.hpp"
@@ -8,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <unordered_map>
 
@@ -125,8 +125,7 @@ tl::unexpected<Error> DirectiveReader::wanted(std::string_view what) const {
 /// down.
 Result<void> DirectiveReader::open_bracket(std::string_view open, std::string_view close) {
     const Token* bracket = peek();
-    if (auto opened = expect(open); !opened)
-        return opened;
+    TRY(expect(open));
     const auto ends_it = [&](const Token& token) {
         return token.is(close) || token.is(open) || token.is("{") || token.is(";") || token.is("#");
     };
@@ -140,8 +139,7 @@ Result<void> DirectiveReader::open_bracket(std::string_view open, std::string_vi
 }
 
 Result<void> DirectiveReader::close_bracket(std::string_view close) {
-    if (auto closed = expect(close); !closed)
-        return closed;
+    TRY(expect(close));
     --brackets_;
     return {};
 }
@@ -246,8 +244,7 @@ Result<void> DirectiveReader::read_channel(std::string_view keyword, const Sourc
     const auto channel = size_t(digits[0] - '0');
     if (!accept(":"))
         return read_channel_source(channel, where);
-    if (auto colon = expect(":"); !colon)
-        return colon;
+    TRY(expect(":"));
     return read_channel_parameter(wishes_[channel]);
 }
 
@@ -355,10 +352,8 @@ Result<void> DirectiveReader::read_knob(const SourceLocation& where) {
     if (!peek() || peek()->kind != TokenKind::identifier)
         return wanted("the name of the uniform");
     knob.name = std::string(tokens_[position_++].text);
-    if (auto free = check_name_is_free(knob); !free)
-        return free;
-    if (auto values = read_knob_values(knob); !values)
-        return values;
+    TRY(check_name_is_free(knob));
+    TRY(read_knob_values(knob));
     knob_of_name_.emplace(knob.name, directives_.knobs.size());
     directives_.knobs.push_back(std::move(knob));
     return {};
@@ -457,8 +452,7 @@ Result<Value> DirectiveReader::read_literal() {
         value.numbers.push_back(number);
     } while (constructor && accept(","));
     if (constructor)
-        if (auto closed = close_bracket(")"); !closed)
-            return fail(closed.error());
+        TRY(close_bracket(")"));
     return value;
 }
 
@@ -469,13 +463,12 @@ Result<double> DirectiveReader::read_number(bool& whole) {
     if (!peek() || peek()->kind != TokenKind::number)
         return wanted("a number");
     const std::string_view digits = peek()->text;
-    double number = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (error != std::errc{} || end != digits.data() + digits.size())
+    const auto number = number_from<double>(digits);
+    if (!number)
         return wanted("a decimal number");
     ++position_;
     whole = whole && digits.find_first_of(".eE") == std::string_view::npos;
-    return negative ? -number : number;
+    return negative ? -*number : *number;
 }
 
 } // namespace

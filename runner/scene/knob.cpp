@@ -41,11 +41,8 @@ std::optional<double> parse_number(std::string_view text) {
     text = trimmed(text);
     if (text.starts_with('+') && !text.starts_with("+-"))
         text.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-        return std::nullopt;
-    return value;
+    const auto value = number_from<double>(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::optional<KnobValue> parse_hex_colour(std::string_view text) {

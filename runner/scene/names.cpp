@@ -1,5 +1,6 @@
 #include "scene/names.hpp"
 
+#include "base/encoding.hpp"
 #include "base/overloaded.hpp"
 
 #include <fmt/format.h>
@@ -109,9 +110,7 @@ MediaKind media_kind_of(const fs::path& file) {
         {".flac", MediaKind::music}, {".mp4", MediaKind::video}, {".webm", MediaKind::video},
         {".ogv", MediaKind::video},  {".gif", MediaKind::video}, {".bin", MediaKind::volume},
     };
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    const std::string extension = lower_case(file.extension().string());
     for (const auto& [known, kind] : k_extensions)
         if (extension == known)
             return kind;

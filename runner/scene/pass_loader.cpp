@@ -113,8 +113,7 @@ void note_files(Scene& scene, const Channel& channel) {
 
 Result<void> finish_scene(Scene& scene, std::vector<Draft> drafts, const std::vector<size_t>& order) {
     for (const size_t draft : order)
-        if (auto checked = check_entry(scene, drafts[draft]); !checked)
-            return checked;
+        TRY(check_entry(scene, drafts[draft]));
     std::vector<size_t> drawn = order;
     for (const size_t draft : order)
         if (drafts[draft].pass.kind == PassKind::image)

@@ -25,13 +25,6 @@ struct DomainPreludeOptions {
     size_t first_objective = 0; ///< buffer index of the first objective
 };
 
-/// Returns the functions to put before the text, limited to those that `sites` need.
-std::string domain_prelude(const ParsedText& text, std::span<const DomainSite> sites,
-                           const DomainPreludeOptions& options);
-
-/// Returns the `main` to put after the text, whose own `main` is renamed to `$main`.
-std::string domain_main(std::string_view prefix);
-
 namespace {
 
 constexpr std::string_view k_basis = R"(layout(std430,binding=0) buffer $Buffer{uint $out[];};
@@ -290,6 +283,7 @@ void fill(std::string& text, char hole, size_t number) {
 
 } // namespace
 
+/// Returns the functions to put before the text, limited to those that `sites` need.
 std::string domain_prelude(const ParsedText& text, std::span<const DomainSite> sites,
                            const DomainPreludeOptions& options) {
     const std::string& prefix = options.prefix;
@@ -331,6 +325,7 @@ std::string domain_prelude(const ParsedText& text, std::span<const DomainSite> s
     return prelude;
 }
 
+/// Returns the `main` to put after the text, whose own `main` is renamed to `$main`.
 std::string domain_main(std::string_view prefix) {
     return spell("\nvoid main(){$begin();$main();$flush();}\n", prefix);
 }

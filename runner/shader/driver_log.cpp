@@ -401,11 +401,7 @@ constexpr bool is_digit(char c) {
 
 /// Reads a count; the whole of `text` must be digits.
 std::optional<int> count_of(std::string_view text) {
-    int count = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-    if (text.empty() || !is_digit(text.front()) || error != std::errc{} || end != text.data() + text.size())
-        return std::nullopt;
-    return count;
+    return !text.empty() && is_digit(text.front()) ? number_from<int>(text) : std::nullopt;
 }
 
 /// Reads `123 inst` or `inst: 123`; the whole item must match.

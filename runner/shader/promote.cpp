@@ -19,11 +19,6 @@
 
 namespace tidemark::glsl {
 
-/// Returns the token of each `const` in a declaration whose value calls a function that `replaced` accepts,
-/// directly or through macros and other constants.
-std::vector<size_t> find_lost_constants(const Reading& reading,
-                                        const std::function<bool(std::string_view)>& replaced);
-
 namespace {
 
 using text::Token;
@@ -108,6 +103,8 @@ private:
 
 } // namespace
 
+/// Returns the token of each `const` in a declaration whose value calls a function that `replaced` accepts,
+/// directly or through macros and other constants.
 std::vector<size_t> find_lost_constants(const Reading& reading,
                                         const std::function<bool(std::string_view)>& replaced) {
     return LossFinder(reading, replaced).run();

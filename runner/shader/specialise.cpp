@@ -3,6 +3,7 @@
 
 #include "shader/specialise.hpp"
 
+#include "base/encoding.hpp"
 #include "scene/knob.hpp"
 #include "shader/parsed_text.hpp"
 #include "shader/tree_facts.hpp"
@@ -12,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -63,24 +63,12 @@ private:
 // Moves costly expressions of uniforms out of loops into global variables with a value, which are computed
 // once per pixel. llvmpipe does not do this itself.
 
-/// Adds the changes to `edits` and returns the number of moved expressions. Leaves `gone` tokens and globals
-/// that are not `reached`.
-int move_loop_invariants(const ParsedText& text, const std::vector<Global>& globals,
-                         const std::vector<bool>& reached, const std::vector<bool>& gone, WordEdits& edits);
-
 namespace {
 
 /// Longest chain of constants defined by constants.
 constexpr int k_most_constants = 30;
 /// Largest magnitude up to which every whole number is a float.
 constexpr double k_largest_whole_float = 16777216.0;
-
-std::optional<float> parse_float(std::string_view digits) {
-    float number = 0;
-    const char* const end = digits.data() + digits.size();
-    const auto read = std::from_chars(digits.data(), end, number);
-    return read.ec == std::errc{} && read.ptr == end ? std::optional(number) : std::nullopt;
-}
 
 /// Returns whether the number is zero or a normal float: a device may flush smaller ones to zero.
 bool is_plain(double number) {
@@ -111,7 +99,7 @@ auto ConstantFolding::literal(std::string_view digits) const -> Known {
         !digits.starts_with("0X")) {
         if (digits.ends_with('f') || digits.ends_with('F'))
             digits.remove_suffix(1);
-        const auto number = parse_float(digits);
+        const auto number = number_from<float>(digits);
         return number && is_plain(*number) ? Known({Kind::floating, *number}) : std::nullopt;
     }
     const auto number = whole_number(digits);
@@ -417,6 +405,8 @@ private:
 
 } // namespace
 
+/// Adds the changes to `edits` and returns the number of moved expressions. Leaves `gone` tokens and globals
+/// that are not `reached`.
 int move_loop_invariants(const ParsedText& text, const std::vector<Global>& globals,
                          const std::vector<bool>& reached, const std::vector<bool>& gone, WordEdits& edits) {
     return Hoister(text, globals, reached, gone, edits).run();

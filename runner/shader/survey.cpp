@@ -1,11 +1,11 @@
 #include "shader/survey.hpp"
 
+#include "base/encoding.hpp"
 #include "base/tokens.hpp"
 #include "shader/vocabulary.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 namespace tidemark::glsl {
 namespace {
@@ -275,10 +275,10 @@ private:
     bool read_length(int& length) {
         if (!peek(0).is("["))
             return true;
-        const std::string_view digits = peek(1).text;
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), length);
-        if (error != std::errc{} || end != digits.data() + digits.size() || !peek(2).is("]"))
+        const auto number = number_from<int>(peek(1).text);
+        if (!number || !peek(2).is("]"))
             return false;
+        length = *number;
         at_ += 3;
         return true;
     }

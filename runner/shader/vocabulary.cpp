@@ -134,11 +134,7 @@ std::optional<double> number(std::string_view word) {
         return std::nullopt;
     while (!word.empty() && std::string_view("uUfF").find(word.back()) != std::string_view::npos)
         word.remove_suffix(1);
-    double value = 0;
-    const auto read = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (read.ec != std::errc{} || read.ptr != word.data() + word.size())
-        return std::nullopt;
-    return value;
+    return number_from<double>(word);
 }
 
 std::string as_float(std::string_view digits) {

@@ -25,8 +25,6 @@ struct CallPaths {
     std::vector<NodeId> loops; ///< loops around the operation or around one of those calls
 };
 
-CallPaths find_call_paths(const ParsedText& text, const TreeFacts& facts, NodeId operation);
-
 // Writes the GLSL functions that a watched text calls: one overload per type.
 
 /// The functions to write.
@@ -38,12 +36,6 @@ struct PreludeOptions {
     bool doubles = false; ///< the GLSL version has doubles
     size_t loops = 0;     ///< number of loop counters
 };
-
-/// Returns the functions to put before the text.
-std::string watch_prelude(const PreludeOptions& options);
-
-/// Returns the overloads for a structure, to put after its definition.
-std::string structure_overloads(const PreludeOptions& options, const TreeFacts& facts, std::string_view name);
 
 namespace {
 
@@ -219,10 +211,12 @@ private:
 
 } // namespace
 
+/// Returns the functions to put before the text.
 std::string watch_prelude(const PreludeOptions& options) {
     return Prelude(options).run();
 }
 
+/// Returns the overloads for a structure, to put after its definition.
 std::string structure_overloads(const PreludeOptions& options, const TreeFacts& facts,
                                 std::string_view name) {
     std::string bad;

@@ -33,25 +33,8 @@ namespace tidemark::web {
 /// Bytes of the largest file that is embedded in a page.
 inline constexpr size_t k_largest_file = size_t{64} << 20;
 
-/// Returns an object whose `kind` determines the other members (host/inputs.js). Not for a PassOutput. Fails
-/// (ErrorCode::load) on a file that cannot be read or is too large.
-Result<Json> input_data(const scene::Channel& channel);
-
-// A pass as JSON, in the form in which the page compiles it.
-
-/// Returns `name`, `kind`, `source` (GLSL ES 3.00: the author's text and the host's around it), `lines`
-/// (which lines of the source come from which file), `discards`, and `foreign` (it may use other hosts'
-/// uniforms).
-Json pass_data(const scene::Scene& scene, const scene::Pass& pass);
-
-/// Returns the channels that the text may read, ascending.
-std::vector<size_t> channels_named(const scene::Scene& scene, const scene::Pass& pass);
-
 // A scene as JSON for its page: the passes' texts with the authors' lines, the channels' inputs, the knobs.
 // `host/` reads it.
-
-/// Leaves out passes that are not needed and inputs that no text names. Fails like `make_page`.
-Result<Json> scene_data(const scene::Scene& scene, const Json& numbers);
 
 namespace {
 
@@ -243,6 +226,8 @@ private:
 
 } // namespace
 
+/// Returns an object whose `kind` determines the other members (host/inputs.js). Not for a PassOutput. Fails
+/// (ErrorCode::load) on a file that cannot be read or is too large.
 Result<Json> input_data(const scene::Channel& channel) {
     auto data = std::visit(Embedder(channel.sampling.vflip), channel.input);
     if (!data && !channel.where.file.empty()) // report the directive that names the file
@@ -293,6 +278,9 @@ Json line_runs(const text::MappedText& source, const scene::Scene& scene) {
 
 } // namespace
 
+/// Returns `name`, `kind`, `source` (GLSL ES 3.00: the author's text and the host's around it), `lines`
+/// (which lines of the source come from which file), `discards`, and `foreign` (it may use other hosts'
+/// uniforms).
 Json pass_data(const scene::Scene& scene, const scene::Pass& pass) {
     const glsl::PassReading reading(scene, pass);
     const text::MappedText source = web_source(reading);
@@ -304,6 +292,7 @@ Json pass_data(const scene::Scene& scene, const scene::Pass& pass) {
             {"foreign", pass.bare_file || reading.has_own_main()}};
 }
 
+/// Returns the channels that the text may read, ascending.
 std::vector<size_t> channels_named(const scene::Scene& scene, const scene::Pass& pass) {
     const glsl::PassReading reading(scene, pass);
     const auto named = [&](std::string_view name) { return reading.place_of(name).has_value(); };
@@ -427,6 +416,7 @@ private:
 
 } // namespace
 
+/// Leaves out passes that are not needed and inputs that no text names. Fails like `make_page`.
 Result<Json> scene_data(const scene::Scene& scene, const Json& numbers) {
     auto data = TRY(Collector(scene).collect());
     data["numbers"] = numbers;

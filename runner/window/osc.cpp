@@ -1,6 +1,7 @@
 #include "window/osc.hpp"
 
 #include "base/dynamic_library.hpp"
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 
@@ -27,9 +28,7 @@ namespace {
 constexpr std::string_view k_loopback = "127.0.0.1";
 
 bool is_port(std::string_view text) {
-    unsigned port = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-    return error == std::errc{} && end == text.data() + text.size() && port <= 65535;
+    return number_from<uint16_t>(text).has_value();
 }
 
 using Found = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;

@@ -173,8 +173,7 @@ Result<void> Viewer::finish() {
         const OutputPath& record = settings_.record;
         const auto read =
             stage_ ? files_read(stage_->renderer().scene()) : std::vector<std::filesystem::path>{};
-        if (auto written = write_file(record.sparing(read), to_string(replay_->script())); !written)
-            return written;
+        TRY(write_file(record.sparing(read), to_string(replay_->script())));
     }
     return writer_ ? writer_->finish() : Result<void>();
 }
@@ -358,8 +357,7 @@ Result<void> Viewer::show(Stage fresh, double now) {
     const bool first = !stage_;
     if (first)
         clock_ = clock_from(now);
-    if (auto swapped = swap_in(std::move(fresh)); !swapped)
-        return swapped;
+    TRY(swap_in(std::move(fresh)));
     if (stage_->share()) {
         say(fmt::format("background optimisation: frames take {:.0f} % less time, same bytes",
                         100 * (1 - *stage_->share())));
@@ -402,8 +400,7 @@ Result<void> Viewer::swap_in(Stage fresh) {
         frozen_->target.framebuffer = {}; // deleted in the context that owns it
     const std::optional<Stage> before = std::exchange(stage_, std::nullopt);
     stage_.emplace(std::move(fresh));
-    if (auto entered = stage_->enter(); !entered)
-        return entered;
+    TRY(stage_->enter());
     if (frozen_)
         frozen_->target = gl::attach(std::move(frozen_->target.texture));
     if (before) {

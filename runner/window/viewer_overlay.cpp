@@ -25,23 +25,7 @@
 
 namespace tidemark::cli {
 
-std::vector<live::KnobField> knob_fields(const scene::Scene& scene,
-                                         const std::vector<scene::Setting>& turned);
-
-/// Adds the MIDI binding of each component to the fields.
-void add_controllers(std::vector<live::KnobField>& fields, const live::ControllerMap& map);
-
-/// Returns the numeric definitions in the scene's texts, with the overrides of `request`.
-std::vector<live::DefinitionField> definition_fields(const scene::Scene& scene, const SceneRequest& request);
-
-/// Returns labels such as `2.500 s, height = 2`.
-std::vector<std::string> view_labels(const std::vector<Moment>& views);
-
 // Writes the values of knobs into the files that declare them, each file completely or not at all.
-
-/// Writes the knobs that differ from their defaults. Returns a message for each file; fails
-/// (ErrorCode::write) where a file cannot be written or no longer declares the knob.
-Result<std::vector<std::string>> write_knobs(const std::vector<scene::Knob>& knobs);
 
 std::vector<live::KnobField> knob_fields(const scene::Scene& scene,
                                          const std::vector<scene::Setting>& turned) {
@@ -51,6 +35,7 @@ std::vector<live::KnobField> knob_fields(const scene::Scene& scene,
     return fields;
 }
 
+/// Adds the MIDI binding of each component to the fields.
 void add_controllers(std::vector<live::KnobField>& fields, const live::ControllerMap& map) {
     for (live::KnobField& field : fields)
         for (size_t i = 0; i < size_t(info(field.knob.type).components); ++i) {
@@ -61,6 +46,7 @@ void add_controllers(std::vector<live::KnobField>& fields, const live::Controlle
         }
 }
 
+/// Returns the numeric definitions in the scene's texts, with the overrides of `request`.
 std::vector<live::DefinitionField> definition_fields(const scene::Scene& scene, const SceneRequest& request) {
     std::vector<scene::Setting> held;
     for (const std::string& text : request.defines)
@@ -77,6 +63,7 @@ std::vector<live::DefinitionField> definition_fields(const scene::Scene& scene, 
     return fields;
 }
 
+/// Returns labels such as `2.500 s, height = 2`.
 std::vector<std::string> view_labels(const std::vector<Moment>& views) {
     std::vector<std::string> labels;
     for (const Moment& view : views) {
@@ -105,6 +92,8 @@ Result<std::string> write_into(const std::string& file, const std::vector<scene:
 
 } // namespace
 
+/// Writes the knobs that differ from their defaults. Returns a message for each file; fails
+/// (ErrorCode::write) where a file cannot be written or no longer declares the knob.
 Result<std::vector<std::string>> write_knobs(const std::vector<scene::Knob>& knobs) {
     std::map<std::string, std::vector<scene::Knob>> by_file;
     for (const scene::Knob& knob : knobs)

@@ -74,6 +74,25 @@ Button button_from_glfw(int button) {
                                                : Button::middle;
 }
 
+/// Reports changes of size, requests to redraw and to close as events of `state`, the window's user pointer.
+template <class State>
+void listen_to_frame(State& state) {
+    GLFWwindow* handle = state.window.get();
+    glfwSetWindowUserPointer(handle, &state);
+    glfwGetFramebufferSize(handle, &state.framebuffer.width, &state.framebuffer.height);
+    glfwSetFramebufferSizeCallback(handle, [](GLFWwindow* source, int width, int height) {
+        State& resized = State::of(source);
+        resized.framebuffer = {width, height};
+        resized.events.emplace_back(FramebufferResized{resized.framebuffer});
+    });
+    glfwSetWindowRefreshCallback(
+        handle, [](GLFWwindow* source) { State::of(source).events.emplace_back(RedrawNeeded{}); });
+    glfwSetWindowCloseCallback(handle, [](GLFWwindow* source) {
+        glfwSetWindowShouldClose(source, GLFW_FALSE);
+        State::of(source).events.emplace_back(CloseRequested{});
+    });
+}
+
 } // namespace
 
 /// Keeps its address when the Window moves, since GLFW's user pointer points to it.
@@ -103,23 +122,11 @@ struct Window::State {
 
 void Window::State::listen() {
     GLFWwindow* handle = window.get();
-    glfwSetWindowUserPointer(handle, this);
-    glfwGetFramebufferSize(handle, &framebuffer.width, &framebuffer.height);
+    listen_to_frame(*this);
     glfwGetWindowSize(handle, &screen.width, &screen.height);
     glfwGetCursorPos(handle, &cursor_x, &cursor_y);
     glfwSetWindowSizeCallback(handle, [](GLFWwindow* source, int width, int height) {
         of(source).screen = {width, height};
-    });
-    glfwSetFramebufferSizeCallback(handle, [](GLFWwindow* source, int width, int height) {
-        State& state = of(source);
-        state.framebuffer = {width, height};
-        state.events.emplace_back(FramebufferResized{state.framebuffer});
-    });
-    glfwSetWindowRefreshCallback(handle,
-                                 [](GLFWwindow* source) { of(source).events.emplace_back(RedrawNeeded{}); });
-    glfwSetWindowCloseCallback(handle, [](GLFWwindow* source) {
-        glfwSetWindowShouldClose(source, GLFW_FALSE);
-        of(source).events.emplace_back(CloseRequested{});
     });
     glfwSetWindowFocusCallback(handle, [](GLFWwindow* source, int focused) {
         if (!focused)
@@ -294,21 +301,8 @@ struct OutputWindow::State {
 };
 
 void OutputWindow::State::listen() {
-    GLFWwindow* handle = window.get();
-    glfwSetWindowUserPointer(handle, this);
-    glfwGetFramebufferSize(handle, &framebuffer.width, &framebuffer.height);
-    glfwSetFramebufferSizeCallback(handle, [](GLFWwindow* source, int width, int height) {
-        State& state = of(source);
-        state.framebuffer = {width, height};
-        state.events.emplace_back(FramebufferResized{state.framebuffer});
-    });
-    glfwSetWindowRefreshCallback(handle,
-                                 [](GLFWwindow* source) { of(source).events.emplace_back(RedrawNeeded{}); });
-    glfwSetWindowCloseCallback(handle, [](GLFWwindow* source) {
-        glfwSetWindowShouldClose(source, GLFW_FALSE);
-        of(source).events.emplace_back(CloseRequested{});
-    });
-    glfwSetKeyCallback(handle, [](GLFWwindow* source, int key, int scancode, int action, int) {
+    listen_to_frame(*this);
+    glfwSetKeyCallback(window.get(), [](GLFWwindow* source, int key, int scancode, int action, int) {
         if (const auto event = key_event(key, scancode, action))
             of(source).events.push_back(*event);
     });

@@ -17,8 +17,6 @@
 
 namespace tidemark::live {
 
-void draw_definitions(std::vector<DefinitionField>& fields, Commands& commands);
-
 namespace {
 
 /// Draws one field. A value is sent only when editing it ends, because each one is compiled.
@@ -58,8 +56,6 @@ void draw_definitions(std::vector<DefinitionField>& fields, Commands& commands) 
 }
 
 // Widgets for the knobs of a scene.
-
-void draw_knobs(std::vector<KnobField>& fields, Commands& commands);
 
 namespace {
 
@@ -193,8 +189,6 @@ void draw_knobs(std::vector<KnobField>& fields, Commands& commands) {
 
 // The list of views that the user kept.
 
-void draw_views(const std::vector<std::string>& views, Commands& commands);
-
 void draw_views(const std::vector<std::string>& views, Commands& commands) {
     if (!ImGui::CollapsingHeader("Views"))
         return;
@@ -212,9 +206,6 @@ void draw_views(const std::vector<std::string>& views, Commands& commands) {
 }
 
 // Fields below the thumbnails: how the large picture is viewed.
-
-/// Draws nothing if no picture is large.
-void draw_look(const Model& model, Commands& commands);
 
 namespace {
 
@@ -255,6 +246,7 @@ bool draw_slice(LookField& look, int slices) {
 
 } // namespace
 
+/// Draws nothing if no picture is large.
 void draw_look(const Model& model, Commands& commands) {
     if (!model.large)
         return;

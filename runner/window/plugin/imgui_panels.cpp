@@ -19,13 +19,6 @@ struct ImGuiIO;
 
 namespace tidemark::live {
 
-/// Maps Tidemark's keys to those of Dear ImGui; called once, before the first frame.
-void set_up_input(ImGuiIO& io);
-
-/// Passes one event on. `height` of the framebuffer: Tidemark counts pixels from the bottom, Dear ImGui from
-/// the top.
-void feed(ImGuiIO& io, const platform::InputEvent& event, int height);
-
 /// Releases all keys and buttons and moves the pointer outside.
 void release_all(ImGuiIO& io);
 
@@ -142,6 +135,7 @@ void set_key(ImGuiIO& io, Key key, bool down) {
 
 } // namespace
 
+/// Maps Tidemark's keys to those of Dear ImGui; called once, before the first frame.
 void set_up_input(ImGuiIO& io) {
 #if IMGUI_VERSION_NUM < 18700
     for (const auto& [name, key] : k_keys)
@@ -153,6 +147,8 @@ void set_up_input(ImGuiIO& io) {
 #endif
 }
 
+/// Passes one event on. `height` of the framebuffer: Tidemark counts pixels from the bottom, Dear ImGui from
+/// the top.
 void feed(ImGuiIO& io, const platform::InputEvent& event, int height) {
     const auto point = [&](const platform::PointerPosition& at) {
         set_pointer(io, float(at.x), float(height - at.y));
