@@ -63,7 +63,8 @@ struct FrameSequence {
     std::optional<double> lead_in_fps{};
 };
 
-/// Loads the scene. Fails (ErrorCode::usage) if it lacks a knob that the sequence's recording sets.
+/// Loads the scene. Fails (ErrorCode::usage) if it lacks a knob that the sequence's recording sets, or if a
+/// knob refuses a value of the recording or of the state.
 Result<scene::Scene> load(const SceneRequest& request, const FrameSequence& sequence);
 
 /// Returns the state of each frame of the sequence. It depends only on the frame's number, so a frame drawn
