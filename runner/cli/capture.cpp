@@ -49,9 +49,10 @@ Result<Moment> read_moment(const std::string& picture, const image::Metadata& me
         return refuse(picture,
                       "it does not hold how it was drawn: give one that `tidemark capture` or the window's "
                       "S saved, other than .hdr, and that no other program has saved since");
-    if (auto moment = moment_of(parse_or_discard(*text)))
-        return *std::move(moment);
-    return refuse(picture, "what it says of how it was drawn is damaged");
+    auto moment = moment_of(parse_or_discard(*text));
+    if (!moment)
+        return refuse(picture, "what it says of how it was drawn is damaged: " + moment.error().message);
+    return moment;
 }
 
 /// Removes paths that lead out of the scene's folder, which the scene's own text could not use either.

@@ -53,7 +53,10 @@ Json bits_of(const image::Image& picture) {
 Result<ForkedHelper> one_thread_painter(const scene::Scene& scene, const platform::DeviceChoice& device) {
     return ForkedHelper::start([&](const std::string& question, const Tell& tell) {
         ::setenv("LP_NUM_THREADS", "0", 1); // no threads in addition to the calling one
-        const auto drawn = picture(scene, device, frame_state_of(parse_json(question)));
+        const auto drawn =
+            frame_state_of(parse_json(question)).and_then([&](const render::FrameState& state) {
+                return picture(scene, device, state);
+            });
         tell(dump(drawn ? bits_of(*drawn) : to_json(drawn.error())));
     });
 }
@@ -209,12 +212,16 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
                     heard = fail(*std::move(error));
                 if (!heard)
                     return;
-                ProbeResult asked = result_of(json);
-                asked.seconds = std::max(asked.seconds - taking, 0.0);
-                const double spent = asked.seconds;
+                auto asked = result_of(json);
+                if (!asked) {
+                    heard = fail(std::move(asked.error()));
+                    return;
+                }
+                asked->seconds = std::max(asked->seconds - taking, 0.0);
+                const double spent = asked->seconds;
                 probes = probes.subspan(1);
                 const Clock::time_point taken = Clock::now();
-                heard = take(std::move(asked));
+                heard = take(*std::move(asked));
                 taking = seconds_since(taken);
                 seconds += spent + taking;
             });

@@ -251,7 +251,7 @@ Json to_json(const ProbeResult& asked) {
     return json;
 }
 
-ProbeResult result_of(const Json& line) {
+Result<ProbeResult> result_of(const Json& line) {
     const auto name = line.at("probe").get<std::string>();
     ProbeResult asked{&*std::ranges::find(lab::all_probes(), name, &lab::Probe::name), {}};
     asked.answer.verdict = lab::Verdict(line.at("verdict").get<int>());
@@ -260,7 +260,7 @@ ProbeResult result_of(const Json& line) {
     line.at("seconds").get_to(asked.seconds);
     asked.picture = line.at("picture").get<std::string>();
     if (line.contains("where"))
-        asked.answer.where = frame_state_of(line["where"]);
+        asked.answer.where = TRY(frame_state_of(line["where"]));
     return asked;
 }
 

@@ -60,7 +60,8 @@ struct ProbeResult {
 };
 
 Json to_json(const ProbeResult& asked);
-ProbeResult result_of(const Json& line);
+/// Reads the output of to_json, with the errors and exceptions of frame_state_of.
+Result<ProbeResult> result_of(const Json& line);
 
 // Formats the results of probes as text, as JSON and as findings.
 

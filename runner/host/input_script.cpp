@@ -83,10 +83,18 @@ bool Controls::take(const KnobTurned& event) {
     return true;
 }
 
-void Controls::release(const std::vector<scene::Knob>& knobs) {
-    for (const scene::Knob& knob : knobs)
-        if (knob.value == knob.initial && value_after(knob, knobs_) == knob.initial)
-            std::erase_if(knobs_, [&](const scene::Setting& held) { return held.name == knob.name; });
+std::vector<std::string> Controls::release(const std::vector<scene::Knob>& knobs) {
+    std::vector<std::string> refused;
+    std::erase_if(knobs_, [&](const scene::KnobSetting& held) {
+        const auto knob = std::ranges::find(knobs, held.name, &scene::Knob::name);
+        if (knob == knobs.end())
+            return false; // the next save may declare it again
+        const auto value = value_for(*knob, held.value);
+        if (!value)
+            refused.push_back(value.error().message);
+        return !value || (knob->value == knob->initial && *value == knob->initial);
+    });
+    return refused;
 }
 
 void Controls::adopt(const render::FrameState& state) {
@@ -109,7 +117,7 @@ void Controls::fill(render::FrameState& state) const {
     state.keys = keyboard_.texels();
     state.camera = camera_;
     state.initial_camera = initial_camera_;
-    for (const scene::Setting& setting : knobs_)
+    for (const scene::KnobSetting& setting : knobs_)
         scene::set(state.knobs, setting);
 }
 
@@ -165,16 +173,12 @@ bool take_key(std::string_view& line, platform::Key& key) {
     return true;
 }
 
-/// Parses the rest of the line as NAME=VALUE.
-bool take_setting(std::string_view& line, scene::Setting& setting) {
+/// Parses the rest of a line after `set` as NAME=VALUE; nullopt if it does not have that form.
+std::optional<Result<scene::KnobSetting>> take_setting(std::string_view line) {
     line.remove_prefix(std::min(line.find_first_not_of(k_blanks), line.size()));
     line = line.substr(0, line.find_last_not_of(k_blanks) + 1);
     const auto split = scene::split_setting(line, "set");
-    if (!split)
-        return false;
-    setting = {std::string(split->first), std::string(split->second)};
-    line = {};
-    return true;
+    return split ? std::optional(scene::parse_knob_setting(split->first, split->second)) : std::nullopt;
 }
 
 /// A kind of event: its name, its syntax for error messages, and its parser.
@@ -225,10 +229,6 @@ constexpr Kind k_kinds[] = {
          return event_if<platform::KeyReleased>(
              [&](platform::KeyReleased& event) { return take_key(line, event.key); });
      }},
-    {"set", "set NAME=VALUE",
-     [](std::string_view& line) {
-         return event_if<KnobTurned>([&](KnobTurned& event) { return take_setting(line, event.setting); });
-     }},
     {"camera", "camera reset",
      [](std::string_view& line) {
          return event_if<CameraReset>([&](CameraReset&) { return take_word(line) == "reset"; });
@@ -245,6 +245,13 @@ Result<TimedEvent> parse_line(std::string_view line) {
     if (!take_number(rest, timed.frame, 0, render::k_last_frame))
         return refuse("a line begins with the number of a frame, as in `12 move 100 50`");
     const std::string_view name = take_word(rest);
+    if (name == "set") {
+        auto setting = take_setting(rest);
+        if (!setting)
+            return refuse(fmt::format("give it as `{} set NAME=VALUE`", timed.frame));
+        timed.event = KnobTurned{TRY(std::move(*setting))};
+        return timed;
+    }
     const auto* kind = std::find_if(std::begin(k_kinds), std::end(k_kinds),
                                     [&](const Kind& known) { return known.name == name; });
     if (kind == std::end(k_kinds))
@@ -285,7 +292,7 @@ struct Wording {
     }
     std::string operator()(const CameraReset&) const { return "camera reset"; }
     std::string operator()(const KnobTurned& event) const {
-        return fmt::format("set {}={}", event.setting.name, event.setting.value);
+        return fmt::format("set {}={}", event.setting.name, scene::to_string(event.setting.value));
     }
 };
 
@@ -327,9 +334,7 @@ bool turns_knobs(const InputScript& script) {
 Result<void> check_knobs(const InputScript& script, std::vector<scene::Knob> knobs) {
     for (const TimedEvent& timed : script)
         if (const auto* turned = std::get_if<KnobTurned>(&timed.event))
-            TRY(find_knob(knobs, turned->setting.name).and_then([&](const scene::Knob* knob) {
-                return parse_knob_value(*knob, turned->setting.value);
-            }));
+            TRY(scene::set_knob(knobs, turned->setting));
     return {};
 }
 

@@ -22,7 +22,7 @@ struct CameraReset {
 
 /// Sets a knob to a value, as `--set` does.
 struct KnobTurned {
-    scene::Setting setting;
+    scene::KnobSetting setting;
     bool operator==(const KnobTurned&) const = default;
 };
 
@@ -46,8 +46,9 @@ public:
     /// Scales the mouse position to a new picture size, so that it stays at the same relative place.
     void stretch(Extent from, Extent to);
     /// Drops held values that equal the scene's defaults, so that those knobs follow later changes of the
-    /// defaults.
-    void release(const std::vector<scene::Knob>& knobs);
+    /// defaults. Also drops values that a knob refuses since its type changed, and returns a message for
+    /// each.
+    std::vector<std::string> release(const std::vector<scene::Knob>& knobs);
     /// Call it after each drawn frame: clears what is set for one frame only, for example a new click or key
     /// press.
     void frame_drawn();
@@ -66,7 +67,7 @@ private:
     render::OrbitCamera camera_;
     render::Mouse mouse_;
     render::Keyboard keyboard_;
-    std::vector<scene::Setting> knobs_; ///< held values, one per knob
+    std::vector<scene::KnobSetting> knobs_; ///< held values, one per knob
     platform::PointerPosition pointer_{};
     double height_ = 1;
     bool turning_ = false;

@@ -63,6 +63,9 @@ struct Parts {
 template <class T>
 concept HasParts = std::invocable<Parts, T&>;
 
+Json encode(const scene::KnobSetting& setting) {
+    return Json::array({setting.name, scene::to_string(setting.value)});
+}
 template <class T>
 Json encode(T value) {
     if constexpr (HasParts<T>)
@@ -110,6 +113,15 @@ void decode(const Json& json, std::vector<T>& values) {
         decode(each, values.emplace_back());
 }
 
+Result<std::vector<scene::KnobSetting>> knob_settings_of(const Json& json) {
+    std::vector<scene::KnobSetting> settings;
+    for (const Json& each : json) {
+        const auto name = each.at(0).get<std::string>(), text = each.at(1).get<std::string>();
+        settings.push_back(TRY(scene::parse_knob_setting(name, text)));
+    }
+    return settings;
+}
+
 } // namespace
 
 Json to_json(const render::FrameState& state) {
@@ -129,12 +141,19 @@ Json changes_of(const render::FrameState& state) {
     return json;
 }
 
-render::FrameState frame_state_of(const Json& json) {
+Result<render::FrameState> frame_state_of(const Json& json) {
     render::FrameState state;
+    Result<std::vector<scene::KnobSetting>> knobs;
     render::for_each_field([&](const auto& field) {
-        if (const auto found = json.find(std::string(field.name)); found != json.end())
+        const auto found = json.find(std::string(field.name));
+        if (found == json.end())
+            return;
+        if constexpr (std::same_as<decltype(state.*field.member), std::vector<scene::KnobSetting>&>)
+            knobs = knob_settings_of(*found);
+        else
             decode(*found, state.*field.member);
     });
+    state.knobs = TRY(std::move(knobs));
     return state;
 }
 

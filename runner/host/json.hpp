@@ -36,9 +36,9 @@ std::optional<Error> error_of(const Json& line);
 Json to_json(const render::FrameState& state);
 /// Returns only the fields that differ from `FrameState{}`.
 Json changes_of(const render::FrameState& state);
-/// Reads the output of `to_json` or `changes_of`; missing fields are as in `FrameState{}`. Throws
-/// Json::exception for JSON of another form.
-render::FrameState frame_state_of(const Json& json);
+/// Reads the output of `to_json` or `changes_of`; missing fields are as in `FrameState{}`. The error is that
+/// of scene::parse_knob_setting. Throws Json::exception for JSON of another form.
+Result<render::FrameState> frame_state_of(const Json& json);
 /// Returns the numbers that hold for a whole run, by name: `{"fps": 60}`.
 Json run_numbers(const render::FrameState& state);
 

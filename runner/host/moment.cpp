@@ -78,7 +78,10 @@ Json to_json(const Moment& moment) {
     return json;
 }
 
-std::optional<Moment> moment_of(const Json& json) {
+Result<Moment> moment_of(const Json& json) {
+    const auto damaged = [] {
+        return fail(ErrorCode::load, "the moment has another form, or values that no option accepts");
+    };
     try {
         Moment moment;
         SceneRequest& scene = moment.scene;
@@ -94,12 +97,12 @@ std::optional<Moment> moment_of(const Json& json) {
         take(json, "input", moment.sequence.input_file);
         if (json.contains("lead_in_fps"))
             moment.sequence.lead_in_fps = json["lead_in_fps"].get<double>();
-        moment.sequence.state = frame_state_of(json.at("state"));
+        moment.sequence.state = TRY(frame_state_of(json.at("state")));
         moment.sequence.frames = {moment.frame()};
         const bool sound = is_sound(moment.sequence.state) && moment.sequence.lead_in_fps.value_or(1) > 0;
-        return sound ? std::optional(std::move(moment)) : std::nullopt;
+        return sound ? Result<Moment>(std::move(moment)) : damaged();
     } catch (const Json::exception&) { // JSON of another form
-        return std::nullopt;
+        return damaged();
     }
 }
 
@@ -124,8 +127,8 @@ std::vector<std::string> merged(std::vector<std::string> older, const std::vecto
     return older;
 }
 
-void erase_named(const std::vector<std::string>& sets, std::vector<scene::Setting>& knobs) {
-    std::erase_if(knobs, [&](const scene::Setting& knob) {
+void erase_named(const std::vector<std::string>& sets, std::vector<scene::KnobSetting>& knobs) {
+    std::erase_if(knobs, [&](const scene::KnobSetting& knob) {
         return std::ranges::any_of(sets,
                                    [&](const std::string& set) { return set.starts_with(knob.name + "="); });
     });

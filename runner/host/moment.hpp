@@ -24,9 +24,9 @@ Moment moment_of(SceneRequest scene, const FrameSequence& sequence, render::Fram
 
 /// Leaves --allow-outside out: a file must not grant permissions.
 Json to_json(const Moment& moment);
-/// Reads what to_json wrote. Returns nothing if the JSON has another form, or holds values that no option
-/// accepts.
-std::optional<Moment> moment_of(const Json& json);
+/// Reads the output of to_json. Fails if the JSON has another form, or holds values that no option accepts;
+/// the error for a value of a knob contains its name.
+Result<Moment> moment_of(const Json& json);
 
 /// Returns `tidemark capture …` with all state that options can express.
 std::string capture_command(const Moment& moment);
@@ -35,7 +35,7 @@ std::string capture_command(const Moment& moment);
 std::vector<std::string> merged(std::vector<std::string> older, const std::vector<std::string>& newer);
 
 /// Removes the knob values that `sets` names.
-void erase_named(const std::vector<std::string>& sets, std::vector<scene::Setting>& knobs);
+void erase_named(const std::vector<std::string>& sets, std::vector<scene::KnobSetting>& knobs);
 
 // The metadata of a picture's file: the facts from which it can be drawn again.
 

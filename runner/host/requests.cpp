@@ -88,6 +88,9 @@ struct Typed {
     }
     std::string operator()(const render::OrbitCamera& camera) const { return to_string(camera); }
     std::string operator()(const scene::Setting& setting) const { return setting.name + "=" + setting.value; }
+    std::string operator()(const scene::KnobSetting& setting) const {
+        return setting.name + "=" + scene::to_string(setting.value);
+    }
     std::string operator()(const std::string& text) const { return text; }
 };
 
@@ -99,6 +102,23 @@ bool must_be_said(const render::FrameState& state, const render::FrameField<T>& 
     if (field.option == "--camera" && state.moves_camera())
         return true;
     return field.option == "--size" || state.*field.member != render::FrameState().*field.member;
+}
+
+/// Checks the values that a saved moment gives the scene's knobs. If the request allows another text of the
+/// scene, a refused value is a warning, as for --set.
+Result<void> check_state(const SceneRequest& request, const render::FrameState& state,
+                         const std::vector<scene::Knob>& knobs) {
+    for (const scene::KnobSetting& setting : state.knobs) {
+        const auto knob = std::ranges::find(knobs, setting.name, &scene::Knob::name);
+        if (knob == knobs.end())
+            continue;
+        if (auto value = value_for(*knob, setting.value); !value) {
+            if (!request.knobs_may_go)
+                return fail(std::move(value.error()));
+            say(finding_of({{request.path.string()}, Severity::warning, std::move(value.error().message)}));
+        }
+    }
+    return {};
 }
 
 void say_warnings(const std::vector<Diagnostic>& warnings, const std::vector<Diagnostic>& said) {
@@ -207,6 +227,7 @@ Result<scene::Scene> load(const SceneRequest& request, const FrameSequence& sequ
         if (auto known = check_knobs(*sequence.input, scene.knobs); !known)
             return fail(ErrorCode::usage,
                         fmt::format("--input {}: {}", sequence.input_file, known.error().message));
+    TRY(check_state(request, sequence.state, scene.knobs));
     return scene;
 }
 

@@ -64,7 +64,8 @@ struct FrameSequence {
     std::optional<double> lead_in_fps{};
 };
 
-/// Loads the scene. Fails (ErrorCode::usage) if it lacks a knob that the sequence's recording sets.
+/// Loads the scene. Fails (ErrorCode::usage) if it lacks a knob that the sequence's recording sets, or if a
+/// knob refuses a value of the recording or of the state.
 Result<scene::Scene> load(const SceneRequest& request, const FrameSequence& sequence);
 /// The same for files that `scene::load_scene` has read already; returns its error if it failed.
 Result<scene::Scene> load(const SceneRequest& request, const FrameSequence& sequence,

@@ -151,8 +151,9 @@ int first_frame_of(const FrameState& state) {
 Result<scene::Scene> in_state(scene::Scene scene, const FrameState& state) {
     for (const std::string& channel : state.channels)
         TRY(scene::override_channel(scene, channel));
-    auto turned = with(std::move(scene), state.knobs);
-    return turned ? with(*std::move(turned), state.definitions) : turned;
+    for (const scene::KnobSetting& setting : state.knobs)
+        TRY(scene::set_knob(scene.knobs, setting));
+    return with(std::move(scene), state.definitions);
 }
 
 namespace {
@@ -309,7 +310,7 @@ FrameState SearchSpace::state(const SearchPoint& point, Extent extent) const {
         if (scene::info(knob.type).whole)
             std::ranges::transform(value, value.begin(), [](double part) { return std::floor(part); });
         if (knob.value != value)
-            state.knobs.push_back({knob.name, scene::to_string(knob, value)});
+            state.knobs.push_back(scene::setting_of(knob, value));
     }
     if (point.mouse)
         state.mouse =

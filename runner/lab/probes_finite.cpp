@@ -17,14 +17,14 @@
 namespace tidemark::lab {
 namespace {
 
-std::string middle_of(const scene::Knob& knob) {
+scene::KnobValue middle_of(const scene::Knob& knob) {
     scene::KnobValue value{};
     for (size_t i = 0; i < value.size(); ++i) {
         value[i] = (knob.range->low[i] + knob.range->high[i]) / 2;
         if (scene::info(knob.type).whole)
             value[i] = std::floor(value[i]);
     }
-    return scene::to_string(knob, value);
+    return value;
 }
 
 } // namespace
@@ -85,10 +85,9 @@ Result<Answer> ask_knobs(ProbeBench& bench) {
     std::vector<FrameState> states;
     for (const scene::Knob& knob : bench.scene().knobs)
         if (knob.range)
-            for (const std::string& value : {scene::to_string(knob, knob.range->low), middle_of(knob),
-                                             scene::to_string(knob, knob.range->high)}) {
+            for (const scene::KnobValue& value : {knob.range->low, middle_of(knob), knob.range->high}) {
                 states.push_back(plain_state());
-                states.back().knobs = {{knob.name, value}};
+                states.back().knobs = {scene::setting_of(knob, value)};
             }
     if (states.empty())
         return Answer{Verdict::not_applicable, "the scene has no knob with a range"};

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 
 namespace tidemark::lab {
 namespace {
@@ -34,15 +34,15 @@ Result<Answer> most_flagged(ProbeBench& bench, glsl::HitFlag flag, double promis
 constexpr double k_multiples[] = {0, 0.5, 2, 4};
 
 /// Returns both ends of the knob's range and multiples of its value inside; only multiples if it has no
-/// range.
-std::vector<Setting> ends_and_multiples(const scene::Knob& knob, const Promises& promises) {
+/// range. They are sorted by their texts, each once.
+std::vector<scene::KnobSetting> ends_and_multiples(const scene::Knob& knob, const Promises& promises) {
     auto range = knob.range;
     if (const auto promised = promises.ranges.find(knob.name); promised != promises.ranges.end()) {
         range.emplace();
         range->low.fill(promised->second.first);
         range->high.fill(promised->second.second);
     }
-    std::set<std::string> values;
+    std::map<std::string, scene::KnobValue> values;
     for (const double factor : k_multiples) {
         scene::KnobValue value = knob.value;
         for (size_t i = 0; i < value.size(); ++i) {
@@ -52,15 +52,15 @@ std::vector<Setting> ends_and_multiples(const scene::Knob& knob, const Promises&
             if (scene::info(knob.type).whole)
                 value[i] = std::floor(value[i]);
         }
-        values.insert(scene::to_string(knob, value));
+        values.emplace(scene::to_string(knob, value), value);
     }
     if (range) {
-        values.insert(scene::to_string(knob, range->low));
-        values.insert(scene::to_string(knob, range->high));
+        values.emplace(scene::to_string(knob, range->low), range->low);
+        values.emplace(scene::to_string(knob, range->high), range->high);
     }
-    std::vector<Setting> settings;
-    for (const std::string& value : values)
-        settings.push_back({knob.name, value});
+    std::vector<scene::KnobSetting> settings;
+    for (const auto& [text, value] : values)
+        settings.push_back(scene::setting_of(knob, value));
     return settings;
 }
 
@@ -87,7 +87,7 @@ std::vector<Setting> multiples_of_definitions(const ProbeBench& bench) {
 std::vector<FrameState> stiff_states(const ProbeBench& bench) {
     std::vector<FrameState> states;
     for (const scene::Knob& knob : bench.scene().knobs)
-        for (const Setting& setting : ends_and_multiples(knob, bench.promises())) {
+        for (const scene::KnobSetting& setting : ends_and_multiples(knob, bench.promises())) {
             states.push_back(typical_view());
             states.back().knobs = {setting};
         }
@@ -122,7 +122,7 @@ Result<Answer> ask_lipschitz_sweep(ProbeBench& bench) {
     Answer answer{Verdict::not_applicable, "the scene has no knob, and defines no height or scale", {}, {}};
     double most = -1;
     for (const FrameState& state : stiff_states(bench)) {
-        const std::string set = to_string(merged(state.knobs.empty() ? state.definitions : state.knobs));
+        const std::string set = state.knobs.empty() ? to_string(state.definitions) : to_string(state.knobs);
         const auto hits = TRY(bench.hits(state));
         if (const double nothing = unanswered(hits); nothing > 0)
             return Answer{
@@ -259,8 +259,10 @@ Extremes extremes_of(const ProbeBench& bench, const Count& count) {
 
 FrameState with_octaves(const Count& count, double octaves) {
     FrameState state = typical_view();
-    (count.knob ? state.knobs : state.definitions) =
-        std::vector{scene::Setting{count.name, fmt::format("{:g}", octaves)}};
+    if (count.knob)
+        state.knobs = {{count.name, {1, {octaves}}}};
+    else
+        state.definitions = {{count.name, fmt::format("{:g}", octaves)}};
     return state;
 }
 
@@ -337,7 +339,7 @@ Result<Answer> ask_self_intersection(ProbeBench& bench) {
             value[i] *= steepness / sum;
             inside &= !knob->range || value[i] <= knob->range->high[i];
         }
-        state.knobs = {{knob->name, scene::to_string(*knob, value)}};
+        state.knobs = {scene::setting_of(*knob, value)};
         const auto both = float_mismatch(bench, state);
         if (!both)
             return without_doubles(both.error());

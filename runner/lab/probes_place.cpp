@@ -31,7 +31,7 @@ FrameState moved(const scene::Knob& position, const glm::dvec3& by) {
     for (int i = 0; i < 3; ++i)
         value[size_t(i)] += by[i];
     FrameState state = typical_view();
-    state.knobs = {{position.name, scene::to_string(position, value)}};
+    state.knobs = {scene::setting_of(position, value)};
     return state;
 }
 
@@ -143,7 +143,7 @@ std::optional<FrameState> level_view(const scene::Scene& scene) {
     const scene::Knob* turn = knob_of(scene, "default_turn");
     if (!turn)
         return std::nullopt;
-    state.knobs = {{turn->name, scene::to_string(*turn, {turn->value[0], 0.5, 0, 0})}};
+    state.knobs = {scene::setting_of(*turn, {turn->value[0], 0.5, 0, 0})};
     return state;
 }
 
@@ -274,7 +274,7 @@ struct FarPlane {
 
     void move(FrameState& state, double to) const {
         if (knob)
-            state.knobs = {{name, scene::to_string(*knob, {to, 0, 0, 0})}};
+            state.knobs = {scene::setting_of(*knob, {to, 0, 0, 0})};
         else
             state.definitions = {{name, fmt::format("{:.9g}", to)}};
     }

@@ -207,6 +207,13 @@ std::string to_string(const std::vector<Setting>& settings) {
     return text.empty() ? "defaults" : text;
 }
 
+std::string to_string(const std::vector<scene::KnobSetting>& settings) {
+    std::vector<Setting> texts;
+    for (const scene::KnobSetting& setting : settings)
+        texts.push_back({setting.name, scene::to_string(setting.value)});
+    return to_string(texts);
+}
+
 bool is_knob(const scene::Scene& scene, std::string_view name) {
     return std::ranges::find(scene.knobs, name, &scene::Knob::name) != scene.knobs.end();
 }

@@ -79,6 +79,7 @@ std::vector<Setting> merged(const std::vector<Setting>& settings);
 
 /// Returns `a = 1, b = 2`, or "defaults" if there are none.
 std::string to_string(const std::vector<Setting>& settings);
+std::string to_string(const std::vector<scene::KnobSetting>& settings);
 
 /// Returns whether the name is a knob (`#iUniform`), whose value is not in the text.
 bool is_knob(const scene::Scene& scene, std::string_view name);

@@ -149,7 +149,7 @@ struct FrameInputs {
     glm::dvec3 orbit_pan{0};   ///< iOrbitPan
     glm::vec2 mouse_button{0}; ///< iMouseButton: 1 while down; left, right
     KeyboardTexels keyboard{};
-    std::vector<scene::Setting> knobs{};     ///< values that differ from the scene's
+    std::vector<scene::KnobSetting> knobs{}; ///< values that differ from the scene's
     std::shared_ptr<const LiveMedia> live{}; ///< null: not requested
 };
 
@@ -195,7 +195,7 @@ struct FrameState {
     Date date{};                                 ///< iDate at iTime 0
     OrbitCamera camera{};                        ///< iCamera
     std::optional<OrbitCamera> initial_camera{}; ///< first position, for iViewMatrix; none: `camera`
-    std::vector<scene::Setting> knobs{};         ///< values that differ from the scene's
+    std::vector<scene::KnobSetting> knobs{};     ///< values that differ from the scene's
     /// Values of `#define NAME` and `const … NAME` that differ from the scene's.
     std::vector<scene::Setting> definitions{};
     std::vector<std::string> channels{}; ///< in the form of --channel: `0=none`

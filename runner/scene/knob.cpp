@@ -15,14 +15,6 @@
 
 namespace tidemark::scene {
 
-void set(std::vector<Setting>& settings, const Setting& setting) {
-    const auto known = std::ranges::find(settings, setting.name, &Setting::name);
-    if (known == settings.end())
-        settings.push_back(setting);
-    else
-        *known = setting;
-}
-
 namespace {
 
 constexpr std::array<KnobTypeInfo, 9> k_types{{
@@ -45,41 +37,94 @@ std::optional<double> parse_number(std::string_view text) {
     return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-std::optional<KnobValue> parse_hex_colour(std::string_view text) {
+constexpr std::string_view k_default_value = "default";
+
+std::optional<GivenValue> parse_hex_colour(std::string_view text) {
     unsigned packed = 0;
     const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), packed, 16);
     if (text.size() != 7 || error != std::errc{} || end != text.data() + text.size())
         return std::nullopt;
-    return KnobValue{double(packed >> 16) / 255, double(packed >> 8 & 255) / 255, double(packed & 255) / 255,
-                     0};
+    return GivenValue{
+        3,
+        {double(packed >> 16) / 255, double(packed >> 8 & 255) / 255, double(packed & 255) / 255, 0},
+        KnobType::color3};
 }
 
 /// Parses numbers separated by commas; nullopt if one is not a number or there are more than four.
-std::optional<std::vector<double>> parse_list(std::string_view text) {
-    std::vector<double> numbers;
+std::optional<GivenValue> parse_list(std::string_view text) {
+    GivenValue given;
     while (true) {
         const size_t comma = text.find(',');
         const auto number = parse_number(text.substr(0, comma));
-        if (!number || numbers.size() == 4)
+        if (!number || size_t(given.count) == given.numbers.size())
             return std::nullopt;
-        numbers.push_back(*number);
+        given.numbers[size_t(given.count++)] = *number;
         if (comma == std::string_view::npos)
-            return numbers;
+            return given;
         text.remove_prefix(comma + 1);
     }
 }
 
-/// Returns the text between the parentheses of `vec3(…)`; the whole text if it does not have that form.
-std::string_view without_constructor(std::string_view text, const KnobTypeInfo& type) {
-    for (const std::string_view name : {type.directive_name, type.glsl_name}) {
-        std::string_view rest = text;
-        if (!rest.starts_with(name))
+/// Returns the type and the text between the parentheses of `vec3(…)`; no type and the whole text if it does
+/// not have that form.
+std::pair<std::optional<KnobType>, std::string_view> split_constructor(std::string_view text) {
+    for (const KnobTypeInfo& type : k_types) {
+        if (!text.starts_with(type.directive_name))
             continue;
-        rest = trimmed(rest.substr(name.size()));
+        const std::string_view rest = trimmed(text.substr(type.directive_name.size()));
         if (rest.starts_with('(') && rest.ends_with(')'))
-            return rest.substr(1, rest.size() - 2);
+            return {type.type, rest.substr(1, rest.size() - 2)};
     }
-    return text;
+    return {std::nullopt, text};
+}
+
+/// Parses a trimmed text; nullopt if it has none of the forms of a value.
+std::optional<GivenValue> parse_given(std::string_view text) {
+    if (text == k_default_value)
+        return GivenValue{};
+    if (text.starts_with('#'))
+        return parse_hex_colour(text);
+    const auto [type, numbers] = split_constructor(text);
+    auto given = parse_list(numbers);
+    if (given)
+        given->type = type;
+    return given;
+}
+
+/// Returns the knob's value; nullopt if it does not accept that one.
+std::optional<KnobValue> accepted(const Knob& knob, const GivenValue& given) {
+    const KnobTypeInfo& type = info(knob.type);
+    if (given.count == 0)
+        return knob.initial;
+    if (given.count != 1 && given.count != type.components)
+        return std::nullopt;
+    if (given.type) {
+        const std::string_view named = info(*given.type).directive_name;
+        if (named != type.directive_name && named != type.glsl_name)
+            return std::nullopt;
+    }
+    KnobValue value{};
+    for (size_t i = 0; i < size_t(type.components); ++i) {
+        value[i] = given.numbers[given.count == 1 ? 0 : i];
+        if (!std::isfinite(value[i]) ||
+            (type.whole && (value[i] != std::trunc(value[i]) || !fits_int(value[i]))))
+            return std::nullopt;
+    }
+    return value;
+}
+
+/// Returns the error for a value that the knob does not accept.
+tl::unexpected<Error> refuse(const Knob& knob, std::string_view text) {
+    const KnobTypeInfo& type = info(knob.type);
+    const std::string_view kind = type.whole ? "whole number" : "number";
+    std::string form = fmt::format("a {}", kind);
+    if (type.components > 1)
+        form = fmt::format("{} {}s, as in {}", type.components, kind,
+                           std::string_view("1,2,3,4").substr(0, size_t(2 * type.components - 1)));
+    if (knob.type == KnobType::color3)
+        form += " or #rrggbb";
+    return fail(ErrorCode::usage, fmt::format("'{}' is no value for {} ({}): give {}", text, knob.name,
+                                              type.directive_name, form));
 }
 
 } // namespace
@@ -95,43 +140,57 @@ const KnobTypeInfo* find_knob_type(std::string_view directive_name) {
     return found == k_types.end() ? nullptr : &*found;
 }
 
-Result<KnobValue> parse_knob_value(const Knob& knob, std::string_view text) {
-    const KnobTypeInfo& type = info(knob.type);
-    const auto refuse = [&] {
-        const std::string_view kind = type.whole ? "whole number" : "number";
-        std::string form = fmt::format("a {}", kind);
-        if (type.components > 1)
-            form = fmt::format("{} {}s, as in {}", type.components, kind,
-                               std::string_view("1,2,3,4").substr(0, size_t(2 * type.components - 1)));
-        if (knob.type == KnobType::color3)
-            form += " or #rrggbb";
-        return fail(ErrorCode::usage, fmt::format("'{}' is no value for {} ({}): give {}", text, knob.name,
-                                                  type.directive_name, form));
-    };
+Result<KnobSetting> parse_knob_setting(std::string_view name, std::string_view text) {
     text = trimmed(text);
-    if (text == k_default_value)
-        return knob.initial;
-    if (knob.type == KnobType::color3 && text.starts_with('#')) {
-        const auto colour = parse_hex_colour(text);
-        return colour ? Result<KnobValue>(*colour) : refuse();
-    }
-    const auto numbers = parse_list(without_constructor(text, type));
-    if (!numbers || (numbers->size() != 1 && numbers->size() != size_t(type.components)))
-        return refuse();
-    KnobValue value{};
-    for (size_t i = 0; i < size_t(type.components); ++i) {
-        value[i] = (*numbers)[numbers->size() == 1 ? 0 : i];
-        if (type.whole && (value[i] != std::trunc(value[i]) || !fits_int(value[i])))
-            return refuse();
-    }
-    return value;
+    const auto given = parse_given(text);
+    if (!given)
+        return fail(
+            ErrorCode::usage,
+            fmt::format("'{}' is no value for {}: give a number, up to four as in 1,2,3, #rrggbb or {}", text,
+                        name, k_default_value));
+    return KnobSetting{std::string(name), *given};
 }
 
-KnobValue value_after(const Knob& knob, std::span<const Setting> settings) {
+std::string to_string(const GivenValue& value) {
+    if (value.count == 0)
+        return std::string(k_default_value);
+    const std::span<const double> numbers(value.numbers.data(), size_t(value.count));
+    return value.type ? fmt::format("{}({})", info(*value.type).directive_name, fmt::join(numbers, ", "))
+                      : fmt::format("{}", fmt::join(numbers, ","));
+}
+
+KnobSetting setting_of(const Knob& knob, const KnobValue& value) {
+    const KnobTypeInfo& type = info(knob.type);
+    GivenValue given{type.components};
+    std::copy_n(value.begin(), type.components, given.numbers.begin());
+    if (type.components > 1)
+        given.type = find_knob_type(type.glsl_name)->type;
+    return {knob.name, given};
+}
+
+Result<KnobValue> value_for(const Knob& knob, const GivenValue& given) {
+    const auto value = accepted(knob, given);
+    return value ? Result<KnobValue>(*value) : refuse(knob, to_string(given));
+}
+
+Result<KnobValue> parse_knob_value(const Knob& knob, std::string_view text) {
+    text = trimmed(text);
+    const auto given = parse_given(text);
+    const auto value = given ? accepted(knob, *given) : std::nullopt;
+    return value ? Result<KnobValue>(*value) : refuse(knob, text); // the text as it was written
+}
+
+Result<void> set_knob(std::vector<Knob>& knobs, const KnobSetting& setting) {
+    Knob* const knob = TRY(find_knob(knobs, setting.name));
+    knob->value = TRY(value_for(*knob, setting.value));
+    return {};
+}
+
+KnobValue value_after(const Knob& knob, std::span<const KnobSetting> settings) {
     KnobValue value = knob.value;
-    for (const Setting& setting : settings)
+    for (const KnobSetting& setting : settings)
         if (setting.name == knob.name)
-            value = parse_knob_value(knob, setting.value).value_or(value);
+            value = accepted(knob, setting.value).value_or(value);
     return value;
 }
 

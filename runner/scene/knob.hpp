@@ -1,8 +1,10 @@
-// A knob or a definition and its value, as the user wrote them.
+// Knobs and their values, which are numbers everywhere but in text that a user wrote or reads; definitions
+// and their values, which are text.
 #pragma once
 
 #include "base/error.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -12,6 +14,7 @@
 
 namespace tidemark::scene {
 
+/// A definition and its text. In a study, also a knob.
 struct Setting {
     std::string name;
     std::string value;
@@ -20,7 +23,14 @@ struct Setting {
 };
 
 /// Adds a setting, replacing an earlier one of the same name.
-void set(std::vector<Setting>& settings, const Setting& setting);
+template <class T>
+void set(std::vector<T>& settings, const T& setting) {
+    const auto known = std::ranges::find(settings, setting.name, &T::name);
+    if (known == settings.end())
+        settings.push_back(setting);
+    else
+        *known = setting;
+}
 
 // A knob: a uniform that the scene declares with `#iUniform` for the user to change.
 
@@ -56,14 +66,46 @@ struct Knob {
     SourceLocation where{};
 };
 
-/// Parses `0.5`, `1,2,3`, `vec3(1, 2, 3)` or, for a colour, `#rrggbb`. One number sets all components;
-/// `default` is the scene's default. The error (ErrorCode::usage) says what the knob accepts.
+/// A value given for a knob. It can be parsed and printed without the scene that declares the knob.
+struct GivenValue {
+    int count = 0; ///< of the numbers, 1 to 4; one number sets all components; 0: the scene's default
+    KnobValue numbers{};
+    std::optional<KnobType> type{}; ///< as in `vec3(1, 2, 3)`; none: numbers alone, which suit every type
+
+    bool operator==(const GivenValue&) const = default;
+};
+
+/// A knob's name and a value given for it.
+struct KnobSetting {
+    std::string name;
+    GivenValue value{};
+
+    bool operator==(const KnobSetting&) const = default;
+};
+
+/// Parses `0.5`, `1,2,3`, `vec3(1, 2, 3)`, `#rrggbb` or `default`. The error (ErrorCode::usage) contains the
+/// name of the knob and the accepted forms.
+Result<KnobSetting> parse_knob_setting(std::string_view name, std::string_view text);
+
+/// Formats a value as parse_knob_setting() reads it; the same numbers come back.
+std::string to_string(const GivenValue& value);
+
+/// Returns the setting that gives the knob this value.
+KnobSetting setting_of(const Knob& knob, const KnobValue& value);
+
+/// Returns the knob's value. The error (ErrorCode::usage) says what the knob accepts: numbers that are too
+/// many or too few, not whole, not finite, or of another type are refused.
+Result<KnobValue> value_for(const Knob& knob, const GivenValue& given);
+
+/// Parses a value and checks it for the knob, with the errors of value_for().
 Result<KnobValue> parse_knob_value(const Knob& knob, std::string_view text);
 
-inline constexpr std::string_view k_default_value = "default";
+/// Sets the knob that the setting names. Fails (ErrorCode::usage) if there is none or it refuses the value.
+Result<void> set_knob(std::vector<Knob>& knobs, const KnobSetting& setting);
 
-/// Returns the value after applying the settings in order: the last valid one counts.
-KnobValue value_after(const Knob& knob, std::span<const Setting> settings);
+/// Returns the value after the settings: the last one for this knob counts. A setting that the knob refuses
+/// is skipped; those who take settings in check them with value_for().
+KnobValue value_after(const Knob& knob, std::span<const KnobSetting> settings);
 
 /// Returns whether `number`, an integer, fits a component of an integer type.
 inline bool fits_int(double number) {

@@ -74,13 +74,13 @@ std::vector<std::string> edits_of_held(const std::vector<HeldValue>& before,
 
 std::vector<std::string> edits_of_turned(const std::vector<scene::Knob>& before,
                                          const std::vector<scene::Knob>& now,
-                                         const std::vector<scene::Setting>& turned) {
+                                         const std::vector<scene::KnobSetting>& turned) {
     std::vector<std::string> lines;
     for (const scene::Knob& knob : now) {
         const auto known = std::ranges::find(before, knob.name, &scene::Knob::name);
         const auto value = value_after(knob, turned);
         if (known != before.end() && known->initial != knob.initial && value != knob.initial &&
-            std::ranges::find(turned, knob.name, &scene::Setting::name) != turned.end())
+            std::ranges::find(turned, knob.name, &scene::KnobSetting::name) != turned.end())
             lines.push_back(fmt::format("{} stays {}, as you set it; the file's default is now {}", knob.name,
                                         to_string(knob, value), to_string(knob, knob.initial)));
     }

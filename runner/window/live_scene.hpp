@@ -39,7 +39,7 @@ std::vector<std::string> edits_of_held(const std::vector<HeldValue>& before,
 /// Returns a message for each knob whose default has changed and that keeps the value set in the window.
 std::vector<std::string> edits_of_turned(const std::vector<scene::Knob>& before,
                                          const std::vector<scene::Knob>& now,
-                                         const std::vector<scene::Setting>& turned);
+                                         const std::vector<scene::KnobSetting>& turned);
 
 // A scene whose files are watched: loaded again when one is saved, and built while the last picture stays on
 // show. Keeps any error until a save fixes it; the last good Stage stays with its user.

@@ -239,21 +239,41 @@ std::optional<size_t> component_of(std::string_view name, const scene::Knob& kno
     return std::nullopt;
 }
 
-/// Returns an argument as --set takes it; numbers for a whole-number knob are rounded, as faders send
-/// fractions.
-std::string word_of(const scene::Knob& knob, const OscArgument& argument) {
-    if (const auto* text = std::get_if<std::string>(&argument))
-        return *text;
-    const double number = std::get<double>(argument);
-    return fmt::format("{}", info(knob.type).whole ? std::round(number) : number);
+/// Returns a number as the knob takes it: rounded for a whole-number knob, as faders send fractions.
+double number_for(const scene::Knob& knob, double number) {
+    return info(knob.type).whole ? std::round(number) : number;
 }
 
-/// Parses the values with the same rules as `--set`.
-Result<scene::KnobValue> value_of(const scene::Knob& knob, std::span<const OscArgument> arguments) {
+/// Returns the arguments as the text of one value, as --set takes it.
+std::string text_for(const scene::Knob& knob, std::span<const OscArgument> arguments) {
     std::vector<std::string> words;
-    for (const OscArgument& argument : arguments)
-        words.push_back(word_of(knob, argument));
-    auto value = parse_knob_value(knob, fmt::format("{}", fmt::join(words, ",")));
+    for (const OscArgument& argument : arguments) {
+        const auto* number = std::get_if<double>(&argument);
+        words.push_back(number ? fmt::format("{}", number_for(knob, *number))
+                               : std::get<std::string>(argument));
+    }
+    return fmt::format("{}", fmt::join(words, ","));
+}
+
+/// Returns the arguments as one value if they are one to four numbers.
+std::optional<scene::GivenValue> numbers_for(const scene::Knob& knob,
+                                             std::span<const OscArgument> arguments) {
+    scene::GivenValue given{int(arguments.size())};
+    if (arguments.empty() || arguments.size() > given.numbers.size())
+        return std::nullopt;
+    for (size_t i = 0; i < arguments.size(); ++i) {
+        const auto* number = std::get_if<double>(&arguments[i]);
+        if (!number)
+            return std::nullopt;
+        given.numbers[i] = number_for(knob, *number);
+    }
+    return given;
+}
+
+/// Returns the knob's value, with the same rules as for `--set`.
+Result<scene::KnobValue> value_of(const scene::Knob& knob, std::span<const OscArgument> arguments) {
+    const auto given = numbers_for(knob, arguments);
+    auto value = given ? value_for(knob, *given) : parse_knob_value(knob, text_for(knob, arguments));
     if (!value)
         return refuse("{}", value.error().message);
     return value;

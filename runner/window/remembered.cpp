@@ -47,10 +47,19 @@ std::string file_name(const fs::path& scene) {
     return sha256(std::as_bytes(std::span(name))).substr(0, k_digits) + ".json";
 }
 
+/// Returns a saved moment. Prints a warning if it is damaged: the others are still of use.
+std::optional<Moment> readable(const Json& json) {
+    auto moment = moment_of(json);
+    if (moment)
+        return *std::move(moment);
+    say(fmt::format("warning: a moment of the last window is left out: {}", moment.error().message));
+    return std::nullopt;
+}
+
 std::vector<Moment> moments_of(const Json& json) {
     std::vector<Moment> moments;
     for (const Json& each : json)
-        if (auto moment = moment_of(each))
+        if (auto moment = readable(each))
             moments.push_back(*std::move(moment));
     return moments;
 }
@@ -92,7 +101,8 @@ std::optional<Remembered> parse(const std::string& text, const fs::path& scene) 
         if (json.at("tidemark_view") != k_version_of_format || json.at("scene") != whole_name(scene))
             return std::nullopt;
         Remembered state;
-        state.moment = moment_of(json.at("moment"));
+        if (const Json& left = json.at("moment"); !left.is_null())
+            state.moment = readable(left);
         state.place = place_of(json.at("window"));
         state.scale = render::RenderScale::named(json.value("scale", "")); // older files have none
         state.controls_open = json.at("controls").get<bool>();
@@ -153,8 +163,8 @@ std::string words_of(const Remembered& state) {
     std::vector<std::string> words;
     if (state.moment) {
         const render::FrameState& shown = state.moment->sequence.state;
-        for (const scene::Setting& knob : shown.knobs)
-            words.push_back(fmt::format("{} = {}", knob.name, knob.value));
+        for (const scene::KnobSetting& knob : shown.knobs)
+            words.push_back(fmt::format("{} = {}", knob.name, scene::to_string(knob.value)));
         if (shown.camera != render::OrbitCamera())
             words.push_back("camera " + to_string(shown.camera));
         words.push_back(fmt::format("{:.3f} s", shown.seconds()));

@@ -366,7 +366,7 @@ Result<void> Viewer::show(Stage fresh, double now) {
     play_sound();
     defined_.reset();
     origin_.show(nullptr);
-    controls_.release(stage_->renderer().scene().knobs);
+    release_knobs();
     reloaded_ = scene_.take_times();
     settled_ = false;
     given_up_ = slow_ = has_frame_ = false;
@@ -380,6 +380,17 @@ Result<void> Viewer::show(Stage fresh, double now) {
     if (going_to_)
         seek(*std::exchange(going_to_, std::nullopt), now);
     return {};
+}
+
+/// Drops held values that the scene on show does not need or accept. Prints a line for each that it refuses,
+/// and for a recording that it refuses.
+void Viewer::release_knobs() {
+    const std::vector<scene::Knob>& knobs = stage_->renderer().scene().knobs;
+    for (const std::string& line : controls_.release(knobs))
+        say(fmt::format("warning: {}; the scene's own value is used", line));
+    if (settings_.frames.input)
+        if (const auto known = check_knobs(*settings_.frames.input, knobs); !known)
+            say(fmt::format("warning: --input {}: {}", settings_.frames.input_file, known.error().message));
 }
 
 /// Replaces the Stage. The buffers keep their contents: an edited scene continues from where it was, as on

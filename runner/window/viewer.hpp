@@ -195,6 +195,7 @@ private:
     Result<void> follow_scene(double now);
     Result<void> show(Stage fresh, double now);
     Result<void> swap_in(Stage fresh);
+    void release_knobs();
     void settle_after_rest(double now);
     void play_sound();
     void report_reload();

@@ -28,7 +28,7 @@ namespace tidemark::cli {
 // Writes the values of knobs into the files that declare them, each file completely or not at all.
 
 std::vector<live::KnobField> knob_fields(const scene::Scene& scene,
-                                         const std::vector<scene::Setting>& turned) {
+                                         const std::vector<scene::KnobSetting>& turned) {
     std::vector<live::KnobField> fields;
     for (const scene::Knob& knob : scene.knobs)
         fields.push_back({knob, value_after(knob, turned)});
@@ -69,8 +69,8 @@ std::vector<std::string> view_labels(const std::vector<Moment>& views) {
     for (const Moment& view : views) {
         const render::FrameState& state = view.sequence.state;
         labels.push_back(fmt::format("{:.3f} s", state.seconds()));
-        for (const scene::Setting& knob : state.knobs)
-            labels.back() += fmt::format(", {} = {}", knob.name, knob.value);
+        for (const scene::KnobSetting& knob : state.knobs)
+            labels.back() += fmt::format(", {} = {}", knob.name, scene::to_string(knob.value));
     }
     return labels;
 }
@@ -188,13 +188,16 @@ void Viewer::carry_out(const live::TurnKnob& command) {
         return;
     const auto& knobs = stage_->renderer().scene().knobs;
     const auto knob = std::ranges::find(knobs, command.name, &scene::Knob::name);
-    const auto taken = [&](double number) { return live::takes(*knob, number); };
-    if (knob != knobs.end() && std::ranges::all_of(command.value, taken))
-        control(KnobTurned{{command.name, to_string(*knob, command.value)}});
+    if (knob == knobs.end())
+        return; // an edit has just removed it
+    scene::KnobSetting setting = setting_of(*knob, command.value);
+    if (const auto value = value_for(*knob, setting.value); !value)
+        return say(value.error().message);
+    control(KnobTurned{std::move(setting)});
 }
 
 void Viewer::carry_out(const live::ResetKnob& command) {
-    control(KnobTurned{{command.name, std::string(scene::k_default_value)}});
+    control(KnobTurned{{command.name, {}}}); // the scene's default
 }
 
 void Viewer::carry_out(const live::ResetKnobs&) {
@@ -341,6 +344,8 @@ void Viewer::carry_out(const live::GoToView& command) {
     const render::FrameState& state = kept.sequence.state;
     controls_.adopt(state);
     controls_.stretch(state.extent, drawn_extent());
+    if (stage_)
+        release_knobs();
     shown_.knobs.clear();
     controls_.fill(shown_);
     const double now = now_seconds();

@@ -17,7 +17,7 @@ const InputScript k_script{
     {9, platform::ButtonPressed{Button::middle, {0, 0}}},
     {9, platform::ButtonReleased{Button::middle}},
     {12, CameraReset{}},
-    {13, KnobTurned{{"deep", "vec3(0.1, 0, 1)"}}},
+    {13, KnobTurned{{"deep", {3, {0.1, 0, 1}, scene::KnobType::vec3}}}},
 };
 
 constexpr const char* k_text =
@@ -56,12 +56,54 @@ TEST(InputScript, says_what_is_wrong_and_where) {
     EXPECT_EQ(refusal("1 move 1 2 3"), "take.txt:1: error: give it as `1 move X Y`");
     EXPECT_EQ(refusal("1 set deep"), "take.txt:1: error: give it as `1 set NAME=VALUE`");
     EXPECT_EQ(refusal("1 set"), "take.txt:1: error: give it as `1 set NAME=VALUE`");
+    EXPECT_EQ(
+        refusal("0 set deep=1\n1 set deep=blue"),
+        "take.txt:2: error: 'blue' is no value for deep: give a number, up to four as in 1,2,3, #rrggbb or "
+        "default");
     EXPECT_EQ(refusal("1 press west 1 2"), "take.txt:1: error: give it as `1 press left|middle|right X Y`");
     EXPECT_EQ(refusal("1 keydown 0"), "take.txt:1: error: give it as `1 keydown CODE (1 to 255)`");
     EXPECT_EQ(refusal("1 camera"), "take.txt:1: error: give it as `1 camera reset`");
     EXPECT_EQ(refusal("1 keyup 256"), "take.txt:1: error: give it as `1 keyup CODE (1 to 255)`");
     EXPECT_EQ(refusal("7 wheel 1\n6 wheel 1"),
               "take.txt:2: error: frame 6 comes after frame 7: frames do not go backwards");
+}
+
+TEST(InputScript, values_are_written_in_their_shortest_form) {
+    const auto script = parse_input_script("1 set k=0.50\n2 set k=1 , 2\n3 set k=default\n", "take.txt");
+    ASSERT_TRUE(script) << to_string(script.error());
+    EXPECT_EQ(to_string(*script), "1 set k=0.5\n2 set k=1,2\n3 set k=default\n");
+}
+
+TEST(InputScript, must_suit_the_knobs_of_the_scene) {
+    const std::vector<scene::Knob> knobs{{.name = "deep", .type = scene::KnobType::vec3}};
+    const auto check = [&](const char* name, const scene::GivenValue& value) {
+        const auto known = check_knobs({{0, KnobTurned{{name, value}}}}, knobs);
+        return known ? "" : known.error().message;
+    };
+    EXPECT_EQ(check("deep", {1, {2}}), "");
+    EXPECT_EQ(check("deep", {2, {1, 2}}), "'1,2' is no value for deep (vec3): give 3 numbers, as in 1,2,3");
+    EXPECT_EQ(check("deeper", {1, {2}}), "the scene has no knob 'deeper': did you mean 'deep'?");
+}
+
+std::vector<scene::KnobSetting> held_by(const Controls& controls) {
+    render::FrameState state;
+    controls.fill(state);
+    return state.knobs;
+}
+
+TEST(Controls, release_the_values_that_a_scene_does_not_need_or_accept) {
+    Controls controls{render::OrbitCamera{}};
+    const scene::GivenValue pair{2, {1, 2}}, one{1, {1}};
+    for (const scene::KnobSetting& setting :
+         {scene::KnobSetting{"other", pair}, scene::KnobSetting{"same", one}, scene::KnobSetting{"kept", one},
+          scene::KnobSetting{"gone", one}})
+        controls.handle(KnobTurned{setting}, 1);
+    const std::vector<scene::Knob> knobs{
+        {.name = "other"}, {.name = "same", .initial = {1}, .value = {1}}, {.name = "kept"}};
+    EXPECT_THAT(controls.release(knobs),
+                testing::ElementsAre("'1,2' is no value for other (float): give a number"));
+    EXPECT_THAT(held_by(controls),
+                testing::ElementsAre(scene::KnobSetting{"kept", one}, scene::KnobSetting{"gone", one}));
 }
 
 render::FrameInputs at(Replay& replay, int frame) {

@@ -16,7 +16,7 @@ Moment example() {
     render::FrameState state{.frame = 7, .time = 0.125, .extent = {30, 20}};
     state.mouse = render::Mouse::clicked({4, 5}, false);
     state.camera.target = {1, 2, 3};
-    state.knobs = {{"k", "2"}};
+    state.knobs = {{"k", {1, {2}}}};
     return moment_of(std::move(scene), sequence, state);
 }
 
@@ -45,6 +45,11 @@ TEST(Moment, of_a_stranger_is_refused) {
     EXPECT_FALSE(moment_of(Json()));
     EXPECT_FALSE(moment_of(Json{{"state", Json::object()}}));
     EXPECT_TRUE(moment_of(Json{{"scene", "a.glsl"}, {"state", Json::object()}}));
+    const auto state = Json::parse(R"({"knobs": [["height", "tall"]]})");
+    const auto moment = moment_of(Json{{"scene", "a.glsl"}, {"state", state}});
+    ASSERT_FALSE(moment);
+    EXPECT_EQ(moment.error().message,
+              "'tall' is no value for height: give a number, up to four as in 1,2,3, #rrggbb or default");
 }
 
 TEST(Merged, newer_settings_of_a_name_stand_alone) {

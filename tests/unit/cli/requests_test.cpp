@@ -194,4 +194,19 @@ TEST(Load, the_first_error_is_the_answer) {
               "tidemark: error: cannot read '" + (folder / "b.glsl").string() + "': no such file");
 }
 
+TEST(Load, refuses_a_saved_value_that_does_not_suit_its_knob) {
+    const TemporaryFolder folder;
+    save_in_place(folder / "a.glsl", "#iUniform float k = 1.0\nvoid mainImage() {}\n");
+    SceneRequest request{folder / "a.glsl"};
+    FrameSequence sequence;
+    sequence.state.knobs = {{"k", {1, {2}}}, {"gone", {1, {2}}}};
+    EXPECT_TRUE(load(request, sequence));
+    sequence.state.knobs = {{"k", {2, {1, 2}}}};
+    const auto scene = load(request, sequence);
+    ASSERT_FALSE(scene);
+    EXPECT_EQ(scene.error().message, "'1,2' is no value for k (float): give a number");
+    request.knobs_may_go = true;
+    EXPECT_TRUE(load(request, sequence));
+}
+
 } // namespace tidemark::cli::requests_test

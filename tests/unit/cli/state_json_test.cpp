@@ -24,7 +24,7 @@ FrameState unusual() {
                      .date = {2020, 1, 29, 3723.5},
                      .camera = {.azimuth = 1.0 / 3, .elevation = -5, .distance = 7.5, .target = {1, 2, 3}},
                      .initial_camera = render::OrbitCamera{.distance = 3},
-                     .knobs = {{"k", "vec2(0, 1)"}, {"l", "2"}},
+                     .knobs = {{"k", {2, {0, 1}, scene::KnobType::vec2}}, {"l", {1, {2}}}},
                      .definitions = {{"N", "3 + 4"}},
                      .channels = {"0=none", "1=it's.png"},
                      .pass = "Buffer A"};
@@ -41,6 +41,7 @@ TEST(StateJson, every_field_comes_back) {
     EXPECT_EQ(frame_state_of(Json::parse(dump(to_json(usual)))), usual);
     EXPECT_EQ(frame_state_of(Json::parse(dump(changes_of(state)))), state);
     EXPECT_EQ(dump(changes_of(usual)), "{}");
+    EXPECT_EQ(dump(to_json(state)["knobs"]), R"~([["k","vec2(0, 1)"],["l","2"]])~");
 }
 
 TEST(FrameFields, are_all_of_a_state_in_their_order) {

@@ -1,7 +1,11 @@
-// Values of knobs as people type them, and knobs by name.
+// Values of knobs as text and as numbers, and knobs by name.
 #include "scene/knob.hpp"
 
 #include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
 
 namespace tidemark::scene::knob_test {
 
@@ -32,12 +36,98 @@ TEST(KnobValue, the_default) {
     EXPECT_EQ(parse_knob_value(knob, "default"), knob.initial);
 }
 
-TEST(KnobValue, the_last_setting_that_it_takes_decides) {
+TEST(KnobValue, the_last_setting_decides) {
     const Knob knob{.name = "k", .initial = {1}, .value = {2}};
     EXPECT_EQ(value_after(knob, {}), KnobValue{2});
-    const std::vector<Setting> settings{{"k", "3"}, {"other", "4"}, {"k", "5"}, {"k", "blue"}};
+    const std::vector<KnobSetting> settings{{"k", {1, {3}}}, {"other", {1, {4}}}, {"k", {1, {5}}}};
     EXPECT_EQ(value_after(knob, settings), KnobValue{5});
-    EXPECT_EQ(value_after(knob, std::vector<Setting>{{"k", "default"}}), knob.initial);
+    EXPECT_EQ(value_after(knob, std::vector<KnobSetting>{{"k", {}}}), knob.initial);
+}
+
+/// Parses a text without its knob and prints it again, or returns the error.
+std::string printed(std::string_view text) {
+    const auto setting = parse_knob_setting("k", text);
+    if (!setting)
+        return setting.error().message;
+    const auto again = parse_knob_setting("k", to_string(setting->value));
+    EXPECT_EQ(again, *setting) << text;
+    return to_string(setting->value);
+}
+
+TEST(GivenValue, is_printed_in_its_shortest_form) {
+    EXPECT_EQ(printed(" 0.50 "), "0.5");
+    EXPECT_EQ(printed("-1e-3"), "-0.001");
+    EXPECT_EQ(printed("0.1"), "0.1");
+    EXPECT_EQ(printed("1e22"), "1e+22");
+    EXPECT_EQ(printed("1, 2,3"), "1,2,3");
+    EXPECT_EQ(printed("ivec2( 1,2 )"), "ivec2(1, 2)");
+    EXPECT_EQ(printed("vec3(1)"), "vec3(1)");
+    EXPECT_EQ(printed("float(2)"), "float(2)");
+    EXPECT_EQ(printed("#ff8000"), "color3(1, 0.5019607843137255, 0)");
+    EXPECT_EQ(printed("default"), "default");
+}
+
+TEST(GivenValue, other_text_is_an_error_with_the_name_of_the_knob) {
+    for (const std::string text :
+         {"", "blue", "1,2,3,4,5", "nan", "inf", "1e999", "vec5(1)", "vec2(1", "vec2()", "#fff"})
+        EXPECT_EQ(printed(text), "'" + text +
+                                     "' is no value for k: give a number, up to four as in 1,2,3, #rrggbb or "
+                                     "default");
+}
+
+TEST(GivenValue, of_a_knob_is_printed_as_its_value_is) {
+    for (const char* name : {"float", "vec2", "vec3", "vec4", "color3", "int", "ivec2", "ivec3", "ivec4"}) {
+        const Knob knob{.name = "k", .type = find_knob_type(name)->type};
+        const KnobValue value{1, -2, 3, 4};
+        const KnobSetting setting = setting_of(knob, value);
+        EXPECT_EQ(setting.name, "k");
+        EXPECT_EQ(to_string(setting.value), to_string(knob, value));
+        const auto back = value_for(knob, setting.value);
+        ASSERT_TRUE(back) << back.error().message;
+        EXPECT_EQ(to_string(knob, *back), to_string(knob, value));
+        EXPECT_EQ(parse_knob_setting("k", to_string(knob, value)), setting);
+    }
+}
+
+TEST(GivenValue, keeps_every_bit_of_a_number) {
+    const Knob knob{.name = "k"};
+    for (const double number : {0.1, 1.0 / 3, 5e-324, 1.7976931348623157e308, -0.0}) {
+        const auto back = value_for(knob, parse_knob_setting("k", to_string(knob, {number}))->value);
+        ASSERT_TRUE(back);
+        EXPECT_EQ(std::bit_cast<uint64_t>((*back)[0]), std::bit_cast<uint64_t>(number));
+    }
+}
+
+TEST(GivenValue, must_suit_the_knob) {
+    const auto refused = [](KnobType type, const GivenValue& given) {
+        const auto value = value_for({.name = "k", .type = type}, given);
+        return value ? "" : value.error().message;
+    };
+    EXPECT_EQ(refused(KnobType::vec3, {1, {2}}), "");
+    EXPECT_EQ(refused(KnobType::float1, {2, {1, 2}}), "'1,2' is no value for k (float): give a number");
+    EXPECT_EQ(refused(KnobType::float1, {1, {HUGE_VAL}}), "'inf' is no value for k (float): give a number");
+    EXPECT_EQ(refused(KnobType::int1, {1, {1.5}}), "'1.5' is no value for k (int): give a whole number");
+    EXPECT_EQ(refused(KnobType::int1, {1, {3e9}}),
+              "'3000000000' is no value for k (int): give a whole number");
+    EXPECT_EQ(refused(KnobType::ivec2, {2, {1, 2}, KnobType::vec2}),
+              "'vec2(1, 2)' is no value for k (ivec2): give 2 whole numbers, as in 1,2");
+    EXPECT_EQ(refused(KnobType::color3, {3, {1, 2, 3}, KnobType::vec3}), "");
+    EXPECT_EQ(refused(KnobType::vec3, {3, {1, 2, 3}, KnobType::color3}),
+              "'color3(1, 2, 3)' is no value for k (vec3): give 3 numbers, as in 1,2,3");
+}
+
+TEST(GivenValue, may_lie_outside_a_slider) {
+    const Knob knob{.name = "k", .range = KnobRange{{0}, {2}}};
+    EXPECT_EQ(value_for(knob, {1, {-5}}), KnobValue{-5});
+}
+
+TEST(SetKnob, refuses_a_value_and_keeps_the_old_one) {
+    std::vector<Knob> knobs{{.name = "k", .value = {7}}};
+    EXPECT_FALSE(set_knob(knobs, {"k", {2, {1, 2}}}));
+    EXPECT_EQ(knobs[0].value, KnobValue{7});
+    EXPECT_FALSE(set_knob(knobs, {"other", {1, {1}}}));
+    EXPECT_TRUE(set_knob(knobs, {"k", {1, {3}}}));
+    EXPECT_EQ(knobs[0].value, KnobValue{3});
 }
 
 TEST(KnobValue, a_list) {
