@@ -97,8 +97,8 @@ void LoopCheck::see(const image::Image& picture) {
 
 std::string LoopCheck::words() const {
     return fmt::format(
-        "loop: the frame behind the last is the first to {:.1f} dB (the second is it to {:.1f}): {}",
-        closing_, step_, closing_ >= step_ ? "it goes round" : "it jumps where it begins again");
+        "loop: {}; the frame after the last matches the first with {:.1f} dB (the second: {:.1f} dB)",
+        closing_ >= step_ ? "seamless" : "jumps at the start", closing_, step_);
 }
 
 namespace {
@@ -208,8 +208,10 @@ std::vector<std::string> layer_names(const render::Renderer& renderer) {
 Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precision precision, double start,
                                         double duration, const Interrupt& interrupt) {
     if (constexpr double k_last = render::SoundRenderer::k_longest_seconds; start + duration > k_last)
-        return fail(ErrorCode::usage,
-                    fmt::format("sound ends at {} s: iSampleOffset counts its samples in an int", k_last));
+        return fail(
+            ErrorCode::usage,
+            fmt::format("sound cannot be longer than {} s, because iSampleOffset counts samples in an int",
+                        k_last));
     auto renderer = TRY(render::SoundRenderer::create(scene, render::Date{}, precision));
     const auto count = 2 * size_t(std::llround(duration * render::k_sample_rate));
     const auto first = int(std::llround(start * render::k_sample_rate));
@@ -232,11 +234,11 @@ std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const Int
     const VideoPace& pace = plan.pace;
     const bool heard = plan.output.pattern().extension() != ".gif" && plan.scene.find(scene::PassKind::sound);
     if (!pace.not_in_time.empty())
-        say(fmt::format("the video does not go by the scene's time: {}, {:.4g} a second{}", pace.not_in_time,
-                        pace.fps, heard ? "; it is silent" : ""));
+        say(fmt::format("the video does not follow the scene's time: {}; it shows {:.4g} frames per second{}",
+                        pace.not_in_time, pace.fps, heard ? "; it is silent" : ""));
     if (pace.holds)
-        say(fmt::format("its frames are not evenly apart: the video shows each until the next one is due, "
-                        "{:.4g} a second",
+        say(fmt::format("the frames are not evenly spaced: the video ({:.4g} frames per second) holds each "
+                        "until the time of the next",
                         pace.fps));
     if (!heard || !pace.not_in_time.empty())
         return std::nullopt;

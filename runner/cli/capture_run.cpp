@@ -150,7 +150,7 @@ void Capture::restore() {
         return;
     stepper_.start_from(start_->frame);
     saver_.found(start_->frame);
-    say(fmt::format("going on from the state before frame {}", start_->frame));
+    say(fmt::format("continuing from the saved state before frame {}", start_->frame));
 }
 
 /// Draws the steps up to a frame; `work` stays watched. Returns false if interrupted.
@@ -216,7 +216,7 @@ Result<void> Capture::check_driver(const std::string& doing) {
     return gl::check_work(doing).map_error([&](Error error) {
         if (writer_)
             writer_->drain();
-        error.message += "; a smaller --size or --tile gives it less at once";
+        error.message += "; try a smaller --size or --tile";
         return error;
     });
 }

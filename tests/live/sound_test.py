@@ -76,8 +76,7 @@ class Sound(LiveTest):
 
     def test_no_device_is_one_line(self):
         view = self.start(device=False)
-        view.wait_for_words(r"\Athe scene's sound is not heard: tidemark: error: there is no sound device "
-                            r"\(ALSA says: .+\)\n\Z")
+        view.wait_for_words(r"\Athe scene's sound is not heard: tidemark: error: no audio device found \(ALSA says: .+\)\n\Z")
         view.key("Escape")
         self.assertEqual(view.wait_for_end(), 0)
 

@@ -1,7 +1,7 @@
 // What is said of a study, made by hand so that the right answers are known.
 #include "lab/study_data.hpp"
-#include "lab/study_report.hpp"
 #include "lab/study_page.hpp"
+#include "lab/study_report.hpp"
 #include "lab/work_precision.hpp"
 
 #include <gmock/gmock.h>
@@ -260,14 +260,14 @@ TEST(Data, what_a_set_has_not_is_left_out) {
     WorkPrecisionSet set = usual();
     set.picture_standard = {};
     set.hit_standard = {"closed forms", 1e-15, "exact"};
-    set.words = {"RMS error of the way", "local solutions a node", "the bake's own setting"};
+    set.words = {"RMS error of the path length", "local solutions a node", "the bake's own setting"};
     for (WorkPrecision& p : set.points)
         p.all.hits = p.views[0].hits = HitErrors{.pixels = 4, .both = 4, .rms = p.all.picture.samples.rmse};
     judge(set);
     const auto json = nlohmann::json::parse(to_json(set));
     EXPECT_FALSE(json["references"].contains("picture"));
     EXPECT_FALSE(json["points"][0]["all"].contains("picture"));
-    EXPECT_EQ(json["error"], "RMS error of the way");
+    EXPECT_EQ(json["error"], "RMS error of the path length");
     const std::string page = to_html(set, {});
     EXPECT_THAT(page, Not(HasSubstr("PSNR")));
     EXPECT_THAT(page, Not(HasSubstr("float target")));
