@@ -56,7 +56,7 @@ std::string last_loader_error() {
 Result<const void*> table_of(void* library, const PlugIn& plug_in, const fs::path& file) {
     const auto entry = reinterpret_cast<const void* (*)()>(::dlsym(library, plug_in.entry));
     if (!entry)
-        return unusable(plug_in, file, "it is not Tidemark's");
+        return unusable(plug_in, file, "it is not a plug-in of Tidemark");
     const void* table = entry();
     const unsigned version = *static_cast<const unsigned*>(table);
     if (version != plug_in.version)

@@ -147,12 +147,12 @@ Result<void> OutputPath::check_links() const {
         std::error_code no_link;
         const fs::path target = fs::read_symlink(part, no_link);
         if (!no_link)
-            return fail(
-                ErrorCode::write,
-                fmt::format("cannot write '{}': {} is a link to '{}', and a link is followed only where "
-                            "-o names it: remove it, or give another place",
-                            whole_.string(), part == whole_ ? "it" : fmt::format("'{}'", part.string()),
-                            target.string()));
+            return fail(ErrorCode::write,
+                        fmt::format("cannot write '{}': {} is a link to '{}', and only links named with -o "
+                                    "are followed: remove the link, or give another name",
+                                    whole_.string(),
+                                    part == whole_ ? "it" : fmt::format("'{}'", part.string()),
+                                    target.string()));
     }
     return {};
 }
@@ -196,8 +196,8 @@ std::string why_missing(const fs::path& path) {
             continue;
         const std::string target = fs::read_symlink(way, ignored).string();
         return way == path
-                   ? fmt::format("it is a link to '{}', where there is nothing", target)
-                   : fmt::format("'{}' is a link to '{}', where there is nothing", way.string(), target);
+                   ? fmt::format("it is a link to '{}', which does not exist", target)
+                   : fmt::format("'{}' is a link to '{}', which does not exist", way.string(), target);
     }
     return "no such file";
 }

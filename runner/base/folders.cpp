@@ -60,8 +60,7 @@ std::string why_no_library() {
     if (fs::is_directory(library_folder(), ignored))
         return {};
     return fmt::format(
-        "the shader library that comes with tidemark is not there: it was looked for in '{}' and "
-        "in '{}'; install tidemark again, or leave its share/ where it is",
+        "tidemark's shader library was found neither in '{}' nor in '{}': install tidemark again",
         beside_program(k_library).string(), installed_folder(k_library).string());
 }
 

@@ -206,7 +206,7 @@ Result<size_t> ChildProcess::read(std::span<std::byte> to, std::string& words, C
         std::array<pollfd, 2> wait = {{{output_, POLLIN, 0}, {words_, POLLIN, 0}}};
         const int ready = ::poll(wait.data(), wait.size(), wait_ms(until));
         if (ready == 0 && until == Clock::time_point::max())
-            return fail(ErrorCode::load, "the program that was started says nothing for a minute");
+            return fail(ErrorCode::load, "the program that was started printed nothing for a minute");
     }
     read_words(words);
     return size_t{0};

@@ -63,7 +63,7 @@ Result<void> write_stream(const OutputPath& output, const OutputPath::Place& pla
     Descriptor stream(open_stream(place));
     if (stream.get() < 0 && errno == ENXIO)
         return cannot_write(
-            output, fmt::format("it is a pipe, and nobody read it for {} s", k_pipe_patience_ms / 1000));
+            output, fmt::format("it is a pipe that no program read for {} s", k_pipe_patience_ms / 1000));
     if (stream.get() < 0)
         return cannot_write(output, errno);
     for (;;) {
@@ -329,7 +329,7 @@ Result<void> replace_text(const OutputPath& output, std::string_view before, std
     const bool same_mode = ::fchmod(staged.descriptor(), facts.st_mode & ~mode_t(S_IFMT)) == 0;
     if (const auto now = read_file(place.path); !now || *now != before)
         return fail(ErrorCode::write,
-                    fmt::format("'{}' was changed meanwhile: nothing is written", output.string()));
+                    fmt::format("'{}' changed on disk meanwhile; nothing was written", output.string()));
     if (same_owner && same_mode && facts.st_nlink == 1)
         return staged.commit();
     return write_over(output, place.path, std::as_bytes(std::span(after)));

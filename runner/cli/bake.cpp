@@ -80,11 +80,10 @@ Result<void> put_table(const bake::KnownCase& known, bake::Stencil stencil) {
 
 Result<void> put_tables() {
     if (auto printed =
-            put("Shortest ways from a circle of radius 1 against the exact ones: error, and the power "
-                "of the spacing it falls with.\n"
-                "smooth: the way keeps 0.1 from land and from the middle. rest of open water: the "
-                "middle; of the others: behind\nland and beside it. updates, heap: local solutions "
-                "and heap operations a node.\n");
+            put("Shortest paths from a circle of radius 1 against the exact ones: the error, and its order "
+                "in the spacing.\nsmooth: paths that stay 0.1 away from land and from the middle. rest: in "
+                "open water the middle, otherwise the water\nin the shadow of land and along it. updates, "
+                "heap: local solutions and heap operations per node.\n");
         !printed)
         return printed;
     for (const bake::KnownCase& known : bake::known_cases())
@@ -107,8 +106,8 @@ struct MarchSetting {
 lab::Study plan() {
     lab::Study study;
     study.about =
-        "Shortest ways over water from a circle of radius 1, by fast marching. t is the length of a "
-        "way, in radii; hits are nodes of the grid in the water, evaluations thousands of local solutions; "
+        "Shortest paths over water from a circle of radius 1, by fast marching. t is the length of a path, "
+        "in radii; hits are nodes of the grid in the water, evaluations thousands of local solutions; "
         "a pixel is the spacing of the nodes.";
     for (const bake::KnownCase& known : bake::known_cases())
         study.views.push_back({std::string(known.description)});
@@ -121,7 +120,7 @@ lab::Study plan() {
                                 {{"order", fmt::format("{}", int(stencil))}},
                                 {sides}});
     study.omissions = {
-        "The middle of the map, where the circle closes on itself, is left out but on open water."};
+        "In all maps except open water, the middle, where the circle closes on itself, is left out."};
     return study;
 }
 
@@ -170,11 +169,12 @@ void hold_against_exact(const MarchSetting& setting, lab::WorkPrecision& point) 
 lab::WorkPrecisionSet march_set(const std::vector<MarchSetting>& settings) {
     lab::WorkPrecisionSet set;
     set.study = plan();
-    set.words = {"RMS error of the way, in radii", "thousands of local solutions", "the bake's own setting"};
+    set.words = {"RMS error of the path length, in radii", "thousands of local solutions",
+                 "the bake's own setting"};
     set.circumstances = circumstances_now();
     set.circumstances.scene = "bake island";
-    set.hit_standard = {"closed forms of the ways, in double: straight lines, tangents, arcs and corners",
-                        1e-15, "a few roundings of numbers up to 1"};
+    set.hit_standard = {"closed forms of the paths, in double: straight lines, tangents, arcs and corners",
+                        1e-15, "some rounding errors of numbers up to 1"};
     std::vector<lab::Point> points = lab::points_of(set.study);
     for (size_t i = 0; i < points.size(); ++i) {
         set.points.emplace_back().point = std::move(points[i]);
@@ -285,10 +285,12 @@ Result<int> bake(const IslandOptions& options) {
 void add_bake_island(Command bake_command, Action& chosen) {
     auto options = std::make_shared<IslandOptions>();
     Command island = bake_command.add_subcommand(
-        "island", "Waves' ways over water, sheltered places, depth and height of an island's sea");
+        "island",
+        "Makes the texture of an island's sea: path distance of waves, wave mask, depth and height");
     island
-        .add_option("-o,--output", options->output,
-                    "File, .exr or (with --depth float) .tif [island.exr]; of --study the report's folder")
+        .add_option(
+            "-o,--output", options->output,
+            "File, .exr or (with --depth float) .tif [island.exr]; with --study: folder for the report")
         .type_name("FILE");
     island
         .add_option(
@@ -296,42 +298,45 @@ void add_bake_island(Command bake_command, Action& chosen) {
             [options](const std::string& depth) {
                 options->depth = depth == "half" ? image::SampleDepth::half : image::SampleDepth::f32;
             },
-            "Bits of a sample [half]")
+            "Bits per channel [half]")
         .check(one_of({"half", "float"}))
         .type_name("half|float");
-    const Option side = island.add_option("--size", options->side, "Texels a side of the generated island")
+    const Option side = island.add_option("--size", options->side, "Texels per side of the generated island")
                             .check(number<int>(fmt::format("a whole number from {} to {}", bake::k_least_side,
                                                            bake::k_largest_side),
                                                bake::k_least_side, bake::k_largest_side))
                             .type_name("N")
                             .capture_default_str();
     const Option seed =
-        island.add_option("--seed", options->seed, "Another island of the same kind").capture_default_str();
-    const Option heights =
-        island.add_option("--heights", options->heights, "Your own square height map instead (first channel)")
-            .type_name("FILE")
-            .excludes(side)
-            .excludes(seed);
-    island.add_option("--extent", options->extent, "Metres along a side of that map")
+        island.add_option("--seed", options->seed, "Seed: each gives another island of the same kind")
+            .capture_default_str();
+    const Option heights = island
+                               .add_option("--heights", options->heights,
+                                           "Uses your own square height map instead (first channel)")
+                               .type_name("FILE")
+                               .excludes(side)
+                               .excludes(seed);
+    island.add_option("--extent", options->extent, "Length of a side of that map in metres")
         .needs(heights)
         .check(
             number(fmt::format("metres from 1 to {:g}", bake::k_largest_metres), 1.0, bake::k_largest_metres))
         .type_name("M")
         .capture_default_str();
-    island.add_option("--sea", options->sea, "Its value at the sea's level")
+    island.add_option("--sea", options->sea, "Value of that map at sea level")
         .needs(heights)
         .check(number("a number from -1e6 to 1e6", -1e6, 1e6))
         .type_name("V")
         .capture_default_str();
-    island.add_option("--metres", options->metres, "Metres of height a value of 1")
+    island.add_option("--metres", options->metres, "Height in metres that a value of 1 stands for")
         .needs(heights)
         .check(number("metres from 1e-6 to 1e6", 1e-6, 1e6))
         .type_name("M")
         .capture_default_str();
     const Option study = island.add_flag(
         "--study", options->study,
-        "Print error against run time on maps with known answers; with -o FOLDER a report of it, too");
-    island.add_option("--budget", options->march_study.budget, "Seconds for the timing of that report")
+        "Prints error against run time on maps with known answers; with -o FOLDER also writes a report");
+    island
+        .add_option("--budget", options->march_study.budget, "Seconds to spend on the timing of that report")
         .needs(study)
         .check(number("seconds from 0.01 to 1e6", 0.01, 1e6))
         .type_name("S")
@@ -381,9 +386,10 @@ void add_bake(Command app, Action& chosen) {
     command.require_subcommand();
 
     auto noise = std::make_shared<BakeOptions>();
-    Command noise_command = command.add_subcommand("noise", "The 256x256 noise that iChannels read");
+    Command noise_command =
+        command.add_subcommand("noise", "Makes the 256x256 noise texture that channels read by default");
     noise_command.add_option("-o,--output", noise->output, "File [noise.png]").type_name("FILE");
-    noise_command.add_option("--seed", noise->seed, "Another noise of the same kind")
+    noise_command.add_option("--seed", noise->seed, "Seed: each gives another noise of the same kind")
         .check(number<uint32_t>("a whole number from 0"))
         .type_name("N")
         .capture_default_str();
@@ -391,8 +397,8 @@ void add_bake(Command app, Action& chosen) {
 
     auto ramps = std::make_shared<BakeOptions>();
     ramps->output = ".";
-    Command ramps_command =
-        command.add_subcommand("ramps", "The ramps of shaders/pseudo3d_water.glsl and stylized_waves.glsl");
+    Command ramps_command = command.add_subcommand(
+        "ramps", "Makes the ramps of shaders/pseudo3d_water.glsl and stylized_waves.glsl");
     ramps_command.add_option("-o,--output", ramps->output, "Folder")
         .type_name("FOLDER")
         .capture_default_str();

@@ -47,11 +47,11 @@ Result<Moment> read_moment(const std::string& picture, const image::Metadata& me
     const std::string* text = image::find(metadata, k_moment);
     if (!text)
         return refuse(picture,
-                      "it does not hold how it was drawn: give one that `tidemark capture` or the window's "
-                      "S saved, other than .hdr, and that no other program has saved since");
+                      "the file has no record of how it was drawn; give a picture from `tidemark capture` or "
+                      "from the window's S key, not .hdr and not saved again by another program");
     auto moment = moment_of(parse_or_discard(*text));
     if (!moment)
-        return refuse(picture, "what it says of how it was drawn is damaged: " + moment.error().message);
+        return refuse(picture, "its record of how it was drawn is damaged: " + moment.error().message);
     return moment;
 }
 
@@ -65,8 +65,8 @@ void keep_inside(const std::string& picture, const SceneRequest& typed, Moment& 
         if (file.empty() || bounds.check(file))
             return false;
         say(fmt::format(
-            "--like {}: left out, for it leads out of the scene's folder: {} (--allow-outside takes it)",
-            picture, option));
+            "--like {}: ignored {}: it is outside the scene's folder (--allow-outside permits it)", picture,
+            option));
         return true;
     };
     std::erase_if(moment.scene.channels, [&](const std::string& channel) {
@@ -137,16 +137,16 @@ Result<CaptureOptions> with_likeness(CaptureOptions options) {
     Moment moment = TRY(read_moment(options.like, *metadata));
     const Extent size = moment.sequence.state.extent;
     if (!options.frames.size && std::max(size.width, size.height) > scene::k_largest_stated_side)
-        return refuse(
-            options.like,
-            fmt::format("it says that it has {}x{} pixels; a file may ask for {} on a side: give --size",
-                        size.width, size.height, scene::k_largest_stated_side));
+        return refuse(options.like, fmt::format("its recorded size is {}x{}; the limit for a recorded size "
+                                                "is {} pixels on a side: give --size",
+                                                size.width, size.height, scene::k_largest_stated_side));
     std::error_code ignored;
     if (scene.path.empty() && !fs::exists(moment.scene.path, ignored))
-        return refuse(options.like,
-                      fmt::format("its scene '{}' is not here: give one, as in `tidemark capture SCENE "
-                                  "--like {}`",
-                                  moment.scene.path.string(), options.like));
+        return refuse(
+            options.like,
+            fmt::format(
+                "its scene '{}' was not found: name the scene, as in `tidemark capture SCENE --like {}`",
+                moment.scene.path.string(), options.like));
     if (scene.path.empty())
         scene.path = moment.scene.path;
     keep_inside(options.like, scene, moment);
@@ -168,7 +168,7 @@ void say_what_is_unlike(const CapturePlan& plan) {
         return;
     const Fingerprint there = Fingerprint::parse(plan.likeness->fingerprint).of_scene();
     if (const std::string other = plan.identity.of_scene().differences(there); !other.empty())
-        say(fmt::format("not quite like {}: {}", plan.like, other));
+        say(fmt::format("the picture may differ from {}: {}", plan.like, other));
 }
 
 namespace {
@@ -198,7 +198,7 @@ std::optional<SavedState> find_state(const CapturePlan& plan) {
 
 void say_what_was_written(const FrameRecords& records, const CapturePlan& plan) {
     if (plan.output.video() && plan.shard)
-        say(fmt::format("wrote {} frames of {}, in segments that `tidemark gather` joins", records.count(),
+        say(fmt::format("wrote {} frames of {} as segments; `tidemark gather` joins them", records.count(),
                         plan.output.pattern().string()));
     else if (plan.output.video())
         say(fmt::format(
@@ -228,7 +228,7 @@ void warn_of(const FrameRecords::Found& found,
 
 void say_what_pixels_hold(const FrameRecords& records, const CapturePlan& plan) {
     warn_of(records.not_finite(), [&](const FrameRecord& first, const std::string& others) {
-        return fmt::format("{} not finite{}; where from: {}",
+        return fmt::format("{} not finite{}; find the origin with: {}",
                            pixels_are(first.not_finite, fmt::format("of frame {}", first.frame)), others,
                            trace_command(plan.request, plan.frames, plan.states(first.frame)));
     });
@@ -237,7 +237,7 @@ void say_what_pixels_hold(const FrameRecords& records, const CapturePlan& plan) 
     warn_of(records.no_coverage(), [&](const FrameRecord& first, const std::string& others) {
         return fmt::format("alpha is below 0 or above 1 in {} pixel{} of frame {}{}; {}", first.no_coverage,
                            first.no_coverage > 1 ? "s" : "", first.frame, others,
-                           clamped ? "the file has 0 or 1" : "the file has it as it is");
+                           clamped ? "the file stores them as 0 or 1" : "the file stores them unchanged");
     });
 }
 
@@ -265,8 +265,8 @@ std::string interruption(const CapturePlan& plan, Capture& run) {
     const std::string words = words_on_resuming(plan, run.whole_frames());
     return fmt::format("interrupted after {} of {} frames{}{}", plan.kept.size() + run.records().count(),
                        plan.kept.size() + plan.frames.frames.size(),
-                       plan.output.video() ? ": no video was written"
-                       : plan.sheet        ? ": no sheet was written"
+                       plan.output.video() ? "; no video was written"
+                       : plan.sheet        ? "; no sheet was written"
                                            : "",
                        words.empty() ? "" : "; " + words);
 }
@@ -276,10 +276,9 @@ std::optional<SavedState> take_up(CapturePlan& plan) {
     if (plan.resume)
         keep_what_is_there(plan);
     else if (plan.frames.frames.empty())
-        say(plan.output.video()
-                ? "this shard has no frame: there are more shards than segments of the video, "
-                  "which --state-every makes shorter"
-                : "this shard has no frame: there are more shards than frames");
+        say(plan.output.video() ? "this shard has nothing to draw: there are more shards than video "
+                                  "segments; a smaller --state-every makes more segments"
+                                : "this shard has nothing to draw: there are more shards than frames");
     if (plan.frames.frames.empty() || !(plan.resume || plan.shard))
         return std::nullopt;
     auto state = find_state(plan);
@@ -347,10 +346,9 @@ Result<int> capture(const CaptureOptions& typed) {
 
 void add_codec_option(Command command, std::string& codec) {
     command
-        .add_option(
-            "--codec", codec,
-            "Of a video: of .mp4 and .mkv h264 in 8 bits, hevc or av1 in 10; of .webm vp9 in 8, av1 in "
-            "10 [the first]")
+        .add_option("--codec", codec,
+                    "Video codec; .mp4 and .mkv: h264 (8 bits), hevc or av1 (10 bits); .webm: vp9 (8 bits) "
+                    "or av1 (10 bits) [the first]")
         .type_name("h264|hevc|av1|vp9");
 }
 
@@ -361,96 +359,98 @@ void add_capture_options(Command command, CaptureOptions& options) {
     add_time_options(command, options.frames);
     command.option("SCENE").required(false); // --like may name it
     command
-        .add_option(
-            "--like", options.like,
-            "Draws the moment that a picture shows, from its metadata: what is left open here, SCENE too")
+        .add_option("--like", options.like,
+                    "Draws the moment recorded in a picture's metadata; SCENE and options on the command "
+                    "line override it")
         .type_name("PICTURE");
     command
         .add_option("-o,--output", options.output,
-                    "File: .png .jpg .tif .exr .hdr, a sequence with %04d or ####; {} for the six faces of "
-                    "a cube; a video: .mp4 .mkv .webm .mov .gif .webp; - for "
-                    "raw RGB frames on standard output [SCENE.png]")
+                    "File: a picture (.png .jpg .tif .exr .hdr; %04d or #### numbers a sequence, {} the six "
+                    "faces of a cube), a video (.mp4 .mkv .webm .mov .gif .webp), or - for raw RGB frames on "
+                    "standard output [SCENE.png]")
         .type_name("OUT");
     command
-        .add_option(
-            "--depth", options.depth,
-            "Bits of a sample in the file [what the format stores by nature; a --pass in .exr: float]")
+        .add_option("--depth", options.depth,
+                    "Bits per channel in the file [the format's usual depth; a --pass in .exr: float]")
         .type_name("8|16|half|float");
     command
         .add_option("--transfer", options.transfer,
-                    "What the samples of a picture stand for: sRGB, as Image writes them, or linear light, "
-                    "which takes 16 bits or floats [srgb; of another --pass: numbers]")
+                    "Encoding of the samples: srgb, as Image writes them, or linear light, which needs at "
+                    "least 16 bits [srgb; another --pass is stored unchanged]")
         .type_name("srgb|linear");
     add_codec_option(command, options.codec);
     command
-        .add_option(
-            "--alpha", options.alpha,
-            "Of Image: 1, as ShaderToy shows it; or what its text gives, straight or with the colours "
-            "multiplied by it [opaque]")
+        .add_option("--alpha", options.alpha,
+                    "Alpha of Image: opaque: 1, as on ShaderToy; keep: as the shader writes it; "
+                    "premultiplied: also multiplies the colours by it [opaque]")
         .type_name("opaque|keep|premultiplied");
     command
         .add_option("--crop", options.crop,
                     "Writes that part alone: left, bottom, width and height in pixels from the bottom left")
         .type_name("X,Y,W,H");
-    command.add_flag("--layers", options.layers,
-                     "All passes into one .exr, each as a part of its name; a cube as six");
+    command.add_flag(
+        "--layers", options.layers,
+        "Writes all passes into one .exr, each as a part with the pass's name; a cube as six parts");
     add_device_options(command, options.device);
     command
         .add_option("--timeout", options.timeout,
-                    "Give up where compiling takes longer, or getting ready to draw, or a frame")
+                    "Stops with exit code 5 when compiling, the first draw or one frame takes longer")
         .type_name("SECONDS")
         .check(number<double>("a number of seconds"));
-    command.add_option("--duration", options.duration, "Length of a .wav [60], or of what --sheet shows [10]")
+    command
+        .add_option("--duration", options.duration,
+                    "Length of a .wav [60], or of the time that --sheet covers [10]")
         .type_name("SECONDS")
         .check(number<double>("a number of seconds"));
     const Option plain =
-        command.add_flag("--plain", options.plain, "Compiles the scene's text whole, as it is");
+        command.add_flag("--plain", options.plain, "Compiles the scene without optimising its text");
     command
         .add_option("--allow-difference", options.allowed_difference,
-                    "Makes knobs constants where that is faster and moves no sample by more")
+                    "Compiles knobs as constants if that is faster and no sample changes by more than MAX")
         .type_name("MAX")
         .check(number<double>("a number"))
         .excludes(plain)
         .excludes("--timeout"); // frames of a trial have no time limit
     command
         .add_option("--tile", options.tile,
-                    "Draw in tiles of N pixels a side, an even number [1024x256 above 4096x2160 pixels]")
+                    "Draws in tiles of N pixels a side, an even number [1024x256 above 4096x2160 pixels]")
         .type_name("N")
         .check(number<int>("a whole number"));
     command
-        .add_option("--samples", options.samples,
-                    "Makes each frame the mean, in linear light, of N that are shifted within their pixels")
+        .add_option(
+            "--samples", options.samples,
+            "Smooths edges: each frame is the mean, in linear light, of N frames shifted by parts of a pixel")
         .type_name("N")
         .check(number<int>("a whole number from 1 to 65536", 1, render::k_most_samples))
         .excludes("--allow-difference");
     command
-        .add_option(
-            "--shutter", options.shutter,
-            "Motion blur: those samples see as much of the time to the next frame, 0 to 1 [16 samples]")
+        .add_option("--shutter", options.shutter,
+                    "Motion blur: spreads the samples over this part of the time to the next frame, 0 to 1 "
+                    "[16 samples]")
         .type_name("PART")
         .check(number<double>("a number from 0 to 1", 0, 1))
         .excludes("--allow-difference");
-    const Option resume =
-        command.add_flag("--resume", options.resume,
-                         "Goes on where a capture was cut short: frames that are there already are kept");
+    const Option resume = command.add_flag(
+        "--resume", options.resume, "Continues an interrupted capture: keeps the frames that exist already");
     command
         .add_option("--state-every", options.state_every,
-                    "Saves the buffers of a scene that reads its own last frame, for --resume")
+                    "Saves the buffers after every so many frames, for --resume of a scene with feedback")
         .type_name("FRAMES")
         .check(positive_number());
     command
-        .add_option(
-            "--shard", options.shard,
-            "Makes every N-th frame, from the K-th on, for one of N processes; slurm: as a task of an array")
+        .add_option("--shard", options.shard,
+                    "Draws share K of N, for several processes or machines; slurm: takes K and N from a "
+                    "Slurm array task")
         .type_name("K/N|slurm");
     command
         .add_flag("--loop", options.loop,
-                  "Says whether the sequence goes round: how like its first the frame behind its last is")
+                  "Tests whether the sequence loops: compares the frame after the last with the first")
         .excludes(resume)
         .excludes("--shard");
     command
-        .add_option("--sheet", options.sheet,
-                    "One picture of so many moments, each of --size, evenly from --frames or --duration")
+        .add_option(
+            "--sheet", options.sheet,
+            "One picture with a grid of moments, each of --size, taken evenly from --frames or --duration")
         .type_name("COLUMNSxROWS")
         .excludes("--layers")
         .excludes("--tile")
@@ -458,13 +458,13 @@ void add_capture_options(Command command, CaptureOptions& options) {
         .excludes("--state-every")
         .excludes("--shard")
         .excludes("--loop");
-    command.add_flag("--json", options.json, "One JSON object about the frames on standard output");
+    command.add_flag("--json", options.json, "Prints one JSON object about the frames");
 }
 
 void add_capture(Command app, Action& chosen) {
     auto options = std::make_shared<CaptureOptions>();
     Command command =
-        app.add_subcommand("capture", "Makes pictures, raw frames or a video of a scene, with no display");
+        app.add_subcommand("capture", "Makes pictures, raw frames or a video of a scene; needs no display");
     add_capture_options(command, *options);
     command.on_call([options, command, &chosen] {
         options->words =

@@ -375,8 +375,10 @@ image::PictureFormat Delivery::format_of_sheet() const {
 Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precision precision, double start,
                                         double duration, const Interrupt& interrupt) {
     if (constexpr double k_last = render::SoundRenderer::k_longest_seconds; start + duration > k_last)
-        return fail(ErrorCode::usage,
-                    fmt::format("sound ends at {} s: iSampleOffset counts its samples in an int", k_last));
+        return fail(
+            ErrorCode::usage,
+            fmt::format("sound cannot be longer than {} s, because iSampleOffset counts samples in an int",
+                        k_last));
     auto renderer = TRY(render::SoundRenderer::create(scene, render::Date{}, precision));
     const auto count = 2 * size_t(std::llround(duration * render::k_sample_rate));
     const auto first = int(std::llround(start * render::k_sample_rate));
@@ -399,11 +401,11 @@ std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const Int
     const VideoPace& pace = plan.pace;
     const bool heard = plan.output.pattern().extension() != ".gif" && plan.scene.find(scene::PassKind::sound);
     if (!pace.not_in_time.empty())
-        say(fmt::format("the video does not go by the scene's time: {}, {:.4g} a second{}", pace.not_in_time,
-                        pace.fps, heard ? "; it is silent" : ""));
+        say(fmt::format("the video does not follow the scene's time: {}; it shows {:.4g} frames per second{}",
+                        pace.not_in_time, pace.fps, heard ? "; it is silent" : ""));
     if (pace.holds)
-        say(fmt::format("its frames are not evenly apart: the video shows each until the next one is due, "
-                        "{:.4g} a second",
+        say(fmt::format("the frames are not evenly spaced: the video ({:.4g} frames per second) holds each "
+                        "until the time of the next",
                         pace.fps));
     if (!heard || !pace.not_in_time.empty())
         return std::nullopt;

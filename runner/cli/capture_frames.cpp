@@ -55,9 +55,8 @@ VideoPace pace_of(const std::vector<int>& frames, double fps) {
         return {fps / tick, tick, most > tick};
     }
     if (least == most && least < 0)
-        return {fps / -least, 0, false, "its frames go backwards"};
-    return {fps, 0, false,
-            "some of its frames are not later than the one before, and they come one after another"};
+        return {fps / -least, 0, false, "its frames are in descending order"};
+    return {fps, 0, false, "its frames are not in ascending order; they are shown one after another"};
 }
 
 std::vector<int> ticks_of(const std::vector<int>& frames, const VideoPace& pace) {
@@ -98,7 +97,7 @@ Result<SheetGrid> parse_sheet(std::string_view text) {
     const auto cells = parse_extent(text);
     if (!cells || cells->pixels() > k_most_cells)
         return fail(ErrorCode::usage,
-                    fmt::format("--sheet {}: give columns and rows, as in 5x4, {} cells at most", text,
+                    fmt::format("--sheet {}: give columns and rows, as in 5x4, at most {} cells", text,
                                 k_most_cells));
     return SheetGrid{cells->width, cells->height};
 }
@@ -125,8 +124,8 @@ Result<int> slurm_number(const char* name, std::optional<int> otherwise = {}) {
     const std::optional<int> number = text ? number_from<int>(text) : otherwise;
     if (!number)
         return fail(ErrorCode::usage,
-                    fmt::format("--shard slurm: {} is {}; start it as a task of `sbatch --array`", name,
-                                text ? fmt::format("'{}'", text) : "not set"));
+                    fmt::format("--shard slurm: {} is {}; start this command as a task of `sbatch --array`",
+                                name, text ? fmt::format("'{}'", text) : "not set"));
     return *number;
 }
 
@@ -136,9 +135,9 @@ Result<Shard> shard_of_slurm() {
     const int first = TRY(slurm_number("SLURM_ARRAY_TASK_MIN", 0));
     const int step = TRY(slurm_number("SLURM_ARRAY_TASK_STEP", 1));
     if (step < 1 || id < first || (id - first) % step != 0 || (id - first) / step >= count)
-        return fail(ErrorCode::usage,
-                    fmt::format("--shard slurm: task {} of {} from {} on: give --array as 0-7, without gaps",
-                                id, count, first));
+        return fail(ErrorCode::usage, fmt::format("--shard slurm: task {} does not fit an array of {} tasks "
+                                                  "that starts at {}; give --array without gaps, as in 0-7",
+                                                  id, count, first));
     return Shard{(id - first) / step, count};
 }
 
@@ -152,7 +151,7 @@ Result<Shard> parse_shard(std::string_view text) {
     const auto count = number_from<int>(text.substr(std::min(slash + 1, text.size())));
     if (!number || !count || *number < 1 || *number > *count || *count > k_most_shards)
         return fail(ErrorCode::usage,
-                    fmt::format("--shard {}: give K/N, K from 1 to N, as in 2/8, or slurm", text));
+                    fmt::format("--shard {}: give K/N with K from 1 to N, as in 2/8, or slurm", text));
     return Shard{*number - 1, *count};
 }
 
@@ -186,7 +185,7 @@ Result<ShardNote> read_note(const std::filesystem::path& file) {
             return note;
     } catch (const Json::exception&) { // reported below
     }
-    return fail(ErrorCode::load, fmt::format("'{}' is not of `capture --shard`", file.string()));
+    return fail(ErrorCode::load, fmt::format("'{}' was not written by `capture --shard`", file.string()));
 }
 
 Result<void> leave_note(const OutputPath& file, const ShardNote& note) {
@@ -194,9 +193,9 @@ Result<void> leave_note(const OutputPath& file, const ShardNote& note) {
     if (std::filesystem::exists(file.path(), ignored)) {
         if (TRY(read_note(file.path())) == note)
             return {};
-        return fail(ErrorCode::usage,
-                    fmt::format("--shard: '{}' is of another capture: give a folder of its own, or remove it",
-                                file.string()));
+        return fail(ErrorCode::usage, fmt::format("--shard: '{}' belongs to another capture: give each "
+                                                  "capture its own folder, or remove that file",
+                                                  file.string()));
     }
     return write_file(file, dump(Json{{"capture", note.words}, {"shards", note.count}}, 2) + "\n");
 }

@@ -47,9 +47,8 @@ Result<SampleDepth> parse_depth(const std::string& text, const OutputName& outpu
                                                                      {"float", SampleDepth::f32}};
     const bool raw = output.standard_output() || output.video();
     if (raw && !text.empty())
-        return fail(
-            ErrorCode::usage,
-            "--depth: raw frames on standard output have 8 bits, videos what their codec has (--codec)");
+        return fail(ErrorCode::usage, "--depth: is for picture files only; raw frames have 8 bits, the depth "
+                                      "of a video follows from --codec");
     if (text.empty() && raw)
         return output.video() && image::has_ten_bits(output.pattern(), codec) ? SampleDepth::u16
                                                                               : SampleDepth::u8;
@@ -74,7 +73,7 @@ Result<Transfer> parse_transfer(const std::string& text, const CapturePlan& plan
     if (!plan.to_picture_files())
         return refuse("linear: videos and raw frames on standard output are always sRGB");
     if (plan.depth == SampleDepth::u8)
-        return refuse("linear: 8 bits of light show steps where it is dark: give --depth 16, or an .exr");
+        return refuse("linear: 8 bits of linear light show steps in dark areas: give --depth 16, or an .exr");
     return Transfer::linear;
 }
 
@@ -94,11 +93,12 @@ Result<Alpha> parse_alpha(const std::string& text, const CapturePlan& plan) {
                                    : image::holds_alpha(name, kind);
     };
     if (drawn_transfer(plan.frames.state.pass) == Transfer::data)
-        return refuse("what another pass holds is numbers: all four are in the file");
+        return refuse(
+            "only Image has an alpha to convert; the file of another pass has all four channels unchanged");
     if (plan.output.standard_output() || !holds(Alpha::straight))
-        return refuse("that has no alpha: give a .png, .tif, .exr, .mov, .webm or .webp");
+        return refuse("this output has no alpha: give a .png, .tif, .exr, .mov, .webm or .webp");
     if (!holds(alpha))
-        return refuse(fmt::format("readers of a {} multiply themselves: give keep, or a .tif, .exr or .mov",
+        return refuse(fmt::format("{} stores straight alpha: give --alpha keep, or write .tif, .exr or .mov",
                                   plan.output.pattern().extension().string()));
     return alpha;
 }
@@ -112,15 +112,15 @@ Result<std::optional<SampleDepth>> parse_layers(const CaptureOptions& options, c
     if (!options.layers)
         return std::nullopt;
     if (!plan.to_picture_files() || !image::holds_layers(plan.output.pattern()))
-        return refuse("only an .exr holds several pictures");
+        return refuse("only an .exr can hold several pictures");
     if (plan.output.six_faces())
-        return refuse("the faces of a cube are layers: leave {} out of the name");
+        return refuse("the faces of a cube become layers: remove {} from the name");
     if (!plan.frames.state.pass.empty())
-        return refuse("all passes are in the file: leave --pass out");
+        return refuse("the file holds all passes: remove --pass");
     if (options.tile)
-        return refuse("passes are drawn whole: leave --tile out");
+        return refuse("passes are not drawn in tiles: remove --tile");
     if (plan.exposure.shutter > 0)
-        return refuse("with --shutter a frame has several moments, and a buffer has no mean");
+        return refuse("not with --shutter: a frame then has several moments, and buffers cannot be averaged");
     const Extent extent = plan.frames.state.extent;
     if (std::max(extent.width, extent.height) > image::k_largest_side)
         return refuse(fmt::format("a side has at most {} pixels", image::k_largest_side));
@@ -157,19 +157,19 @@ Result<std::vector<int>> frames_of_sheet(const CaptureOptions& options, const Fr
         return fail(ErrorCode::usage, fmt::format("--sheet: {}", why));
     };
     if (options.frames.frame || options.frames.time)
-        return refuse("one moment is a picture: give --frames or --duration");
+        return refuse("--frame and --time name one moment: give --frames or --duration");
     if (options.frames.frames && options.duration)
-        return refuse("--frames and --duration both say which moments: give one of them");
+        return refuse("give either --frames or --duration");
     if (options.frames.frames)
         return asked.frames.size() >= grid.cells()
                    ? Result<std::vector<int>>(evenly(asked.frames, grid.cells()))
-                   : refuse(fmt::format("{}x{} cells want {} frames, --frames names {}", grid.columns,
+                   : refuse(fmt::format("{}x{} cells need {} frames, but --frames names {}", grid.columns,
                                         grid.rows, grid.cells(), asked.frames.size()));
     const double seconds = options.duration.value_or(k_seconds_of_sheet);
     const double frames = seconds * asked.state.fps;
     if (!(frames >= double(grid.cells())) || frames > render::k_last_frame)
-        return refuse(fmt::format("{} s at {} frames a second are not {} moments", seconds, asked.state.fps,
-                                  grid.cells()));
+        return refuse(fmt::format("{} s at {} frames per second cannot give {} moments", seconds,
+                                  asked.state.fps, grid.cells()));
     return beginnings(seconds, asked.state.fps, grid.cells());
 }
 
@@ -181,13 +181,13 @@ Result<void> check_sheet(const CapturePlan& plan) {
         return fail(ErrorCode::usage, fmt::format("--sheet: {}", why));
     };
     if (!plan.to_picture_files() || plan.output.six_faces())
-        return refuse("it is one picture: give a .png, .jpg, .tif, .exr or .hdr");
+        return refuse("the sheet is one picture: give a .png, .jpg, .tif, .exr or .hdr");
     if (plan.cube && !plan.crop)
         return refuse("a cube is shown as a panorama, which is too large for a cell");
     const Extent extent = plan.sheet->extent(plan.written);
     const size_t bytes = extent.pixels() * 4 * image::size_of(plan.drawing.samples);
     if (std::max(extent.width, extent.height) > image::k_largest_side || bytes > image::k_largest_picture)
-        return refuse(fmt::format("it would be {}x{} pixels: give a smaller --size, or fewer cells",
+        return refuse(fmt::format("the sheet would have {}x{} pixels: give a smaller --size, or fewer cells",
                                   extent.width, extent.height));
     return {};
 }
@@ -209,9 +209,9 @@ Result<void> check_resume(const OutputName& output) {
         return fail(ErrorCode::usage, fmt::format("--resume: {}", why));
     };
     if (output.standard_output())
-        return refuse("frames on standard output are not kept");
+        return refuse("frames on standard output cannot be resumed");
     if (!output.video() && !image::holds_metadata(output.pattern()))
-        return refuse(fmt::format("a {} does not hold how it was drawn; .exr and .tif do",
+        return refuse(fmt::format("a {} cannot record how it was drawn: give a .png, .jpg, .tif or .exr",
                                   output.pattern().extension().string()));
     return {};
 }
@@ -222,11 +222,12 @@ Result<void> check_shard(const CaptureOptions& options, const OutputName& output
         return fail(ErrorCode::usage, fmt::format("--shard: {}", why));
     };
     if (output.standard_output())
-        return refuse("give a sequence of pictures, or a video: `tidemark gather` reads them");
+        return refuse(
+            "write files (a sequence of pictures or a video), so that `tidemark gather` can read them");
     if (!output.video() && !image::holds_metadata(output.pattern()))
         return check_resume(output);
     if (options.allowed_difference)
-        return refuse("--allow-difference may choose another program on each machine");
+        return refuse("not with --allow-difference, which may choose another program on each machine");
     return {};
 }
 
@@ -235,9 +236,9 @@ Result<void> check_keeping(const CaptureOptions& options, const OutputName& outp
     if (options.resume)
         TRY(check_resume(output));
     if (options.state_every > 0 && output.standard_output())
-        return fail(ErrorCode::usage, "--state-every: frames on standard output are not kept");
+        return fail(ErrorCode::usage, "--state-every: frames on standard output cannot be resumed");
     if (options.state_every > 0 && extent.pixels() * 4 * sizeof(float) > k_largest_saved_buffer)
-        return fail(ErrorCode::usage, fmt::format("--state-every: buffers of {}x{} are too large to be saved",
+        return fail(ErrorCode::usage, fmt::format("--state-every: buffers of {}x{} are too large to save",
                                                   extent.width, extent.height));
     if (!options.shard.empty())
         TRY(check_shard(options, output));
@@ -261,7 +262,7 @@ Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options
     const OutputName& output = plan.output;
     const Extent extent = plan.frames.state.extent;
     if (output.video() && output.pattern().extension() == ".gif" && plan.pace.fps > image::k_fastest_gif)
-        return fail(ErrorCode::usage, fmt::format("--fps {}: a GIF shows {} frames a second at most",
+        return fail(ErrorCode::usage, fmt::format("--fps {}: a GIF has at most {} frames per second",
                                                   plan.frames.state.fps, image::k_fastest_gif));
     if (plan.to_picture_files()) {
         TRY(image::check_picture_format(output.pattern(), plan.depth));
@@ -270,13 +271,13 @@ Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options
     TRY(check_sheet(plan));
     TRY(check_keeping(options, output, extent));
     if (options.loop && plan.frames.frames.size() < 2)
-        return fail(ErrorCode::usage, "--loop: give --frames, two at least");
+        return fail(ErrorCode::usage, "--loop: give at least two --frames");
     if (options.tile && output.video())
-        return fail(ErrorCode::usage, "--tile: the frames of a video are drawn whole");
+        return fail(ErrorCode::usage, "--tile: the frames of a video are not drawn in tiles");
     if (options.timeout && !(*options.timeout > 0))
         return fail(ErrorCode::usage, "--timeout: give a number of seconds above 0");
     if (options.json && output.standard_output())
-        return fail(ErrorCode::usage, "--json and -o - both want standard output: give one of them");
+        return fail(ErrorCode::usage, "--json and -o - both write to standard output: give one of them");
     if (std::max(extent.width, extent.height) > render::k_largest_tiled_side)
         return fail(ErrorCode::usage, fmt::format("--size {}x{}: a side has at most {} pixels", extent.width,
                                                   extent.height, render::k_largest_tiled_side));
@@ -367,7 +368,7 @@ Result<void> spare_what_is_read(const CaptureOptions& options, CapturePlan& plan
 Result<void> check_six_faces(const CapturePlan& plan) {
     if (plan.output.six_faces() && !plan.cube && shown_pass(plan.scene, plan.drawing.pass))
         return fail(ErrorCode::usage,
-                    fmt::format("-o {}: {{}} stands for a face of a cube: give --pass \"Cube A\"",
+                    fmt::format("-o {}: {{}} in the name stands for a face of a cube: give --pass \"Cube A\"",
                                 plan.output.pattern().string()));
     return {};
 }
@@ -382,7 +383,7 @@ Result<std::optional<PlannedTrial>> plan_trial(const CaptureOptions& options, co
     const bool turned = plan.frames.input && turns_knobs(*plan.frames.input);
     if (turned && options.allowed_difference)
         return fail(ErrorCode::usage,
-                    fmt::format("--allow-difference: knobs cannot be constants while {} turns them",
+                    fmt::format("--allow-difference: knobs cannot be constants, because {} changes them",
                                 plan.frames.input_file));
     const bool long_enough = frames.size() >= k_frames_worth_a_trial && !options.timeout;
     if (options.plain || turned || !(options.allowed_difference || long_enough))
@@ -460,7 +461,7 @@ bool can_be_resumed(const CapturePlan& plan) {
 std::string words_on_resuming(const CapturePlan& plan, size_t whole_frames) {
     if (whole_frames == 0 || !can_be_resumed(plan))
         return {};
-    return fmt::format("{} frame{} whole, and the same command with --resume goes on", whole_frames,
+    return fmt::format("{} frame{} complete; to continue, run the same command with --resume", whole_frames,
                        whole_frames == 1 ? " is" : "s are");
 }
 
@@ -470,11 +471,11 @@ bool wants_sound(const CaptureOptions& options) {
 
 Result<SoundPlan> plan_sound(const CaptureOptions& options) {
     if (options.resume)
-        return fail(ErrorCode::usage, "--resume: a sound is made at once, and whole or not at all");
+        return fail(ErrorCode::usage, "--resume: a sound cannot be resumed");
     const double duration = options.duration.value_or(k_seconds_of_sound);
     if (!(duration > 0) || duration > k_longest_sound)
-        return fail(ErrorCode::usage, fmt::format("--duration {}: give seconds above 0, at most {}", duration,
-                                                  k_longest_sound));
+        return fail(ErrorCode::usage, fmt::format("--duration {}: give more than 0 and at most {} seconds",
+                                                  duration, k_longest_sound));
     auto scene = TRY(load(options.scene));
     OutputPath output = OutputPath::typed(*options.output).sparing(files_read(scene));
     TRY(check_writable(output));
@@ -503,17 +504,18 @@ Result<void> check_compiled(const CapturePlan& plan, const render::Renderer& ren
     const auto refuse = [](std::string why) { return fail(ErrorCode::usage, std::move(why)); };
     if (plan.tile_side && !renderer.tiles())
         return refuse(fmt::format(
-            "--tile: {} must be drawn whole: it is a cube, a pass reads it, or it discards pixels",
+            "--tile: {} cannot be drawn in tiles: it is a cube, another pass reads it, or it discards pixels",
             renderer.shown_pass().name));
     if (plan.loop && renderer.tiles() && renderer.tiles()->count() > 1)
-        return refuse("--loop: pictures that are drawn in tiles are never in memory as a whole");
+        return refuse("--loop: frames drawn in tiles cannot be compared; give a smaller --size");
     if (plan.exposure.several() && renderer.shown_pass().kind != scene::PassKind::image)
-        return refuse("--samples: only Image is a picture; what other passes hold has no mean");
+        return refuse("--samples: only frames of Image can be averaged");
     if (plan.exposure.several() && !renderer.tiles())
-        return refuse("--samples: Image cannot be drawn again: a pass reads it, or it discards pixels");
+        return refuse("--samples: Image cannot be drawn several times per frame: a pass reads it, or it "
+                      "discards pixels");
     if (plan.exposure.shutter > 0 && renderer.plan().feedback)
-        return refuse("--shutter: this scene reads its own last frame, so that it has no moments between "
-                      "two frames; --samples alone smooths its edges");
+        return refuse("--shutter: this scene reads its own last frame, so there are no moments between two "
+                      "frames; --samples alone smooths its edges");
     return {};
 }
 

@@ -299,11 +299,9 @@ Result<void> SegmentedVideo::claim() {
     const OutputPath mark = plan_.output.of_frame(0).beside(
         plan_.shard ? fmt::format(".shard-{}", plan_.shard->index) : ".capture");
     const auto refuse = [&](pid_t other) {
-        return fail(
-            ErrorCode::write,
-            fmt::format("cannot write '{}': process {} is making it: wait for its end, or give another "
-                        "name (-o)",
-                        plan_.output.pattern().string(), other));
+        return fail(ErrorCode::write, fmt::format("cannot write '{}': process {} is writing it: wait until "
+                                                  "that process ends, or give another name (-o)",
+                                                  plan_.output.pattern().string(), other));
     };
     pid_t other = StagedFile::other_maker_of(mark);
     for (auto waited = k_pause; other != 0 && waited < k_patience; waited += k_pause) {
@@ -416,7 +414,7 @@ KeptFrames leave_out_pictures(CapturePlan& plan) {
     for (const auto& [why, first, count] : again)
         kept.said.push_back(
             count == 1 ? fmt::format("drawing {} again: {}", first.string(), why)
-                       : fmt::format("drawing {} frames again, {} first: {}", count, first.string(), why));
+                       : fmt::format("drawing {} frames again, from {}: {}", count, first.string(), why));
     plan.frames.frames = std::move(missing);
     return kept;
 }
@@ -459,7 +457,7 @@ std::string why_not_kept(const fs::path& file, const Fingerprint& wanted) {
         return metadata.error();
     const std::string* text = image::find(*metadata, k_fingerprint);
     if (!text)
-        return "it does not say how it was drawn";
+        return "it has no record of how it was drawn";
     const std::string differences = wanted.differences(Fingerprint::parse(*text));
     return differences.empty() ? "" : "it was drawn with " + differences;
 }

@@ -97,8 +97,8 @@ void LoopCheck::see(const image::Image& picture) {
 
 std::string LoopCheck::words() const {
     return fmt::format(
-        "loop: the frame behind the last is the first to {:.1f} dB (the second is it to {:.1f}): {}",
-        closing_, step_, closing_ >= step_ ? "it goes round" : "it jumps where it begins again");
+        "loop: {}; the frame after the last matches the first with {:.1f} dB (the second: {:.1f} dB)",
+        closing_ >= step_ ? "seamless" : "jumps at the start", closing_, step_);
 }
 
 namespace {
@@ -190,7 +190,7 @@ void Capture::restore() {
         return;
     stepper_.start_from(start_->frame);
     saver_.found(start_->frame);
-    say(fmt::format("going on from the state before frame {}", start_->frame));
+    say(fmt::format("continuing from the saved state before frame {}", start_->frame));
 }
 
 /// Draws the steps up to a frame; `work` stays watched. Returns false if interrupted.
@@ -254,7 +254,7 @@ Result<std::optional<WrittenFrame>> Capture::draw(int frame, const Interrupt& in
 Result<void> Capture::check_driver(const std::string& doing) {
     return gl::check_work(doing).map_error([&](Error error) {
         delivery_.drain();
-        error.message += "; a smaller --size or --tile gives it less at once";
+        error.message += "; try a smaller --size or --tile";
         return error;
     });
 }

@@ -73,7 +73,9 @@ Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
         const std::string text = TRY(read_text_file(file));
         const auto with_numbers = glsl::cured(text, file, changes.numbers);
         if (!with_numbers)
-            return fail(ErrorCode::write, fmt::format("'{}' has not the numbers to change", file));
+            return fail(
+                ErrorCode::write,
+                fmt::format("'{}' changed on disk since it was analysed; run the command again", file));
         std::string after = TRY(scene::with_defaults(*with_numbers, changes.knobs));
         for (const scene::Setting& setting : changes.definitions)
             glsl::override_definition(after, setting);
@@ -100,7 +102,9 @@ Result<std::vector<ChangedFile>> CuredFiles::with_last(std::span<const glsl::Cur
         const auto before = glsl::cured(text, file, std::span(here).first(here.size() - 1));
         auto after = glsl::cured(text, file, here);
         if (!before || !after || *before == *after)
-            return fail(ErrorCode::write, fmt::format("'{}' has not the words to change", file));
+            return fail(
+                ErrorCode::write,
+                fmt::format("'{}' changed on disk since it was analysed; run the command again", file));
         changed.push_back({file, *before, *std::move(after)});
     }
     return changed;
@@ -133,7 +137,7 @@ tl::unexpected<Error> with_difference(Error error, std::span<const ChangedFile> 
         if (std::filesystem::exists(std::filesystem::symlink_status(name, ignored)))
             continue; // belongs to the user
         if (write_file(OutputPath(name), std::as_bytes(std::span(text))))
-            error.message += fmt::format("; what it would have been is in '{}'", name);
+            error.message += fmt::format("; the change is saved in '{}'", name);
         break;
     }
     return fail(std::move(error));
@@ -145,10 +149,11 @@ Result<void> write_files(const std::vector<ChangedFile>& files) {
     for (const ChangedFile& file : files) {
         const auto now = read_text_file(file.file);
         if (!now || *now != file.before)
-            return with_difference({ErrorCode::write,
-                                    fmt::format("'{}' was changed meanwhile: nothing is written", file.file),
-                                    {}},
-                                   files);
+            return with_difference(
+                {ErrorCode::write,
+                 fmt::format("'{}' changed on disk meanwhile; nothing was written", file.file),
+                 {}},
+                files);
     }
     for (size_t i = 0; i < files.size(); ++i)
         if (auto written = replace_text(OutputPath::typed(files[i].file), files[i].before, files[i].after);

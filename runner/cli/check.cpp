@@ -38,10 +38,11 @@ Result<int> check_portable(const SceneRequest& request, const platform::DeviceCh
     const auto context = platform::HeadlessContext::create(device);
     std::optional<SlowNotice> notice;
     if (context)
-        add_site_refusals(
-            scene, found, [&](const std::string& pass) { notice.emplace("the driver is compiling " + pass); });
+        add_site_refusals(scene, found, [&](const std::string& pass) {
+            notice.emplace("the driver is compiling " + pass);
+        });
     else
-        say("only the texts were looked at, nothing was compiled: " + to_string(context.error()));
+        say("checked the texts only; could not compile them: " + to_string(context.error()));
     notice.reset();
 
     Json json = {{"tidemark", k_version},
@@ -52,7 +53,7 @@ Result<int> check_portable(const SceneRequest& request, const platform::DeviceCh
     std::string text = found.empty() ? "nothing found\n" : "";
     for (const Diagnostic& diagnostic : found) {
         if (findings_are_diagnostics())
-            say(finding_of(diagnostic, {"portable", "The texts compile on ShaderToy's own site"}));
+            say(finding_of(diagnostic, {"portable", "The texts compile on ShaderToy's site"}));
         else
             text += to_string(diagnostic) + '\n';
         json["findings"].push_back(json_of(diagnostic));
@@ -77,10 +78,9 @@ Result<int> report(const TraceFound& run, const TraceOptions& options, const sce
     std::string text = run.found ? run.text
                        : options.hidden
                            ? "every pixel is finite, and no operation gave NaN\n"
-                           : "every pixel is finite; --hidden looks for a NaN that was masked on "
-                             "the way\n";
+                           : "every pixel is finite; --hidden searches for a NaN that was masked\n";
     if (!run.ended.empty())
-        text += fmt::format("  note: {}: the above is incomplete\n", run.ended);
+        text += fmt::format("  note: this result is incomplete: {}\n", run.ended);
     if (findings_are_diagnostics()) {
         text.clear();
         if (run.found)
@@ -95,7 +95,7 @@ Result<int> report(const TraceFound& run, const TraceOptions& options, const sce
 Result<int> check_trace(const TraceOptions& options) {
     const auto frames = TRY(resolve(sized(options.frames, options.scene)));
     if (frames.frames.size() != 1)
-        return fail(ErrorCode::usage, "--trace looks at one frame: give --frame N or --time T");
+        return fail(ErrorCode::usage, "--trace works on one frame: give --frame N or --time T");
     if (!(options.timeout > 0))
         return fail(ErrorCode::usage, "--timeout: give a number of seconds above 0");
     TraceJob job{options.device, {}};
@@ -130,11 +130,12 @@ void add_trace_options(Command command, TraceOptions& options) {
     add_picture_options(command, options.frames);
     add_time_options(command, options.frames);
     command
-        .add_option("--pixel", options.pixel, "The pixel to trace, from the bottom left [the first bad one]")
+        .add_option("--pixel", options.pixel,
+                    "Pixel to trace, counted from the bottom left [the first non-finite one]")
         .type_name("X,Y");
     command.add_flag("--hidden", options.hidden,
-                     "Where all pixels are finite, trace a NaN that a clamp or a condition masked");
-    command.add_option("--timeout", options.timeout, "Give up the trace after so long")
+                     "If all pixels are finite, traces a NaN that a clamp or a condition masked");
+    command.add_option("--timeout", options.timeout, "Stops the trace after so many seconds")
         .type_name("SECONDS")
         .capture_default_str();
     for (const Option& option : command.options())
@@ -161,46 +162,45 @@ FixOptions fix_options(const CheckOptions& options) {
 void add_check(Command app, Action& chosen) {
     auto options = std::make_shared<CheckOptions>();
     Command command =
-        app.add_subcommand("check", "Tells whether a scene's numbers can be trusted, and where not");
+        app.add_subcommand("check", "Checks whether a scene's numbers can be trusted, and shows where not");
     ProbesRequest& probes = options->probes;
     add_scene_options(command, probes.scene);
-    command.add_option("--probe", probes.probes, "Only this probe; may be given again [all]")
+    command.add_option("--probe", probes.probes, "Runs only this probe; may be given several times [all]")
         .repeatable()
         .type_name("NAME");
     command
         .add_option("-o,--output", probes.output,
-                    "Folder for index.html, and a picture of each failure and warning")
+                    "Folder for a report: index.html and a picture of each failure and warning")
         .type_name("FOLDER");
     command
         .add_option("--budget", probes.budget,
-                    "Seconds for all of it: what has not answered by then is cut, and is exit 5")
+                    "Seconds for all probes together; unfinished probes are cut off, with exit code 5")
         .type_name("S")
         .capture_default_str();
     add_device_options(command, probes.device);
     const Option list =
-        command.add_flag("--list", options->list, "What each probe looks at, and nothing else");
+        command.add_flag("--list", options->list, "Lists the probes and what each looks at, then exits");
     command.option("SCENE").required(false);
     command
-        .add_flag("--portable", options->portable, "Instead: what will not compile on ShaderToy's own site")
+        .add_flag("--portable", options->portable,
+                  "Instead of probing: lists what will not compile on ShaderToy's site")
         .excludes(list);
     command
         .add_flag("--trace", options->traced,
-                  "Instead: where a NaN or an infinity in the picture has its origin")
+                  "Instead of probing: finds the origin of a NaN or infinity in the picture")
         .excludes(list)
         .excludes("--portable");
-    const Option fix =
-        command.add_flag("--fix", options->mended,
-                         "Instead: cures of what is not finite, undefined or without a value, each "
-                         "drawn before it is offered, as a diff");
+    const Option fix = command.add_flag("--fix", options->mended,
+                                        "Instead of probing: prints fixes for non-finite, undefined and "
+                                        "uninitialised values as diffs; each was drawn and measured");
     fix.excludes(list).excludes("--portable").excludes("--trace").excludes("--probe");
-    command.add_flag("--write", options->write, "Writes the cures into the scene's files, one by one")
-        .needs(fix);
+    command.add_flag("--write", options->write, "Writes the fixes into the scene's files").needs(fix);
     command
         .add_flag("--hashes", options->hashes,
-                  "Hashes of large sines, too: the same numbers on every GPU, and another picture")
+                  "Also replaces hashes of large sines: the same numbers on every GPU, but another picture")
         .needs(fix);
     add_trace_options(command, options->trace);
-    command.add_flag("--json", probes.json, "One JSON object on standard output");
+    command.add_flag("--json", probes.json, "Prints one JSON object");
     command.on_call([options, &chosen] {
         if (!options->list && options->probes.scene.path.empty())
             fail_for_missing("SCENE");

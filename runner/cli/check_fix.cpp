@@ -73,12 +73,11 @@ std::string fix_page(const std::string& scene, std::span<const CureCard> cures,
         left += fmt::format("<p>{}</p>\n", escaped(cut));
     const std::string name = name_after_scene(scene, "");
     return report::make_page(
-        {name + ": what could be written instead", name,
-         fmt::format("What could be written instead? {} cure{}, each measured on top of those before; {} "
-                     "finding{} not mended.",
+        {name + ": fixes", name,
+         fmt::format("{} fix{}, each measured on top of those before it; {} finding{} not fixed.",
                      cures.size(), cures.size() == 1 ? "" : "s", remaining.size(),
                      remaining.size() == 1 ? " is" : "s are"),
-         section("Cures", mended) + section("Not mended", left)});
+         section("Fixes", mended) + section("Not fixed", left)});
 }
 
 namespace {
@@ -96,14 +95,14 @@ std::string both(const char* what, const std::optional<double>& before, const st
 
 std::string to_text(const lab::Offer& offer, const glsl::Cure& cure) {
     const lab::Judgement& seen = offer.judgement;
-    std::string text = fmt::format("{}\n  cure: {}\n  {}: {:.3g} -> {:.3g}\n", offer.finding, cure.reason,
+    std::string text = fmt::format("{}\n  fix: {}\n  {}: {:.3g} -> {:.3g}\n", offer.finding, cure.reason,
                                    seen.fault.of, seen.fault.before, seen.fault.after);
-    text += seen.changed == 0
-                ? fmt::format("  elsewhere: the same bytes in {} pixels\n", seen.compared)
-                : fmt::format("  elsewhere: other bytes in {} of {} pixels, FLIP {:.2g} at most\n",
-                              seen.changed, seen.compared, seen.flip);
+    text += seen.changed == 0 ? fmt::format("  elsewhere: unchanged in all {} pixels\n", seen.compared)
+                              : fmt::format("  elsewhere: changed in {} of {} pixels, FLIP at most {:.2g}\n",
+                                            seen.changed, seen.compared, seen.flip);
     text += both("error against double (RMSE)", seen.error_before, seen.error_after, "");
-    return text + both("CPU of a frame of 320x180", seen.milliseconds_before, seen.milliseconds_after, " ms");
+    return text +
+           both("CPU time per frame of 320x180", seen.milliseconds_before, seen.milliseconds_after, " ms");
 }
 
 Json to_json(const lab::Offer& offer, const glsl::Cure& cure) {
@@ -183,7 +182,7 @@ Result<void> mend(const FixOptions& options, const scene::Scene& scene, const la
     Result<void> driver; // a fix is offered only if the driver drew it without an error
     mending.offered = [&](const lab::Offer& offer, std::span<const glsl::Cure> cures) {
         if (driver)
-            driver = gl::check_work("drawing cures");
+            driver = gl::check_work("drawing fixes");
         if (!driver)
             return;
         tell(dump(Json{{"offer", to_json(offer, cures.back())},
@@ -194,7 +193,7 @@ Result<void> mend(const FixOptions& options, const scene::Scene& scene, const la
         tell(dump(Json{{"remains", {{"finding", remaining.finding}, {"why", remaining.why}}}}));
     };
     TRY(lab::mend(scene, promises, mending));
-    return driver ? gl::check_work("drawing cures") : driver;
+    return driver ? gl::check_work("drawing fixes") : driver;
 }
 
 /// Shows the child's lines as they arrive.
@@ -223,7 +222,7 @@ public:
                          2) +
                     "\n"));
         else if (offers_.empty() && remaining_.empty() && cut.empty())
-            TRY(put("nothing to mend\n"));
+            TRY(put("nothing to fix\n"));
         return !cut.empty()         ? exit_code(ErrorCode::timed_out)
                : remaining_.empty() ? 0
                                     : exit_code(ErrorCode::check_failed);
@@ -253,7 +252,7 @@ private:
             {remaining.at("finding").get<std::string>(), remaining.at("why").get<std::string>()});
         return options_.json
                    ? Result<void>()
-                   : put(fmt::format("{}\n  not mended: {}\n", remaining.at("finding").get<std::string>(),
+                   : put(fmt::format("{}\n  not fixed: {}\n", remaining.at("finding").get<std::string>(),
                                      remaining.at("why").get<std::string>()));
     }
 
@@ -273,7 +272,7 @@ private:
 
 /// Returns why the run did not complete; empty if it did.
 std::string why_cut(const ForkedResult& run, double budget) {
-    return run.timed_out ? fmt::format("--budget of {:.3g} s is spent: there may be more", budget)
+    return run.timed_out ? fmt::format("--budget of {:.3g} s is used up: there may be more findings", budget)
                          : run.crash;
 }
 

@@ -70,7 +70,8 @@ bool counts_threads() {
 Result<image::Image> drawn_by(ForkedHelper& painter, const render::FrameState& state, double seconds) {
     const auto run = TRY(painter.ask(dump(to_json(state)), seconds));
     if (run.timed_out)
-        return fail(ErrorCode::timed_out, fmt::format("one thread gave up after {:.3g} s", seconds));
+        return fail(ErrorCode::timed_out,
+                    fmt::format("drawing with one thread did not finish within {:.3g} s", seconds));
     if (run.output.empty())
         return fail(ErrorCode::load, run.crash);
     const Json bits = parse_json(run.output);
@@ -96,8 +97,8 @@ double seconds_since(Clock::time_point start) {
 /// The share of the remaining time that tracing one finding may take.
 constexpr double k_share_of_trace = 0.9;
 
-constexpr const char* k_not_asked = "--budget is spent: not asked";
-constexpr const char* k_not_finished = "--budget is spent: not finished";
+constexpr const char* k_not_asked = "not run: --budget is used up";
+constexpr const char* k_not_finished = "not finished: --budget is used up";
 
 std::string probe_names() {
     std::string names;
@@ -109,7 +110,8 @@ std::string probe_names() {
 Result<std::vector<const lab::Probe*>> chosen_probes(const std::vector<std::string>& names) {
     for (const std::string& name : names)
         if (std::ranges::find(lab::all_probes(), name, &lab::Probe::name) == lab::all_probes().end())
-            return fail(ErrorCode::usage, fmt::format("--probe {}: there are {}", name, probe_names()));
+            return fail(ErrorCode::usage,
+                        fmt::format("--probe {}: no such probe; there are {}", name, probe_names()));
     std::vector<const lab::Probe*> chosen;
     for (const lab::Probe& probe : lab::all_probes())
         if (names.empty() || std::ranges::find(names, probe.name) != names.end())
@@ -138,7 +140,7 @@ Result<ProbeResult> ask(const lab::Probe& probe, lab::ProbeBench& bench, bool by
     ProbeResult asked{&probe, {}};
     const auto skipped = bench.promises().skip.find(std::string(probe.name));
     if (!by_name && skipped != bench.promises().skip.end()) {
-        asked.answer = {Verdict::not_applicable, "left out by the scene: " + skipped->second};
+        asked.answer = {Verdict::not_applicable, "skipped by the scene: " + skipped->second};
     } else if (!time_left) {
         asked.answer = {Verdict::cut, k_not_asked};
     } else {
@@ -166,7 +168,7 @@ Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, co
     lab::ProbeBench bench(scene, promises, with_one_thread);
     for (const lab::Probe* probe : probes) {
         auto asked = TRY(ask(*probe, bench, !request.probes.empty(), seconds_since(start) < request.budget));
-        const auto driver = gl::check_work("it drew");
+        const auto driver = gl::check_work("drawing");
         if (!driver)
             asked.answer = {Verdict::fail, driver.error().message};
         if (auto kept = keep_picture(OutputPath::typed(request.output).sparing(files_read(scene)), asked);
@@ -255,7 +257,7 @@ void trace(const ProbesRequest& request, const scene::Scene& scene, ProbeResult&
     const auto found = set.and_then([&](const scene::Scene& same) -> Result<TraceFound> {
         if (seconds > 0)
             return trace_apart(same, job, seconds);
-        return fail(ErrorCode::timed_out, "--budget is spent");
+        return fail(ErrorCode::timed_out, "--budget is used up");
     });
     if (!found)
         asked.trace = fmt::format("not traced: {}\n", to_string(found.error()));

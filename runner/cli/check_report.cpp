@@ -34,7 +34,7 @@ std::string place(const SourceLocation& where) {
     for (const int number : {where.line, where.column})
         if (number > 0)
             text += fmt::format(":{}", number);
-    return text.empty() ? "(a line of tidemark's own)" : text;
+    return text.empty() ? "(a line added by tidemark)" : text;
 }
 
 std::string operands(const NanOrigin& origin) {
@@ -61,7 +61,7 @@ bool says_all(const NanOrigin& origin) {
 std::string sentence(const NanOrigin& origin) {
     const std::string_view value = origin.value ? lab::worst_of(*origin.value) : std::string_view{};
     std::string text = fmt::format("`{}` {}", origin.statement,
-                                   value.empty() ? std::string("is the first that is not finite")
+                                   value.empty() ? std::string("is the first value that is not finite")
                                                  : fmt::format("gave {}", value));
     if (!says_all(origin))
         text += fmt::format(" in `{}`", origin.operation);
@@ -69,9 +69,9 @@ std::string sentence(const NanOrigin& origin) {
     if (!origin.why.reason.empty())
         text += fmt::format(" ({})", origin.why.reason);
     if (!origin.source.empty())
-        text += fmt::format("; it came in through {}", origin.source);
+        text += fmt::format("; it was read from {}", origin.source);
     else if (origin.why.cause == lab::OriginCause::carried && origin.why.operand < origin.operands.size())
-        text += "; an operand was not finite before";
+        text += "; an operand was already not finite";
     return text;
 }
 
@@ -135,11 +135,11 @@ std::string to_text(const NanTrace& trace) {
         text = fmt::format("{}: {} in {}\n{}", place(trace.first->where), sentence(*trace.first),
                            pixel_text(trace), way(*trace.first));
     else
-        text = fmt::format("{} is not finite; no operation in it gave that\n", pixel_text(trace));
+        text = fmt::format("{} is not finite; no operation of the pixel is its origin\n", pixel_text(trace));
     if (trace.masked)
-        text += "  the pixel itself is finite: it was masked on the way\n";
+        text += "  the pixel itself is finite: the value was masked\n";
     if (trace.fix && !trace.fix_is_first)
-        text += fmt::format("{}: {}: fixing this one fixes the pixel\n{}", place(trace.fix->where),
+        text += fmt::format("{}: {}; fixing this operation fixes the pixel\n{}", place(trace.fix->where),
                             sentence(*trace.fix), way(*trace.fix));
     for (const std::string& note : trace.notes)
         text += fmt::format("  note: {}\n", note);
@@ -227,10 +227,10 @@ Result<TraceFound> trace_apart(const scene::Scene& scene, const TraceJob& job, d
         return fail(*std::move(error));
     TraceFound result;
     result.found = line.contains("trace");
-    result.ended = run->timed_out ? fmt::format("gave up after {:.3g} s", seconds) : run->crash;
+    result.ended = run->timed_out ? fmt::format("stopped after {:.3g} s", seconds) : run->crash;
     if (run->timed_out && heard.frame >= 0)
         result.ended +=
-            fmt::format(" at frame {} of {}: a scene with feedback is drawn frame by frame from {}",
+            fmt::format(" at frame {} of {}: a scene with feedback must be drawn frame by frame from {}",
                         heard.frame, job.request.frame, job.request.start);
     if (!result.ended.empty() && !result.found)
         return fail(run->timed_out ? ErrorCode::timed_out : ErrorCode::load,
@@ -413,7 +413,7 @@ struct Group {
 /// The most urgent group first.
 constexpr Group k_groups[] = {{Verdict::fail, "fail", "Failures"},
                               {Verdict::warn, "warn", "Warnings"},
-                              {Verdict::cut, "cut", "Cut off by the budget"},
+                              {Verdict::cut, "cut", "Cut off by --budget"},
                               {Verdict::pass, "pass", "Passed"},
                               {Verdict::not_applicable, "not-applicable", "Not applicable"}};
 
@@ -434,7 +434,7 @@ std::string picture(const ProbeResult& asked) {
     const auto bytes = read_file(asked.picture);
     if (!bytes)
         return {};
-    return fmt::format("<figure><img src=\"data:image/png;base64,{}\" alt=\"what {} saw\"></figure>\n",
+    return fmt::format("<figure><img src=\"data:image/png;base64,{}\" alt=\"picture of {}\"></figure>\n",
                        base64(*bytes), escaped(asked.probe->name));
 }
 

@@ -74,7 +74,7 @@ Result<std::vector<Pair>> pairs_of(const CompareOptions& options) {
     const bool numbered = reference->begin()->first.has_value();
     if (numbered != test->begin()->first.has_value())
         return fail(ErrorCode::usage,
-                    fmt::format("'{}' is a sequence and '{}' is one picture: compare like with like",
+                    fmt::format("'{}' is a sequence and '{}' is one picture: give two of the same kind",
                                 numbered ? options.reference : options.test,
                                 numbered ? options.test : options.reference));
     std::vector<Pair> pairs;
@@ -82,14 +82,14 @@ Result<std::vector<Pair>> pairs_of(const CompareOptions& options) {
         const auto other = test->find(frame);
         if (other == test->end())
             return fail(ErrorCode::check_failed,
-                        fmt::format("frame {} is missing: there is '{}' but none of it in '{}'", *frame,
+                        fmt::format("frame {} is missing: '{}' has no counterpart in '{}'", *frame,
                                     file.string(), options.test));
         pairs.push_back({frame, file, other->second});
     }
     for (const auto& [frame, file] : *test)
         if (!reference->contains(frame))
             return fail(ErrorCode::check_failed,
-                        fmt::format("frame {} is missing: there is '{}' but none of it in '{}'", *frame,
+                        fmt::format("frame {} is missing: '{}' has no counterpart in '{}'", *frame,
                                     file.string(), options.reference));
     return pairs;
 }
@@ -103,7 +103,7 @@ std::vector<std::filesystem::path> pictures_of(const std::vector<Pair>& pairs) {
 
 Result<void> check(const CompareOptions& options) {
     if (!(options.tolerance >= 0.0))
-        return fail(ErrorCode::usage, "--tolerance: give a number from 0 up, in parts of the peak");
+        return fail(ErrorCode::usage, "--tolerance: give a number from 0 up, as a part of the peak");
     if (options.gain && !(*options.gain > 0.0))
         return fail(ErrorCode::usage, "--gain: give a number above 0");
     return {};
@@ -130,7 +130,7 @@ std::vector<std::string> failures(const CompareOptions& options, const Pair& pai
                         : metric.more_is_better     ? "below"
                                                     : "above",
                         metric.option, *limit,
-                        no_number ? ": NaN or infinity against a number, or another of them" : ""));
+                        no_number ? ": NaN or infinity where the other picture has another value" : ""));
     }
     return lines;
 }
@@ -183,7 +183,8 @@ Result<int> compare(const CompareOptions& options) {
     std::optional<OutputName> output;
     if (!options.output.empty()) {
         if (options.output == "-")
-            return fail(ErrorCode::usage, "-o: the picture of the difference needs a file");
+            return fail(ErrorCode::usage,
+                        "-o: the difference picture cannot go to standard output; give a file");
         TRY(image::check_picture_name(options.output));
         output = TRY(OutputName::parse(options.output, pairs.size()));
         output->spare(pictures_of(pairs));
@@ -222,35 +223,37 @@ Result<int> compare(const CompareOptions& options) {
 
 void add_compare(Command app, Action& chosen) {
     auto options = std::make_shared<CompareOptions>();
-    Command command = app.add_subcommand("compare", "Tells how far two pictures or two sequences are apart");
-    command.add_option("A", options->reference, "The reference: a picture, or a sequence with %04d or ####")
+    Command command = app.add_subcommand("compare", "Measures how much two pictures or two sequences differ");
+    command.add_option("A", options->reference, "Reference: a picture, or a sequence with %04d or ####")
         .required();
-    command.add_option("B", options->test, "What is compared with it").required();
+    command.add_option("B", options->test, "Picture or sequence to compare with the reference").required();
     command
         .add_option("-o,--output", options->output,
-                    "Picture of the difference: .png .jpg .tif .exr .hdr, %04d or #### for a sequence")
+                    "Writes a difference picture: .png .jpg .tif .exr .hdr, %04d or #### for a sequence")
         .type_name("OUT");
-    command.add_option("--map", options->map, "What that picture shows: |A - B|, or FLIP in false colours")
+    command
+        .add_option("--map", options->map,
+                    "What the difference picture shows: |A - B|, or FLIP in false colours")
         .type_name("difference|flip")
         .check(one_of({"difference", "flip"}))
         .capture_default_str();
     command
         .add_option("--gain", options->gain,
-                    "|A - B| is drawn so many times brighter [8; 1 where the file has floats]")
+                    "Factor for |A - B| in that picture [8; 1 for files with floats]")
         .type_name("G");
     command
         .add_option("--tolerance", options->tolerance,
-                    "A pixel differs when a sample does by more than this part of the peak")
+                    "A pixel counts as different if a sample differs by more than this part of the peak")
         .type_name("D")
         .capture_default_str();
     for (size_t i = 0; i < k_metric_count; ++i)
         command
             .add_option(k_metrics[i].option, options->limits[i],
-                        fmt::format("Exit 1 where {} is {} this", k_metrics[i].label,
+                        fmt::format("Exit code 1 if {} is {} this", k_metrics[i].label,
                                     k_metrics[i].more_is_better ? "below" : "above"))
             .type_name("X")
             .check(number<double>("a number"));
-    command.add_flag("--json", options->json, "One JSON object on standard output");
+    command.add_flag("--json", options->json, "Prints one JSON object");
     command.on_call([options, &chosen] { chosen = [options] { return compare(*options); }; });
 }
 

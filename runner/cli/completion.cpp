@@ -195,10 +195,12 @@ void add_completion(Command app, Action& chosen) {
     };
     auto options = std::make_shared<Options>();
     Command command = app.add_subcommand("completion", "Prints the completion script for bash, zsh or fish");
-    command.add_option("SHELL", options->what, "bash, zsh or fish; words: what the last WORD may become")
+    command
+        .add_option("SHELL", options->what,
+                    "bash, zsh or fish; words: the possible completions of the last WORD")
         .type_name("bash|zsh|fish|words")
         .check(one_of({"bash", "zsh", "fish", "words"}));
-    command.add_option("WORD", options->words, "With words, behind --: the line as far as it is typed")
+    command.add_option("WORD", options->words, "With words: the command line typed so far, after --")
         .take_all();
     command.on_call([options, app, &chosen] {
         chosen = [options, app] { return print_completion(app, options->what, options->words); };

@@ -54,12 +54,12 @@ Result<std::string> project_of(const ExportOptions& options, std::vector<fs::pat
     const SceneRequest& request = options.scene;
     if (const fs::path folder = project_folder(request.path); !folder.empty()) {
         if (!request.sets.empty())
-            return fail(ErrorCode::usage, "--set: a scene folder with a scene.json is exported as it is");
+            return fail(ErrorCode::usage, "--set: a scene folder with a scene.json is exported unchanged");
         read = scene::scene_files_in(folder);
         return scene::join_project(folder, scene::Bounds(folder, request.files.allow_outside));
     }
     if (request.path.extension() == ".json")
-        return fail(ErrorCode::usage, fmt::format("'{}' is ShaderToy's JSON already", request.path.string()));
+        return fail(ErrorCode::usage, fmt::format("'{}' is already ShaderToy's JSON", request.path.string()));
     const auto scene = load(request);
     if (!scene)
         return fail(scene.error());
@@ -75,14 +75,14 @@ Result<int> export_scene(const ExportOptions& options) {
     const std::string& target = options.target();
     if (options.json && target == "-")
         return fail(ErrorCode::usage,
-                    fmt::format("--json and {} - both want standard output: give one of them",
+                    fmt::format("--json and {} - both write to standard output: give one of them",
                                 options.html.empty() ? "-o" : "--html"));
     if (options.html.empty())
         for (const auto& [given, option] : {std::pair(options.embed, "--embed"),
                                             {!options.scene.files.media.empty(), "--media"},
                                             {!options.frames.numbers.empty(), "--bpm"}})
             if (given)
-                return fail(ErrorCode::usage, fmt::format("{} goes with --html FILE", option));
+                return fail(ErrorCode::usage, fmt::format("{} needs --html FILE", option));
     std::vector<fs::path> read;
     const auto text = TRY(options.html.empty() ? project_of(options, read) : page_of(options, read));
     if (target == "-")
@@ -101,25 +101,25 @@ Result<int> export_scene(const ExportOptions& options) {
 void add_export(Command app, Action& chosen) {
     auto options = std::make_shared<ExportOptions>();
     Command command = app.add_subcommand(
-        "export", "Makes ShaderToy's JSON of a scene, or a page that draws it in any browser");
+        "export", "Converts a scene to ShaderToy's JSON, or to a page that draws it in any browser");
     command.add_option("SCENE", options->scene.path, "A scene folder, or a file with mainImage").required();
     const Option output = command.add_option("-o,--output", options->output, "File; -: standard output")
                               .type_name("FILE")
                               .capture_default_str();
     command
         .add_option("--html", options->html,
-                    "A page that draws the scene in a browser, all in one file; -: standard output")
+                    "Writes a page that draws the scene in a browser, all in one file; -: standard output")
         .type_name("FILE")
         .excludes(output);
-    command.add_flag("--embed", options->embed, "With --html: a <div> for a page of your own");
+    command.add_flag("--embed", options->embed, "With --html: writes a <div> for a page of your own");
     command
         .add_option("--set", options->scene.sets,
-                    "Value of a knob (#iUniform): a constant in JSON, where it begins in a page")
+                    "Value of a knob (#iUniform): a constant in JSON, the first value in a page")
         .repeatable()
         .type_name("NAME=VALUE");
     add_number_options(command, options->frames, "--bpm");
     add_file_options(command, options->scene);
-    command.add_flag("--json", options->json, "One JSON object on standard output");
+    command.add_flag("--json", options->json, "Prints one JSON object");
     command.on_call([options, &chosen] { chosen = [options] { return export_scene(*options); }; });
 }
 

@@ -72,10 +72,10 @@ std::string look_at(const std::filesystem::path& file, const Fingerprint& wanted
         return "missing";
     const auto metadata = image::read_metadata(file);
     if (!metadata)
-        return "not whole: " + metadata.error();
+        return "incomplete: " + metadata.error();
     const std::string* text = image::find(*metadata, k_fingerprint);
     if (!text)
-        return "without a fingerprint";
+        return "no fingerprint";
     const Fingerprint found = Fingerprint::parse(*text);
     const std::string* device = image::find(*metadata, "Driver");
     ++gathered.devices[device ? *device : "an unknown device"];
@@ -100,7 +100,7 @@ std::string look_at_segment(const std::filesystem::path& file, const Fingerprint
         return "missing";
     const auto note = image::note_of_segment(file);
     if (!note)
-        return "not whole";
+        return "incomplete";
     const Fingerprint found = Fingerprint::parse(*note);
     const bool here = wanted.on_device_of(found) == wanted;
     ++gathered.devices[here ? "this device" : fmt::format("device {}", found.device())];
@@ -136,7 +136,7 @@ void count_devices(Gathered& result, std::string_view what) {
 Gathered gathered_segments(const CapturePlan& plan, int shards) {
     Gathered result;
     std::vector<Wrong> all;
-    Progress progress("segments looked at", plan.segments.size());
+    Progress progress("segments checked", plan.segments.size());
     for (size_t i = 0; i < plan.segments.size(); ++i, progress.advance()) {
         const auto file = segment_file(plan.output, i).path();
         const Fingerprint wanted = Fingerprint::parse(note_of(plan, plan.segments[i]));
@@ -144,14 +144,13 @@ Gathered gathered_segments(const CapturePlan& plan, int shards) {
             note(all, std::move(what), file.string());
     }
     for (const auto& [what, first, count] : all)
-        result.wrong.push_back(fmt::format("{} of {} segments: {}, {} first (shard {}/{})", count,
+        result.wrong.push_back(fmt::format("{} of {} segments: {}; the first is {} (shard {}/{})", count,
                                            plan.segments.size(), what, first,
                                            shard_of_segment(plan, shards, first), shards));
     std::error_code ignored;
     if (result.devices.empty() && std::filesystem::exists(plan.output.pattern(), ignored))
         result.wrong.push_back(
-            fmt::format("{} is there, and none of its segments: where it was joined before, "
-                        "nothing is left to do",
+            fmt::format("{} exists, but none of its segments; if it was joined before, nothing is left to do",
                         plan.output.pattern().string()));
     count_devices(result, "segments");
     return result;
@@ -164,7 +163,7 @@ Gathered gathered(const CapturePlan& plan, int shards) {
         return gathered_segments(plan, shards);
     Gathered result;
     std::vector<Wrong> all;
-    Progress progress("frames looked at", plan.frames.frames.size());
+    Progress progress("frames checked", plan.frames.frames.size());
     for (const int frame : plan.frames.frames) {
         for (const std::filesystem::path& file : files_of(plan.output, frame))
             if (auto what = look_at(file, plan.identity_of(frame), result); !what.empty())
@@ -172,7 +171,7 @@ Gathered gathered(const CapturePlan& plan, int shards) {
         progress.advance();
     }
     for (const auto& [what, first, count] : all)
-        result.wrong.push_back(fmt::format("{} of {} frames: {}, {} first (shard {}/{})", count,
+        result.wrong.push_back(fmt::format("{} of {} frames: {}; the first is {} (shard {}/{})", count,
                                            plan.frames.frames.size(), what, first,
                                            shard_of(plan, shards, first), shards));
     count_devices(result, "frames");
@@ -200,9 +199,10 @@ Result<CapturePlan> shared_plan(const GatherOptions& options, const ShardNote& n
     std::error_code ignored;
     const fs::path folder = plan.output.of_frame(0).path().parent_path();
     if (!fs::equivalent(folder.empty() ? "." : folder, options.folder, ignored))
-        return fail(ErrorCode::usage,
-                    fmt::format("'{}' was written for '{}': run gather where the shards were run",
-                                file.string(), plan.output.pattern().string()));
+        return fail(
+            ErrorCode::usage,
+            fmt::format("'{}' was written for '{}': run gather in the folder from which the shards were run",
+                        file.string(), plan.output.pattern().string()));
     plan.output.came_from_a_file();
     plan.trial.reset(); // shards make none
     return plan;
@@ -262,14 +262,14 @@ Result<std::vector<std::string>> compare_sample(const GatherOptions& options, co
             const double difference = difference_of(theirs, ours);
             largest = std::max(largest, difference);
             if (!(difference <= allowed))
-                wrong.push_back(fmt::format("{} is drawn otherwise here: a sample differs by {:.3g}",
+                wrong.push_back(fmt::format("{} looks different when drawn here: a sample differs by {:.3g}",
                                             made.string(), difference));
         }
     if (wrong.empty())
-        say(fmt::format("{} of them drawn again: {}", again.frames.frames.size(),
+        say(fmt::format("{} of them drawn again for comparison: {}", again.frames.frames.size(),
                         drawn_here
                             ? "the same pixels"
-                            : fmt::format("on another device, the largest difference is {:.3g}", largest)));
+                            : fmt::format("on this other device the largest difference is {:.3g}", largest)));
     return wrong;
 }
 
@@ -302,8 +302,9 @@ Result<void> make_video(const CapturePlan& pictures, const GatherOptions& option
     plan.codec = TRY(parse_codec(options.codec, plan.output));
     if (plan.alpha != image::Alpha::where_needed &&
         !image::video_holds_alpha(plan.output.pattern(), plan.codec, plan.alpha))
-        return fail(ErrorCode::usage,
-                    fmt::format("-o {}: the frames have an alpha that it cannot hold: give a .mov", name));
+        return fail(
+            ErrorCode::usage,
+            fmt::format("-o {}: this format cannot store the alpha of the frames: give a .mov", name));
     if (plan.alpha == image::Alpha::premultiplied)
         plan.alpha = image::Alpha::straight; // in files, alpha is straight
     plan.segments = segments_of(plan.frames.frames, plan.pace, 0);
@@ -325,10 +326,10 @@ Result<void> make_video(const CapturePlan& pictures, const GatherOptions& option
 Result<void> join_video(const GatherOptions& options, const CapturePlan& plan, Interrupt& interrupt) {
     const std::string name = plan.output.pattern().string();
     if (options.video)
-        return fail(ErrorCode::usage,
-                    fmt::format("-o {}: the shards made segments of '{}', which they are joined to: leave it "
-                                "out",
-                                *options.video, name));
+        return fail(
+            ErrorCode::usage,
+            fmt::format("-o {}: the shards made segments of '{}' and are joined to that video: remove -o",
+                        *options.video, name));
     const auto sound = draw_sound_of_video(plan, interrupt);
     TRY(join(plan, sound ? sound->path() : fs::path()));
     say(fmt::format("wrote {}: {} frames", name, plan.frames.frames.size()));
@@ -353,8 +354,8 @@ Result<int> gather(const GatherOptions& options) {
     const Gathered found = gathered(plan, note.count);
     if (!found.wrong.empty())
         return report(found.wrong);
-    say(fmt::format("{} frames are there, whole and with one fingerprint, drawn by {}",
-                    plan.frames.frames.size(), found.devices.begin()->first));
+    say(fmt::format("{} frames: all complete, with one fingerprint, drawn by {}", plan.frames.frames.size(),
+                    found.devices.begin()->first));
     if (plan.output.video())
         TRY(join_video(options, plan, interrupt));
     else if (options.samples > 0)
@@ -371,22 +372,24 @@ Result<int> gather(const GatherOptions& options) {
 
 void add_gather(Command app, Action& chosen) {
     auto options = std::make_shared<GatherOptions>();
-    Command command = app.add_subcommand("gather", "Checks what the shards of a capture made, and joins it");
-    command.add_option("FOLDER", options->folder, "That the shards of `capture --shard` wrote into")
+    Command command =
+        app.add_subcommand("gather", "Checks the frames of a capture's shards, and joins a video");
+    command.add_option("FOLDER", options->folder, "Folder that the shards of `capture --shard` wrote into")
         .required()
         .check(existing_folder());
     command
-        .add_option("-o,--output", options->video, "A video of the frames: .mp4 .mkv .webm .mov .gif .webp")
+        .add_option("-o,--output", options->video,
+                    "Makes a video of the frames: .mp4 .mkv .webm .mov .gif .webp")
         .type_name("OUT");
     add_codec_option(command, options->codec);
     command.option("--codec").needs("--output");
-    command.add_option("--sample", options->samples, "Frames that are drawn again and compared")
+    command.add_option("--sample", options->samples, "Number of frames to draw again and compare")
         .type_name("N")
         .check(non_negative_number())
         .capture_default_str();
     command
         .add_option("--tolerance", options->tolerance,
-                    "How far a sample may be off where another device drew the frames [2/255]")
+                    "Largest difference of a sample allowed if another device drew the frames [2/255]")
         .type_name("D")
         .check(non_negative_number());
     command.on_call([options, &chosen] { chosen = [options] { return gather(*options); }; });

@@ -159,8 +159,7 @@ ManPage man_page(const CLI::App& command) {
 namespace {
 
 std::string list_of(const std::vector<Topic>& topics) {
-    std::string list =
-        "tidemark help TOPIC prints a page, or one of the sections that stand below it here.\n";
+    std::string list = "tidemark help TOPIC prints a page, or one of the sections listed below it.\n";
     for (const Topic& topic : topics)
         list += (topic.whole_page ? "\n" : "  ") + topic.name + '\n';
     return list;
@@ -204,10 +203,10 @@ std::vector<std::string> help_topics() {
 
 void add_help(Command app, Action& chosen) {
     auto topic = std::make_shared<std::string>();
-    Command command = app.add_subcommand("help", "Prints a section of the manual, or the list of them");
-    command.add_option("TOPIC", *topic, "A section, as in keys, recordings, directives, check");
+    Command command = app.add_subcommand("help", "Prints a section of the manual, or lists all sections");
+    command.add_option("TOPIC", *topic, "Name of a section, as in keys, recordings, directives, check");
     auto folder = std::make_shared<std::string>();
-    command.add_option("--man", *folder, "Writes a page for man(1) on every command into that folder")
+    command.add_option("--man", *folder, "Writes a man page for every command into that folder")
         .type_name("FOLDER");
     command.on_call([topic, folder, app, &chosen] {
         chosen = [topic, folder, app] {

@@ -28,8 +28,8 @@ namespace tidemark::cli {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view k_advice =
-    ": give --via a file that holds the project, or a program that prints the one of the ID behind its words";
+constexpr std::string_view k_advice = ": give --via a file that holds the project, or a program that takes "
+                                      "the project's ID as its last argument and prints the JSON";
 
 /// Returns true for a file to read, not a folder or a program.
 bool is_document(const fs::path& path) {
@@ -64,12 +64,12 @@ Result<std::string> printed_by(const ProjectSource& source, const std::string& i
     const std::string command = fmt::format("'{} {}'", source.via, id);
     if (printed)
         return fail(ErrorCode::load,
-                    fmt::format("{} printed nothing: it is to print the project's JSON", command));
+                    fmt::format("{} printed nothing; it should print the project's JSON", command));
     Error error = std::move(printed.error());
     if (error.code == ErrorCode::timed_out)
-        error.message = fmt::format("it took longer than --timeout {:g}", source.timeout);
+        error.message = fmt::format("it took longer than --timeout {:g} s", source.timeout);
     if (error.message.empty())
-        error.message = "it failed without a word";
+        error.message = "it failed without a message";
     error.message = fmt::format("{}: {}", command, error.message);
     return fail(std::move(error));
 }
@@ -92,11 +92,10 @@ Result<FoundProject> find_project(const ProjectSource& source) {
         return found_via(source);
     std::error_code ignored;
     if (!fs::exists(source.project, ignored) && scene::project_id(source.project))
-        return fail(
-            ErrorCode::usage,
-            fmt::format("'{}': no network is asked here. Save the project and give --via FILE, or a program "
-                        "of yours that fetches it: --via COMMAND",
-                        source.project));
+        return fail(ErrorCode::usage,
+                    fmt::format("'{}': Tidemark makes no network requests. Save the project and give --via "
+                                "FILE, or a program of yours that fetches it: --via COMMAND",
+                                source.project));
     auto text = TRY(read_file(source.project));
     auto json = TRY(scene::saved_project(std::move(text), "", source.project));
     return FoundProject{
@@ -154,11 +153,9 @@ Result<void> prepare_folder(const fs::path& folder, const Receipt& receipt, bool
     for (fs::directory_iterator entry(folder, error), end; !error && !force && entry != end;
          entry.increment(error))
         if (entry->path().filename() != k_receipt && !is_as_written(entry->path(), receipt))
-            return fail(
-                ErrorCode::write,
-                fmt::format("'{}' was not written by import, or has changed since: give another folder with "
-                            "-o, or --force to write into this one",
-                            entry->path().string()));
+            return fail(ErrorCode::write, fmt::format("'{}' was not written by import, or was changed since: "
+                                                      "give another folder with -o, or --force to overwrite",
+                                                      entry->path().string()));
     if (error)
         return fail(ErrorCode::write,
                     fmt::format("cannot read the folder '{}': {}", folder.string(), error.message()));
@@ -214,10 +211,10 @@ Result<fs::path> import_beside(const fs::path& json) {
 
 void add_import(Command app, Action& chosen) {
     auto options = std::make_shared<ImportOptions>();
-    Command command = app.add_subcommand("import", "Makes a scene folder of a ShaderToy project");
+    Command command = app.add_subcommand("import", "Makes a scene folder from a ShaderToy project");
     command
         .add_option("FILE", options->source.project,
-                    "A project's JSON or a saved page of it; with --via its ID or address")
+                    "The project's JSON or its saved page; with --via: its ID or address")
         .required();
     command.add_option("-o,--output", options->folder, "Folder (default: the name of the file, or the ID)")
         .type_name("FOLDER");
@@ -225,14 +222,13 @@ void add_import(Command app, Action& chosen) {
         "--via", options->source.via, "A file that holds the project, or a program of yours that prints it");
     via.type_name("FILE|COMMAND");
     command
-        .add_option("--timeout", options->source.timeout,
-                    "Gives the command of --via up after so many seconds")
+        .add_option("--timeout", options->source.timeout, "Stops the command of --via after so many seconds")
         .type_name("S")
         .needs(via)
         .check(number<double>("a number of seconds above 0", 1e-3, 1e6))
         .capture_default_str();
-    command.add_flag("--force", options->force, "Write into a folder that holds other files too");
-    command.add_flag("--json", options->json, "One JSON object on standard output");
+    command.add_flag("--force", options->force, "Writes even if the folder holds other files");
+    command.add_flag("--json", options->json, "Prints one JSON object");
     command.on_call([options, &chosen] { chosen = [options] { return import(*options); }; });
 }
 

@@ -65,10 +65,10 @@ std::string march_lines(const scene::Scene& scene, const scene::Pass& pass) {
         return text;
     for (const ir::MarchingLoop& loop : function->loops()) {
         const SourceLocation where = function->locate(loop.line);
-        text += fmt::format(
-            "  march     {}:{}: {}, leaves here where it is near the surface\n", where.file, where.line,
-            loop.kind == ir::MarchingLoop::Kind::sphere_tracing ? "steps by the distance (sphere tracing)"
-                                                                : "steps that the distance does not choose");
+        text += fmt::format("  march     {}:{}: {}; ends here near the surface\n", where.file, where.line,
+                            loop.kind == ir::MarchingLoop::Kind::sphere_tracing
+                                ? "steps by the distance (sphere tracing)"
+                                : "steps that do not depend on the distance");
     }
     return text;
 }
@@ -150,7 +150,7 @@ std::string bytes_of(const DriverCode& code) {
 std::string to_line(std::string_view what, const CompiledSizes& sizes,
                     std::string (*figure)(const DriverCode&)) {
     return fmt::format(
-        "  {}: {}; of the whole text {}, in a long sequence {}, with constant knobs {}\n", what,
+        "  {}: {}; without optimisation {}, in a long sequence {}, with constant knobs {}\n", what,
         figure(of(sizes, Specialise::unreachable)), figure(of(sizes, Specialise::nothing)),
         figure(of(sizes, Specialise::invariant_uniforms)), figure(of(sizes, Specialise::constants)));
 }
@@ -178,7 +178,7 @@ std::vector<std::optional<CompiledSizes>> compiled_sizes(const scene::Scene& sce
 std::string to_lines(const CompiledSizes& sizes) {
     std::string text;
     if (sizes.front().bytes > 0)
-        text += to_line("bytes of program", sizes, bytes_of);
+        text += to_line("program bytes", sizes, bytes_of);
     if (!sizes.front().instructions.empty())
         text += to_line("instructions", sizes, counts_of);
     return text;
@@ -221,8 +221,9 @@ std::string to_line(const glsl::LeftOut& left_out) {
         return fmt::format("  code removed: none, because {}\n", left_out.kept_whole);
     std::string text = fmt::format("  code removed: {} lines", left_out.lines);
     if (left_out.in_doubt())
-        text += fmt::format("; in a long sequence also {} branches closed, {} expressions taken out of loops",
-                            left_out.branches, left_out.loop_invariants);
+        text +=
+            fmt::format("; in a long sequence also {} dead branches and {} expressions moved out of loops",
+                        left_out.branches, left_out.loop_invariants);
     return text + '\n';
 }
 
@@ -331,44 +332,43 @@ Result<int> inspect_scene(const InspectOptions& options) {
 
 void add_inspect(Command app, Action& chosen) {
     auto options = std::make_shared<InspectOptions>();
-    Command command = app.add_subcommand("inspect", "Tells what a scene needs and what was left out");
+    Command command = app.add_subcommand("inspect", "Shows what a scene needs and what was left out");
     add_scene_options(command, options->scene);
     command.option("SCENE").required(false);
     add_precision_options(command, options->scene);
     add_device_options(command, options->device);
     command.option("--device")
-        .description("Where to draw: a name from --devices; none: without a driver, what the files say");
-    command.add_option("--pass", options->pass, "The pass to look at, as in \"Buffer A\" [Image]")
+        .description("Device to draw with: a name from --devices; none: uses no driver and reports only what "
+                     "the files say");
+    command.add_option("--pass", options->pass, "Pass to inspect, as in \"Buffer A\" [Image]")
         .type_name("NAME");
     const Option devices = command.add_flag("--devices", options->devices,
-                                            "Lists where OpenGL contexts can be had, and no scene");
+                                            "Lists the devices that offer an OpenGL context; needs no SCENE");
     command
         .add_flag("--self-test", options->self_test,
-                  "With --devices: what each of them can be trusted with, a verdict a line")
+                  "With --devices: tests each device and prints one verdict per line")
         .needs(devices);
-    command.add_flag("--source", options->source,
-                     "Prints the text that the driver compiles, and nothing else");
+    command.add_flag("--source", options->source, "Prints only the text that the driver compiles");
     const auto things = things_left_out();
     command
         .add_option("--with", options->with,
-                    fmt::format("Puts back what was left out and measures what that costs: {}",
-                                fmt::join(things, ", ")))
+                    fmt::format("Measures what leaving something out saves: {}", fmt::join(things, ", ")))
         .type_name("THING[,…]")
         .delimiter(',')
         .one_word()
         .check(one_of(things));
-    command.add_option("--size", options->size, "With --with: the picture's size")
+    command.add_option("--size", options->size, "With --with: size of the picture")
         .type_name("WxH")
         .capture_default_str();
-    command.add_option("--budget", options->budget, "With --with: seconds to measure for")
+    command.add_option("--budget", options->budget, "With --with: seconds to spend on measuring")
         .type_name("S")
         .check(number<double>("a number of seconds above 0", 1e-3))
         .capture_default_str();
     command
         .add_flag("--specialised", options->specialised,
-                  "With --source: the text without what the scene does not need, as a long sequence is drawn")
+                  "With --source: the optimised text that a long sequence is drawn with")
         .needs("--source");
-    command.add_flag("--json", options->json, "One JSON object on standard output");
+    command.add_flag("--json", options->json, "Prints one JSON object");
     command.on_call([options, &chosen] {
         chosen = [options]() -> Result<int> {
             if (options->devices)

@@ -89,7 +89,7 @@ Result<LibraryCost> measure_loading(const OptionalLibrary& library, double secon
             return fail(child.error());
         std::istringstream told(child->output);
         if (!(told >> wall.emplace_back() >> cpu.emplace_back() >> memory.emplace_back()))
-            return fail(ErrorCode::load, fmt::format("loading {} came to no end", library.name));
+            return fail(ErrorCode::load, fmt::format("loading {} did not finish", library.name));
     }
     return LibraryCost{{lab::median(wall), lab::median(cpu)}, lab::median(memory)};
 }
@@ -211,7 +211,7 @@ std::string to_text(const Answer& answer) {
     if (!answer.saving.cut.empty())
         return fmt::format("{:<16}  not measured: {}\n", answer.name, answer.saving.cut);
     if (!answer.saving.left_out())
-        return fmt::format("{:<16}  nothing of that kind is left out of this scene\n", answer.name);
+        return fmt::format("{:<16}  nothing of this kind is left out of this scene\n", answer.name);
     return (answer.saving.in_frame() ? row_of_frame(answer) : "") +
            (answer.saving.in_file() ? row_of_file(answer) : "");
 }
@@ -272,13 +272,13 @@ Json json_of(const LoadedLibrary& loaded) {
 
 std::string report_text(const SavingsOptions& options, const std::vector<Answer>& answers,
                         const std::vector<LoadedLibrary>& libraries) {
-    std::string text =
-        fmt::format("{}, {}, {}: milliseconds without, what the thing adds, and its 95 % interval\n",
-                    options.scene.path.string(), options.size, gl::query_capabilities().renderer);
+    std::string text = fmt::format(
+        "{}, {}, {}: milliseconds without the thing, what it adds, and the 95 % interval of that\n",
+        options.scene.path.string(), options.size, gl::query_capabilities().renderer);
     const auto in_frame = [](const Answer& answer) { return answer.saving.in_frame(); };
     if (std::ranges::any_of(answers, in_frame))
-        text += fmt::format(fmt::runtime(k_row), "with", "start", "a frame", "textures", "draws", "uniforms",
-                            "channels", "pixels");
+        text += fmt::format(fmt::runtime(k_row), "with", "start", "per frame", "textures", "draws",
+                            "uniforms", "channels", "pixels");
     for (const Answer& answer : answers)
         text += to_text(answer);
     for (const LoadedLibrary& library : libraries)

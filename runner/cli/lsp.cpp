@@ -110,8 +110,9 @@ void Hints::read(const scene::Pass& pass, const glsl::Dialect& dialect) {
     const glsl::TreeFacts facts = glsl::find_facts(**text);
     for (const glsl::Unassigned& each : glsl::find_unassigned(**text, facts))
         add((*text)->spelled(lab::word_without_value(**text, each)),
-            fmt::format("{} has no value{}: 0 on ShaderToy's site and here, anything elsewhere",
-                        (*text)->word_of(each.what), lab::words_for(each.why)));
+            fmt::format(
+                "{} has no value{}: it reads as 0 on ShaderToy's site and here, as any value elsewhere",
+                (*text)->word_of(each.what), lab::words_for(each.why)));
     for (const glsl::Divergent& each : glsl::find_divergent(**text, facts, lab::which_have_mipmaps(pass)))
         add((*text)->spelled((*text)->tree()[each.call].begin), lab::words_for(**text, each));
     for (const glsl::FloatCounter& each : glsl::miscounting_loops(**text, facts))
@@ -165,7 +166,7 @@ Result<void> examine(const fs::path& path, const scene::UnsavedTexts& texts,
     Diagnostics problems = scene.warnings;
     const auto context = platform::HeadlessContext::create(device);
     if (!context)
-        add(problems, {{{}, Severity::warning, "nothing is compiled: " + to_string(context.error())}});
+        add(problems, {{{}, Severity::warning, "could not compile: " + to_string(context.error())}});
     Hints hints(scene);
     for (const scene::Pass& pass : scene.passes) {
         if (!context)
@@ -282,9 +283,8 @@ private:
         while (const auto message = reader_.next())
             TRY(receive(*message));
         if (reader_.broken())
-            return fail(ErrorCode::usage,
-                        "what comes in is no language server protocol: a message begins with "
-                        "a header `Content-Length: N` and an empty line");
+            return fail(ErrorCode::usage, "the input is not the language server protocol: a message begins "
+                                          "with a header `Content-Length: N` and an empty line");
         return true;
     }
 
@@ -339,11 +339,10 @@ Result<int> serve(const LspOptions& options) {
 
 void add_lsp(Command app, Action& chosen) {
     auto options = std::make_shared<LspOptions>();
-    Command command =
-        app.add_subcommand("lsp", "A language server for editors, on standard input and output");
+    Command command = app.add_subcommand("lsp", "Language server for editors, on standard input and output");
     add_device_options(command, options->device);
     add_memory_option(command, options->limits);
-    command.add_option("--timeout", options->timeout, "Give up a scene that takes longer to compile")
+    command.add_option("--timeout", options->timeout, "Stops compiling a scene that takes longer")
         .type_name("SECONDS")
         .check(number<double>("a number of seconds from 0.1", 0.1))
         .capture_default_str();

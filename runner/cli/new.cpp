@@ -31,8 +31,8 @@ Result<const SceneTemplate*> template_of(const NewOptions& options) {
     const SceneTemplate* first = options.chosen.front();
     for (const SceneTemplate* other : options.chosen)
         if (other != first)
-            return fail(ErrorCode::usage,
-                        fmt::format("{} and {} are two scenes: give one of them", first->flag, other->flag));
+            return fail(ErrorCode::usage, fmt::format("{} and {} are different scenes: give one of them",
+                                                      first->flag, other->flag));
     return first;
 }
 
@@ -42,7 +42,8 @@ Result<fs::path> scene_path(fs::path name, const SceneTemplate& scene) {
         name = name.parent_path(); // for example pond/
     if (name.filename().empty() || name.filename() == "." || name.filename() == "..")
         return fail(ErrorCode::usage,
-                    fmt::format("'{}' is no name: give one as in `tidemark new waves`", name.string()));
+                    fmt::format("'{}' is not a name for a scene: give one as in `tidemark new waves`",
+                                name.string()));
     if (scene.is_folder() || name.extension() == ".glsl" || name.extension() == ".frag")
         return name;
     return name += ".glsl";
@@ -53,7 +54,7 @@ Result<void> refuse_what_is_there(const fs::path& path) {
     std::error_code error;
     if (fs::symlink_status(path, error).type() == fs::file_type::not_found)
         return {};
-    return fail(ErrorCode::write, fmt::format("there is a '{}' already: give another name", path.string()));
+    return fail(ErrorCode::write, fmt::format("'{}' already exists: give another name", path.string()));
 }
 
 Result<std::vector<fs::path>> write_scene(const fs::path& path, const SceneTemplate& scene) {
@@ -78,7 +79,7 @@ Result<int> make_scene(const NewOptions& options) {
         say(fmt::format("wrote {}", file.string()));
         report["files"].push_back(file.string());
     }
-    say(fmt::format("see it with: tidemark {}", shell_word(path.string())));
+    say(fmt::format("open it with: tidemark {}", shell_word(path.string())));
     return options.json ? put(dump(report, 2) + "\n").map([] { return 0; }) : Result<int>(0);
 }
 
@@ -86,14 +87,14 @@ Result<int> make_scene(const NewOptions& options) {
 
 void add_new(Command app, Action& chosen) {
     auto options = std::make_shared<NewOptions>();
-    Command command = app.add_subcommand("new", "Writes a commented scene to start from");
-    command.add_option("NAME", options->name, "The scene's name: NAME.glsl, or a folder").required();
+    Command command = app.add_subcommand("new", "Writes a commented example scene to start from");
+    command.add_option("NAME", options->name, "Name of the scene: a file NAME.glsl, or a folder").required();
     for (const SceneTemplate& scene : scene_templates())
         if (!scene.flag.empty())
             command.add_flag(
                 std::string(scene.flag), [options, &scene] { options->chosen.push_back(&scene); },
                 std::string(scene.meaning));
-    command.add_flag("--json", options->json, "One JSON object on standard output");
+    command.add_flag("--json", options->json, "Prints one JSON object");
     command.on_call([options, &chosen] { chosen = [options] { return make_scene(*options); }; });
 }
 

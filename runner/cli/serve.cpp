@@ -237,22 +237,20 @@ Result<std::string> token_for(const ServeOptions& options) {
 /// Prints the address on standard output. It contains the token, so it gives access and must be kept secret.
 Result<void> announce(const RemoteScreen& screen) {
     if (!screen.is_loopback())
-        say("warning: everybody who can reach this machine can read along: neither the pictures nor the "
-            "token are encrypted. Without --host, `ssh -L` brings them to another machine in private");
+        say("warning: the connection is not encrypted: others on the network can read the pictures and the "
+            "token. For a private connection leave out --host and use `ssh -L`");
     return put(screen.address() + "\n");
 }
 
 Result<int> serve_scene(const ServeOptions& options) {
     if (options.host.empty())
-        return fail(ErrorCode::usage,
-                    "--host '': give an address or a name of this machine, as in --host 127.0.0.1; 0.0.0.0 "
-                    "is every address of it");
+        return fail(ErrorCode::usage, "--host '': give an address or a name of this machine, as in --host "
+                                      "127.0.0.1; 0.0.0.0 stands for all its addresses");
     auto frames = TRY(resolve(sized(options.frames, options.scene)));
     const Extent size = frames.state.extent;
     if (std::max(size.width, size.height) > k_largest_picture)
         return fail(ErrorCode::usage,
-                    fmt::format("--size {}x{}: a picture that is sent has at most {} pixels "
-                                "on a side",
+                    fmt::format("--size {}x{}: pictures sent to a browser have at most {} pixels on a side",
                                 size.width, size.height, k_largest_picture));
     const serve::ServerSettings server{options.host, uint16_t(options.port), TRY(token_for(options)), {}};
     auto settings = TRY(resolve(options, std::move(frames)));
@@ -273,22 +271,22 @@ void add_serve(Command app, Action& chosen) {
     Command command =
         app.add_subcommand("serve", "Shows a scene in browsers, from a machine without a display");
     add_viewer_options(command, *options);
-    command.add_option("--host", options->host, "Where to listen: an address or a name of this machine")
+    command.add_option("--host", options->host, "Address to listen at: an address or a name of this machine")
         .type_name("HOST")
         .capture_default_str();
-    command.add_option("--port", options->port, "Where to listen; 0: any that is free")
+    command.add_option("--port", options->port, "Port to listen at; 0: any free port")
         .type_name("N")
         .check(number<int>("a whole number from 0 to 65535", 0, 65535))
         .capture_default_str();
     command
         .add_option("--token-file", options->token_file,
-                    "Has the address's token, as TIDEMARK_TOKEN may; else one is made")
+                    "File with the access token; without it TIDEMARK_TOKEN is used, else a random token")
         .type_name("FILE");
-    command.add_option("--quality", options->quality, "Of the pictures: JPEG's, from 1 to 100")
+    command.add_option("--quality", options->quality, "JPEG quality, from 1 to 100")
         .type_name("N")
         .check(number<int>("a whole number from 1 to 100", 1, 100))
         .capture_default_str();
-    command.add_flag("--once", options->once, "Ends when the last viewer has left");
+    command.add_flag("--once", options->once, "Ends when the last viewer disconnects");
     command.on_call([options, &chosen] { chosen = [options] { return serve_scene(*options); }; });
 }
 

@@ -34,8 +34,8 @@ Result<lab::Goal> goal_of(const SimplifyOptions& options) {
         return lab::Goal{lab::Measure::rmse, 0, {}};
     const lab::Goal goal = TRY(lab::parse_goal(options.most_error));
     if (goal.measure == lab::Measure::wrong)
-        return fail(ErrorCode::usage, "--max-error: a cut is held against the picture: give rmse=0.01, "
-                                      "psnr=40dB or flip=0.02");
+        return fail(ErrorCode::usage,
+                    "--max-error: simplify compares pictures: give rmse=0.01, psnr=40dB or flip=0.02");
     return goal;
 }
 
@@ -143,14 +143,15 @@ void add_simplify(Command app, Action& chosen) {
     options->usual_views = "1;4.3;10;31";
     options->early_views = "0.2;0.5;1;2";
     Command command = app.add_subcommand(
-        "simplify", "Finds what a scene can do without, within a stated error of its picture");
+        "simplify", "Finds code that a scene can do without, within a stated error of the picture");
     add_scene_options(command, options->scene);
     command
-        .add_option("--max-error", options->most_error,
-                    "How far from the scene as it is, in every view: flip=0.02, rmse=0.01 or psnr=40dB")
+        .add_option(
+            "--max-error", options->most_error,
+            "Largest error against the unchanged scene, in every view: flip=0.02, rmse=0.01 or psnr=40dB")
         .type_name("MEASURE=V")
         .capture_default_str();
-    command.add_flag("--exact", options->exact, "Only what leaves every pixel as it is")
+    command.add_flag("--exact", options->exact, "Only changes that leave every pixel unchanged")
         .excludes("--max-error");
     add_search_options(command, *options);
     command.on_call([options, &chosen] { chosen = [options] { return simplify(*options); }; });

@@ -50,8 +50,9 @@ Result<lab::Study> base_study(const StudyOptions& options) {
     const fs::path beside = file_beside(options.scene.path, "study.json");
     const bool exists = fs::exists(beside, ignored);
     if (!exists && options.vary.empty())
-        return fail(ErrorCode::usage, fmt::format("there is no '{}': say what to turn with --vary NAME=a,b,c",
-                                                  beside.string()));
+        return fail(
+            ErrorCode::usage,
+            fmt::format("there is no '{}': name a knob to study with --vary NAME=a,b,c", beside.string()));
     if (!exists)
         return lab::Study{};
     const scene::Bounds bounds(beside.parent_path(), options.scene.files.allow_outside);
@@ -106,7 +107,7 @@ Result<lab::Study> plan_study(const StudyOptions& options) {
         study->extent = extent;
     }
     if (study->series.empty())
-        return fail(ErrorCode::usage, "the study turns no knob: give it \"series\", or --vary NAME=a,b,c");
+        return fail(ErrorCode::usage, "the study varies no knob: give it \"series\", or --vary NAME=a,b,c");
     return study;
 }
 
@@ -127,7 +128,8 @@ Result<size_t> hold_against_baseline(const std::string& file, const std::string&
     for (const auto* lines : {&found.notes, &found.worse})
         for (const std::string& line : *lines)
             say(line);
-    say(fmt::format("against the baseline: {} of {} settings worse", found.worse.size(), found.compared));
+    say(fmt::format("compared with the baseline: {} of {} settings are worse", found.worse.size(),
+                    found.compared));
     return found.worse.size();
 }
 
@@ -176,7 +178,7 @@ void add_study(Command app, Action& chosen) {
     add_precision_options(command, options->scene);
     command.add_option("-o,--output", options->output, "Folder for the report [SCENE-study]")
         .type_name("FOLDER");
-    command.add_option("--study", options->file, "What to study [SCENE.study.json]")
+    command.add_option("--study", options->file, "File that describes the study [SCENE.study.json]")
         .type_name("FILE")
         .check(existing_file());
     command
@@ -185,27 +187,28 @@ void add_study(Command app, Action& chosen) {
         .type_name("NAME=a,b,c")
         .repeatable();
     command
-        .add_option(
-            "--views", options->views,
-            "Times and places of the mouse as parts of the picture, as in 0;10@0.75,0.4; or a file [1;10]")
+        .add_option("--views", options->views,
+                    "Views to measure: times, and mouse positions as parts of the picture, as in "
+                    "0;10@0.75,0.4; or a file [1;10]")
         .type_name("LIST|FILE");
     command
-        .add_option("--reference", options->reference,
-                    "Settings that count as the truth [the strictest, made stricter until nothing moves]")
+        .add_option(
+            "--reference", options->reference,
+            "Settings of the reference [the strictest, made stricter until the picture no longer changes]")
         .type_name("NAME=V,...")
         .repeatable();
     command.add_option("--size", options->size, "Resolution in pixels [320x180]").type_name("WxH");
     command
         .add_option("--budget", options->timing.budget,
-                    "Seconds for the timing: fewer rounds when 40 take longer")
+                    "Seconds for the timing; fewer rounds if 40 take longer")
         .type_name("S")
         .capture_default_str();
     command
         .add_option("--baseline", options->baseline,
-                    "An older study.json: exit 1 where something is slower or more wrong beyond noise")
+                    "An older study.json; exit code 1 if a setting is slower or less exact, beyond noise")
         .type_name("FILE");
     add_device_options(command, options->device);
-    command.add_flag("--json", options->json, "study.json on standard output, too");
+    command.add_flag("--json", options->json, "Also prints study.json");
     command.on_call([options, &chosen] { chosen = [options] { return study(*options); }; });
 }
 

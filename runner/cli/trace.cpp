@@ -60,7 +60,7 @@ std::string turn_number(const lab::Turns& turns) {
     return fmt::format("{}", fmt::join(turns, "."));
 }
 std::string turn_words(const lab::Turns& turns) {
-    return turns.empty() ? "" : " in turn " + turn_number(turns);
+    return turns.empty() ? "" : " in iteration " + turn_number(turns);
 }
 
 /// Returns NaN, +Inf or -Inf; empty for a finite number.
@@ -105,7 +105,8 @@ std::string colour(const PixelTrace& trace) {
     if (trace.end == PixelTrace::End::discarded)
         return "the pixel is discarded\n";
     if (trace.end == PixelTrace::End::too_long)
-        return "given up: the pixel takes too many operations; what follows is of those above\n";
+        return "stopped: the pixel takes too many operations; the rest covers only the operations up to "
+               "there\n";
     std::string text =
         fmt::format("  {:8}{:>16}{:>20}{:>8}{:>16}\n", "colour", "float", "double", "digits", "device");
     for (size_t i = 0; i < trace.in_float.size(); ++i)
@@ -114,10 +115,10 @@ std::string colour(const PixelTrace& trace) {
                             double_text(trace.in_double[i], TracedValue::Kind::real), trace.digits[i],
                             float_text(trace.on_device[i], TracedValue::Kind::real));
     if (trace.at_base_level)
-        text += "  textures are read at their base level where the device chooses a mipmap\n";
+        text += "  note: textures are read at their base level here; the device chooses a mipmap\n";
     if (!lab::is_as_drawn(trace))
-        text += "  the device's colour is another one, by more than these roundings: its own functions "
-                "or filters differ, or it combines operations\n";
+        text += "  the device's colour differs by more than rounding: its functions or filters differ, or it "
+                "combines operations\n";
     return text;
 }
 
@@ -127,18 +128,18 @@ std::string mark(const TracedValue& value, double fewest) {
     if (!value.finite())
         return "  not finite";
     if (value.mismatch())
-        return "  double has it otherwise";
+        return "  differs in double";
     if (value.unstable)
-        return "  rounding decides";
+        return "  decided by rounding";
     if (value.kind == TracedValue::Kind::real && value.digits == fewest)
         return "  fewest digits";
-    return value.carried ? "  into the turn" : "";
+    return value.carried ? "  at iteration start" : "";
 }
 
 std::string row(const TracedValue& value, size_t component, double fewest) {
     const bool first = component == 0;
     std::string text =
-        fmt::format("  {:>8}  {:16}{:>16}{:>20}", first ? turn_number(value.turns) : "",
+        fmt::format("  {:>9}  {:16}{:>16}{:>20}", first ? turn_number(value.turns) : "",
                     component_name(value, component), float_text(value.in_float[component], value.kind),
                     double_text(value.in_double[component], value.kind));
     if (first)
@@ -172,7 +173,7 @@ std::string rows_of(const LineInCall& call, double fewest) {
     for (const TracedValue& value : call.values) {
         uint64_t& before = numbers[value.name];
         if (value.number > before + 1 && !gap_said)
-            text += "         …\n";
+            text += "          …\n";
         gap_said = value.number > before + 1;
         before = value.number;
         for (size_t i = 0; i < value.in_float.size(); ++i)
@@ -186,14 +187,15 @@ std::string line_text(const TraceReport& report) {
     const lab::AuthorLine& asked = *report.trace.asked;
     std::string text = fmt::format("{}:  {}\n", place(asked.where), asked.text);
     if (calls.empty())
-        return text + fmt::format("  the pixel does not come to it{}\n",
-                                  report.request.turns ? " in these turns" : "");
-    text += fmt::format("  {:>8}  {:16}{:>16}{:>20}{:>8}\n", "turn", "value", "float", "double", "digits");
+        return text + fmt::format("  the pixel does not reach this line{}\n",
+                                  report.request.turns ? " in these iterations" : "");
+    text +=
+        fmt::format("  {:>9}  {:16}{:>16}{:>20}{:>8}\n", "iteration", "value", "float", "double", "digits");
     const double fewest = fewest_of(calls);
     for (size_t i = 0; i < std::min(calls.size(), k_most_calls); ++i)
         text += rows_of(calls[i], fewest);
     if (calls.size() > k_most_calls)
-        text += fmt::format("  and in {} more calls: --json has all\n", calls.size() - k_most_calls);
+        text += fmt::format("  and in {} more calls (--json lists all)\n", calls.size() - k_most_calls);
     return text;
 }
 
@@ -226,9 +228,9 @@ std::string lost_words(const TracedLine& line) {
     return text;
 }
 
-/// Returns for example " in turn 7, 3 times in all".
+/// Returns for example " in iteration 7, 3 times in total".
 std::string occurrence_words(const lab::Occurrence& what) {
-    return turn_words(what.first) + (what.times > 1 ? fmt::format(", {} times in all", what.times) : "");
+    return turn_words(what.first) + (what.times > 1 ? fmt::format(", {} times in total", what.times) : "");
 }
 
 std::string mismatch_words(const TracedLine& line) {
@@ -260,12 +262,14 @@ double earliness_of(const TracedLine& line) {
 
 std::string summary(const PixelTrace& trace) {
     const auto& lines = trace.lines;
-    const std::string losses = fmt::format("digits are lost (of {:.1f} that a float has)", ir::k_most_digits);
-    const std::string text = section(losses, lines, loss_of, lost_words) +
-                             section("float and double part ways", lines, mismatches_of, mismatch_words) +
-                             section("rounding alone decides", lines, instabilities_of, unstable_words) +
-                             section("not finite", lines, earliness_of, not_finite_words);
-    return text.empty() ? "no line loses more than a digit; float and double go the same way\n" : text;
+    const std::string losses = fmt::format("lost digits (a float has {:.1f})", ir::k_most_digits);
+    const std::string text =
+        section(losses, lines, loss_of, lost_words) +
+        section("conditions that differ in float and double", lines, mismatches_of, mismatch_words) +
+        section("conditions decided by rounding", lines, instabilities_of, unstable_words) +
+        section("not finite", lines, earliness_of, not_finite_words);
+    return text.empty() ? "no line loses more than one digit; float and double take the same branches\n"
+                        : text;
 }
 
 // -- JSON
@@ -399,8 +403,9 @@ Result<std::optional<lab::TurnRange>> parse_turns(const std::string& text) {
     const bool good = read(all.substr(0, dash), range.first) &&
                       read(all.substr(dash == std::string::npos ? 0 : dash + 1), range.second);
     if (!good || range.first < 1 || range.second < range.first)
-        return fail(ErrorCode::usage,
-                    fmt::format("--turns {}: give a turn of the loop from 1, or a range, as in 4-20", text));
+        return fail(
+            ErrorCode::usage,
+            fmt::format("--turns {}: give an iteration of the loop, from 1, or a range, as in 4-20", text));
     return range;
 }
 
@@ -426,7 +431,7 @@ Result<TraceReport> trace(const TraceCommand& command, const FrameSequence& fram
 Result<int> run_trace(const TraceCommand& command) {
     const auto frames = TRY(resolve(sized(command.frames, command.scene)));
     if (frames.frames.size() != 1)
-        return fail(ErrorCode::usage, "trace looks at one frame: give --frame N or --time T");
+        return fail(ErrorCode::usage, "trace works on one frame: give --frame N or --time T");
     lab::PixelRequest request;
     request.pixel = TRY(parse_pixel(command.pixel, frames.state.extent));
     request.line = TRY(parse_line(command.line));
@@ -442,29 +447,30 @@ Result<int> run_trace(const TraceCommand& command) {
 void add_trace(Command app, Action& chosen) {
     auto options = std::make_shared<TraceCommand>();
     Command command = app.add_subcommand(
-        "trace", "What each line computes for one pixel: in float, in double, and how many digits are right");
+        "trace",
+        "Shows what each line computes for one pixel, in float and in double, and how many digits are right");
     add_scene_options(command, options->scene);
     add_picture_options(command, options->frames);
     add_time_options(command, options->frames);
-    command.add_option("--pixel", options->pixel, "The pixel to follow, from the bottom left")
+    command.add_option("--pixel", options->pixel, "Pixel to trace, counted from the bottom left")
         .type_name("X,Y")
         .required();
     command
-        .add_option("--line", options->line, "All values of that line of the text [a summary of all lines]")
+        .add_option("--line", options->line,
+                    "Shows all values of that line of the text [a summary of all lines]")
         .type_name("[FILE:]N");
     command
-        .add_option(
-            "--turns", options->turns,
-            "With --line: those turns of the innermost loop [the first, the last, and where something "
-            "happens]")
+        .add_option("--turns", options->turns,
+                    "With --line: iterations of the innermost loop to show [the first, the last, and the "
+                    "notable ones]")
         .type_name("A-B")
         .needs("--line");
-    command.add_option("--seed", options->seed, "Of the roundings that are drawn by lot")
+    command.add_option("--seed", options->seed, "Seed of the random rounding")
         .type_name("N")
         .check(number<uint64_t>("a whole number"))
         .capture_default_str();
     add_device_options(command, options->device);
-    command.add_flag("--json", options->json, "One JSON object on standard output");
+    command.add_flag("--json", options->json, "Prints one JSON object");
     command.on_call([options, &chosen] {
         chosen = [options]() -> Result<int> {
             Interrupt interrupt;

@@ -69,13 +69,14 @@ Result<std::vector<lab::QualitySetting>> settings_of(const TuneOptions& options,
     if (options.as_it_is)
         std::ranges::for_each(settings.found, lab::leave_out_stricter);
     for (const lab::QualitySetting& each : settings.found)
-        say(fmt::format("turns {} ({}): {}", each.axis.name, each.why, fmt::join(each.axis.values, ", ")));
+        say(fmt::format("varies {} ({}): {}", each.axis.name, each.why, fmt::join(each.axis.values, ", ")));
     for (const std::string& name : settings.left)
-        say(fmt::format("leaves {}, which may be a part of the picture (--vary {}=… turns it)", name, name));
+        say(fmt::format(
+            "leaves {} unchanged, because it may be a part of the picture (--vary {}=… varies it)", name,
+            name));
     if (settings.found.empty())
-        return fail(ErrorCode::usage,
-                    "no number of this scene is known to buy exactness with time: name one with "
-                    "--vary NAME=a,b,c, from the coarsest to the strictest");
+        return fail(ErrorCode::usage, "found no number in this scene that trades time for exactness: name "
+                                      "one with --vary NAME=a,b,c, from the coarsest to the strictest");
     return std::move(settings.found);
 }
 
@@ -145,28 +146,27 @@ void add_tune(Command app, Action& chosen) {
     options->usual_views = "1;10";
     options->early_views = "0.5;1.5";
     Command command = app.add_subcommand(
-        "tune", "Finds the fastest settings that keep an error, or the most exact that keep a time");
+        "tune", "Finds the fastest settings within an error, or the most exact within a time");
     add_scene_options(command, options->scene);
     command
         .add_option("--max-error", options->most_error,
-                    "What may be wrong: rmse=0.01, psnr=40dB, flip=0.02 or wrong=0.05% [as much as now]")
+                    "Largest error: rmse=0.01, psnr=40dB, flip=0.02 or wrong=0.05% [the present error]")
         .type_name("MEASURE=V");
     command
         .add_option("--max-time", options->most_milliseconds,
-                    "The most exact within so many milliseconds a frame")
+                    "Finds the most exact settings within so many milliseconds per frame")
         .type_name("MS");
     command
-        .add_flag("--as-it-is", options->as_it_is,
-                  "Errors against what the scene shows now, not against a truth [flip=0.01]")
+        .add_flag(
+            "--as-it-is", options->as_it_is,
+            "Measures errors against the scene as it is now, not against a stricter reference [flip=0.01]")
         .excludes("--max-time");
     command
         .add_option("--vary", options->vary,
                     "Values of a knob (#iUniform, #define or const), from the coarsest to the strictest")
         .type_name("NAME=a,b,c")
         .repeatable();
-    command.add_option("--keep", options->keep, "A number that stays as it is")
-        .type_name("NAME")
-        .repeatable();
+    command.add_option("--keep", options->keep, "A number to leave unchanged").type_name("NAME").repeatable();
     add_search_options(command, *options);
     command.on_call([options, &chosen] { chosen = [options] { return tune(*options); }; });
 }

@@ -43,7 +43,7 @@ Result<platform::ScreenPoint> parse_position(const std::string& text) {
     if (!has_two || y.ec != std::errc{} || y.ptr != end || far)
         return fail(
             ErrorCode::usage,
-            fmt::format("--position {}: give X,Y, the window's left upper corner, as in 100,50", text));
+            fmt::format("--position {}: give X,Y of the window's upper left corner, as in 100,50", text));
     return point;
 }
 
@@ -51,21 +51,20 @@ Result<platform::ScreenPoint> parse_position(const std::string& text) {
 
 /// Adds --on-top, --monitor, --position, --output-window and --output-monitor.
 void add_window_options(Command command, WindowOptions& options) {
-    command.add_flag("--on-top", options.on_top, "The window stays above the others");
+    command.add_flag("--on-top", options.on_top, "Keeps the window above other windows");
     command
         .add_option("--monitor", options.monitor,
-                    "Opens the window on that monitor, in its middle; 1 is the first")
+                    "Opens the window in the middle of that monitor; 1 is the first")
         .type_name("N")
         .check(number<int>("a monitor's number from 1", 1));
     command
         .add_option("--position", options.position,
-                    "Left upper corner of the window, on the screen or on the monitor of --monitor")
+                    "Upper left corner of the window, on the screen or on the monitor of --monitor")
         .type_name("X,Y");
-    command.add_flag("--output-window", options.output,
-                     "A second window that shows the picture and nothing else");
+    command.add_flag("--output-window", options.output, "Opens a second window that shows only the picture");
     command
         .add_option("--output-monitor", options.output_monitor,
-                    "The same, full screen on that monitor; 1 is the first")
+                    "Opens that second window full screen on that monitor; 1 is the first")
         .type_name("N")
         .check(number<int>("a monitor's number from 1", 1));
 }
@@ -159,10 +158,10 @@ void add_scale_options(Command command, ViewOptions& options) {
         .add_option(
             "--scale",
             [&options](const std::string& name) { options.scale = render::RenderScale::named(name); },
-            "Pixels that are drawn for one of the window's, along a side, at first [1]")
+            "Initial render scale: rendered pixels per window pixel, along a side [1]")
         .type_name(fmt::format("{}", fmt::join(names, "|")))
         .check(one_of(names));
-    command.add_option("--adaptive", options.adaptive, "Changes the scale to hold that frame rate")
+    command.add_option("--adaptive", options.adaptive, "Changes the render scale to keep that frame rate")
         .type_name("FPS")
         .check(number<double>("a frame rate from 1 to 1000", 1, 1000))
         .excludes("--record")
@@ -171,24 +170,23 @@ void add_scale_options(Command command, ViewOptions& options) {
 
 void add_live_options(Command command, LiveInputRequest& inputs) {
     command
-        .add_option(
-            "--osc", inputs.osc,
-            "Listens for OSC at that port of this machine, or at that address: /knob/NAME, /time, /play")
+        .add_option("--osc", inputs.osc,
+                    "Receives OSC at that port, or at that address: /knob/NAME, /time, /play")
         .type_name("[HOST:]PORT")
         .excludes("--input");
     command
         .add_option("--midi", inputs.midi,
-                    "Listens to the controllers of a MIDI device: a part of its port's name, or its file")
+                    "Reads the controllers of a MIDI device: a part of its port's name, or its device file")
         .type_name("PORT|FILE")
         .excludes("--input");
     command
         .add_option("--microphone", inputs.microphone,
-                    "What inputs without a sound file hear: a device of ALSA's, as in --microphone default")
+                    "ALSA device for inputs that have no sound file, as in --microphone default")
         .type_name("DEVICE")
         .excludes("--input");
     command
         .add_option("--webcam", inputs.webcam,
-                    "What webcam inputs see: a device, as in --webcam /dev/video0, or a video")
+                    "Source for webcam inputs: a device, as in --webcam /dev/video0, or a video file")
         .type_name("DEVICE|FILE")
         .excludes("--input");
 }
@@ -197,14 +195,13 @@ void add_live_options(Command command, LiveInputRequest& inputs) {
 
 void add_view(Command app, Action& chosen) {
     auto options = std::make_shared<ViewOptions>();
-    Command command =
-        app.add_subcommand("view", "Opens a window, reloads the scene on save; press H in it for the keys");
+    Command command = app.add_subcommand(
+        "view", "Opens a window and reloads the scene on save; press H in it for the keys");
     add_viewer_options(command, *options);
     add_scale_options(command, *options);
     add_window_options(command, options->window);
-    command.add_flag("--plain", options->plain,
-                     "Stays with the scene's text as it is when nobody touches it for a while");
-    command.add_flag("--fresh", options->fresh, "Starts anew, not as the scene's last window was left");
+    command.add_flag("--plain", options->plain, "Turns off background optimisation");
+    command.add_flag("--fresh", options->fresh, "Ignores the remembered state of the scene's last window");
     add_live_options(command, options->inputs);
     command.on_call([options, &chosen] { chosen = [options] { return view(*options); }; });
 }

@@ -48,13 +48,12 @@ void play(SceneRequest request, const HeldTexts& held, const std::string& pass) 
 /// Returns why the window is not opened again after a driver reset; empty: it is.
 std::string why_not_again(const Viewer::Settings& settings, double life) {
     if (!settings.record.empty())
-        return fmt::format("what was recorded is in {}", settings.record.path().string());
+        return fmt::format("the recording is in {}", settings.record.path().string());
     if (settings.frames.input)
-        return "the recording cannot go on from there";
+        return "the recording cannot continue from there";
     if (life < k_shortest_life)
-        return "so soon after it was opened, the window is not opened again: `tidemark capture` draws this "
-               "scene "
-               "in small parts with --tile 64";
+        return "it happened soon after the start, so the window is not opened again; `tidemark capture "
+               "--tile 64` draws this scene in small parts";
     return "";
 }
 
@@ -66,11 +65,11 @@ void add_viewer_options(Command command, ViewerOptions& options) {
     add_picture_options(command, options.frames);
     command
         .add_option("--record", options.record,
-                    "Writes what mouse and keyboard do, for --input; iTime goes by frames")
+                    "Records mouse and keyboard events, for --input; iTime follows the frame number")
         .type_name("FILE")
         .excludes("--input");
     command.option("--fps").description(
-        "Highest frame rate; with --record or --input the time step too: iTime = frame / F");
+        "Highest frame rate; with --record or --input also the time step: iTime = frame / F");
     add_memory_option(command, options.limits);
 }
 
@@ -111,7 +110,7 @@ Result<int> show(Viewer::Settings settings, const OpenScreen& open_screen) {
             outcome.error().message += "; " + why;
             return outcome;
         }
-        outcome.error().message += "; the window is opened again";
+        outcome.error().message += "; opening the window again";
         say(outcome.error());
         settings.left = viewer.state();
         settings.scene = viewer.request();

@@ -78,7 +78,7 @@ std::string code(std::string_view text) {
 
 std::string of_knob(const scene::Knob& knob) {
     std::string text = code(fmt::format("uniform {} {}", info(knob.type).glsl_name, knob.name));
-    text += fmt::format("Knob, {} at first", scene::to_string(knob, knob.initial));
+    text += fmt::format("Knob, initially {}", scene::to_string(knob, knob.initial));
     if (knob.range)
         text += fmt::format(", from {} to {}", scene::to_string(knob, knob.range->low),
                             scene::to_string(knob, knob.range->high));
@@ -126,10 +126,9 @@ std::string of_symbol(const SourceFile& file, const Symbol& symbol, bool elsewhe
 
 /// Describes a channel. Leaves out the sampler type, which depends on the input that the pass reads.
 std::string of_channel(std::string_view name) {
-    return fmt::format(
-        "Input {} of the pass: a texture, a video, the keyboard, a cubemap or another pass, as "
-        "`#{} \"…\"` or the scene's channels say.\n",
-        name.back(), name);
+    return fmt::format("Input {} of the pass: a texture, a video, the keyboard, a cubemap or another pass, "
+                       "as `#{} \"…\"` or the scene's channels name it.\n",
+                       name.back(), name);
 }
 
 /// Describes a uniform that this host adds to ShaderToy's; empty for other names.
@@ -265,12 +264,12 @@ std::string why_not(const Workspace& workspace, const std::string& name) {
     const auto tokens = text::tokenize(name);
     if (tokens.size() != 1 || tokens.front().kind != text::TokenKind::identifier ||
         tokens.front().text.size() != name.size())
-        return "it is no name of GLSL";
+        return "it is not a GLSL name";
     if (name.starts_with("gl_") || name.find("__") != name.npos || glsl::find_builtin(name) ||
         glsl::is_keyword(name) || glsl::is_one_of(name, glsl::k_reserved_words) || glsl::value_type(name) ||
         scene::is_host_uniform(name) || name.starts_with("tidemark_") ||
         glsl::is_one_of(name, k_entry_points))
-        return "the name is GLSL's or the host's";
+        return "the name is reserved by GLSL or the host";
     for (const SourceFile& file : workspace.files)
         if (!uses_of(text::tokenize(file.text), name).empty())
             return fmt::format("'{}' has that name already", file.path.filename().string());
@@ -294,7 +293,7 @@ Result<Json> rename_knob(const Workspace& workspace, size_t offset, const std::s
     const auto tokens = text::tokenize(workspace.files.front().text);
     const auto knob = knob_at(workspace, tokens, offset);
     if (!knob)
-        return fail(ErrorCode::usage, "only knobs (#iUniform) can be renamed: no knob stands here");
+        return fail(ErrorCode::usage, "only knobs (#iUniform) can be renamed: there is no knob here");
     if (const std::string why = why_not(workspace, name); !why.empty())
         return fail(ErrorCode::usage, fmt::format("'{}' cannot be called '{}': {}", knob->text, name, why));
     Json changes = Json::object();

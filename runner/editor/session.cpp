@@ -249,12 +249,12 @@ Json member(const Json& object, const char* name) {
 std::string Session::receive(std::string_view text) {
     const Json message = Json::parse(text, nullptr, false);
     if (message.is_discarded())
-        return framed(error_response(nullptr, ErrorNumber::parse_error, "the message is no JSON"));
+        return framed(error_response(nullptr, ErrorNumber::parse_error, "the message is not JSON"));
     if (!message.is_object() || !member(message, "method").is_string())
         return message.is_object() && message.contains("result")
                    ? "" // a response, although no request was sent
                    : framed(error_response(nullptr, ErrorNumber::invalid_request,
-                                           "a message is an object with a method"));
+                                           "a message must be an object with a method"));
     return answer(message);
 }
 
@@ -280,9 +280,9 @@ Answer Session::request(const std::string& method, const Json& params) {
     if (method == "initialize")
         return initialize(params);
     if (phase_ == Phase::fresh)
-        return refuse(ErrorNumber::not_initialized, "`initialize` comes first");
+        return refuse(ErrorNumber::not_initialized, "`initialize` must come first");
     if (phase_ == Phase::shut_down)
-        return refuse(ErrorNumber::invalid_request, "after `shutdown` there is only `exit`");
+        return refuse(ErrorNumber::invalid_request, "after `shutdown` only `exit` is allowed");
     if (method != "shutdown")
         return ask(method, params);
     phase_ = Phase::shut_down;
@@ -293,7 +293,7 @@ Answer Session::request(const std::string& method, const Json& params) {
 Answer Session::ask(const std::string& method, const Json& params) const {
     const AnswerTo question = find_question(method);
     if (!question)
-        return refuse(ErrorNumber::method_not_found, fmt::format("there is no {} here", method));
+        return refuse(ErrorNumber::method_not_found, fmt::format("{} is not supported", method));
     return workspace_of(params).and_then([&](const Workspace& workspace) -> Answer {
         if (workspace.files.front().path.extension() ==
             ".json") // its text is no GLSL: it has diagnostics alone
@@ -320,7 +320,7 @@ std::string Session::notified(const std::string& method, const Json& params) {
 
 Answer Session::initialize(const Json& params) {
     if (phase_ != Phase::fresh)
-        return refuse(ErrorNumber::invalid_request, "`initialize` comes once");
+        return refuse(ErrorNumber::invalid_request, "`initialize` may come only once");
     encoding_ = offers_utf8(params.is_object() ? params : Json::object()) ? Encoding::utf8 : Encoding::utf16;
     phase_ = Phase::running;
     constexpr int k_whole_texts = 1;

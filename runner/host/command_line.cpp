@@ -205,7 +205,7 @@ Result<void> parse_words(const std::function<void(Command)>& declare, std::vecto
     try {
         app.parse(std::move(words));
     } catch (const CLI::Success&) { // thrown by --help and --version
-        return fail(ErrorCode::usage, "it asks for help, and a file cannot");
+        return fail(ErrorCode::usage, "--help is not allowed in a file");
     } catch (const CLI::Error& error) {
         return fail(ErrorCode::usage, error.what());
     }

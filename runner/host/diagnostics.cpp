@@ -28,12 +28,12 @@ namespace {
 Rule rule_of(ErrorCode code) {
     switch (code) {
     case ErrorCode::check_failed: return {"check", "A check or a comparison passes"};
-    case ErrorCode::usage: return {"usage", "The command line asks for something that there is"};
+    case ErrorCode::usage: return {"usage", "The command line is valid"};
     case ErrorCode::load: return scene_rule();
     case ErrorCode::write: return {"output", "The output can be written"};
-    case ErrorCode::no_memory: return {"memory", "The machine and its driver have the memory that it takes"};
-    case ErrorCode::timed_out: return {"limits", "Compiling and drawing keep to --timeout and --memory"};
-    case ErrorCode::no_context: return {"driver", "There is an OpenGL driver that works"};
+    case ErrorCode::no_memory: return {"memory", "The machine and its driver have enough memory"};
+    case ErrorCode::timed_out: return {"limits", "Compiling and drawing stay within --timeout and --memory"};
+    case ErrorCode::no_context: return {"driver", "A working OpenGL driver is available"};
     }
     return scene_rule();
 }
@@ -188,7 +188,7 @@ void add_diagnostics_option(Command app) {
             command
                 .add_option(
                     "--diagnostics", [](const std::string& name) { choose(name); },
-                    "What is wrong with the scene in a form for editors, on standard error")
+                    "Prints errors and warnings about the scene in a format for editors, on standard error")
                 .type_name("gcc|json|sarif")
                 .check(one_of({"gcc", "json", "sarif"}));
 }

@@ -118,12 +118,12 @@ std::string_view words_of(std::string_view part) {
         {"text", "another text of the scene"},
         {"inputs", "other inputs"},
         {"knobs", "other knobs"},
-        {"drawing", "other options of drawing"},
-        {"frame", "another state of the frame"},
+        {"drawing", "other drawing options"},
+        {"frame", "another time, size, mouse or camera"},
     };
     const auto* found =
         std::ranges::find(k_words, part, &std::pair<std::string_view, std::string_view>::first);
-    return found == std::end(k_words) ? "something that this version does not know" : found->second;
+    return found == std::end(k_words) ? "something unknown to this version" : found->second;
 }
 
 } // namespace

@@ -43,8 +43,9 @@ Result<SharedContext> SharedContext::create(void* display, void* first, void* su
     made.context_ = eglCreateContext(display, config, first, attributes);
     if (made.context_)
         return made;
-    return fail(ErrorCode::no_context,
-                fmt::format("the driver gives no second OpenGL context: EGL error {:#06x}", eglGetError()));
+    return fail(
+        ErrorCode::no_context,
+        fmt::format("the driver cannot create a second OpenGL context: EGL error {:#06x}", eglGetError()));
 }
 
 SharedContext::SharedContext(SharedContext&& other) noexcept
@@ -269,7 +270,7 @@ ContextOrReason make_context(const Place& place, DebugContext debug) {
         return tl::unexpected(fmt::format("the driver has no OpenGL 4.5 core ({})", last_egl_error()));
     auto context = std::make_unique<CurrentContext>(*display, made, notice);
     if (!context->make_current())
-        return tl::unexpected(fmt::format("the driver needs a surface ({})", last_egl_error()));
+        return tl::unexpected(fmt::format("the driver cannot draw without a window ({})", last_egl_error()));
     return context;
 }
 
@@ -323,11 +324,10 @@ tl::unexpected<Error> no_context(const std::vector<std::string>& tried) {
 }
 
 tl::unexpected<Error> no_gpu(const std::vector<std::string>& tried) {
-    return fail(
-        ErrorCode::no_context,
-        fmt::format("no graphics card draws: {}. A driver that is missing or broken is passed over without a "
-                    "word, so look at the vendor's EGL driver; without --require-gpu the CPU draws",
-                    fmt::join(tried, "; ")));
+    return fail(ErrorCode::no_context,
+                fmt::format("no graphics card can draw: {}. Check that the vendor's EGL driver is installed "
+                            "and works; without --require-gpu the CPU draws",
+                            fmt::join(tried, "; ")));
 }
 
 std::string gl_string(GLenum name) {

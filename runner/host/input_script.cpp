@@ -243,7 +243,7 @@ Result<TimedEvent> parse_line(std::string_view line) {
     TimedEvent timed;
     std::string_view rest = line;
     if (!take_number(rest, timed.frame, 0, render::k_last_frame))
-        return refuse("a line begins with the number of a frame, as in `12 move 100 50`");
+        return refuse("a line must begin with a frame number, as in `12 move 100 50`");
     const std::string_view name = take_word(rest);
     if (name == "set") {
         auto setting = take_setting(rest);
@@ -314,7 +314,7 @@ Result<InputScript> parse_input_script(std::string_view text, const std::string&
             return fail(error_at({file, number}, event.error().message));
         if (!script.empty() && event->frame < script.back().frame)
             return fail(error_at({file, number},
-                                 fmt::format("frame {} comes after frame {}: frames do not go backwards",
+                                 fmt::format("frame {} follows frame {}: frames must be in ascending order",
                                              event->frame, script.back().frame)));
         script.push_back(*event);
     }

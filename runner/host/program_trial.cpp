@@ -127,10 +127,9 @@ Trial blank(Renderer renderer) {
 
 std::string verdict(double difference, std::optional<double> allowed, bool taken) {
     if (taken && difference > 0)
-        return fmt::format(
-            "specialised: differs from the plain program by {:.3g} at most (in the frames tried), "
-            "which --allow-difference allows",
-            difference);
+        return fmt::format("specialised: differs from the plain program by at most {:.3g} in the frames "
+                           "tried (allowed by --allow-difference)",
+                           difference);
     if (allowed && difference > *allowed)
         return fmt::format("not specialised: it would differ from the plain program by {:.3g}", difference);
     return {};

@@ -300,11 +300,10 @@ Result<render::Mouse> parse_mouse(std::string_view text) {
         good = take(rest, ',') && take(rest, *from);
     }
     if (!good || (!rest.empty() && rest != k_down))
-        return fail(
-            ErrorCode::usage,
-            fmt::format("--mouse {}: give x,y after a click or x,y,from_x,from_y after a drag, and ,down "
-                        "before its end, in pixels from the bottom left",
-                        text));
+        return fail(ErrorCode::usage,
+                    fmt::format("--mouse {}: give x,y for a click or x,y,from_x,from_y for a drag, in pixels "
+                                "from the bottom left, and ,down while the button is pressed",
+                                text));
     const bool down = !rest.empty();
     return from ? render::Mouse::dragged(*from, at, down) : render::Mouse::clicked(at, down);
 }
@@ -337,19 +336,21 @@ void add_scene_options(Command command, SceneRequest& request) {
         .repeatable();
     command
         .add_option("--channel", request.channels,
-                    "What iChannelN reads, of Image or another pass: a file, a name as in a directive "
-                    "(noise, keyboard), none; to test with: black, white, nan, texel")
+                    "Input of iChannelN of Image or of PASS: a file, a name as in a directive (noise, "
+                    "keyboard) or none; for tests: black, white, nan, texel")
         .type_name("[PASS:]N=FILE|noise|none")
         .repeatable();
     add_file_options(command, request);
 }
 
 void add_file_options(Command command, SceneRequest& request) {
-    command.add_option("--media", request.files.media, "Where ShaderToy's media files are looked up by name")
+    command
+        .add_option("--media", request.files.media,
+                    "Folder in which ShaderToy's media files are found by name")
         .type_name("DIR")
         .check(existing_folder());
     command.add_flag("--allow-outside", request.files.allow_outside,
-                     "The scene may read files that lie outside its folder");
+                     "Lets the scene read files outside its folder");
 }
 
 void add_precision_options(Command command, SceneRequest& request) {
@@ -357,21 +358,22 @@ void add_precision_options(Command command, SceneRequest& request) {
         command
             .add_option(
                 "--precision", [&request](const std::string& text) { request.doubles = text == "double"; },
-                "double: the scene promoted to 64-bit floats [single]")
+                "double: computes the scene in 64-bit floats [single]")
             .type_name("single|double")
             .check(one_of({"single", "double"}));
     command
         .add_flag("--double-hashes", request.double_hashes,
-                  "Promotes hashes too: other random numbers, another scene")
+                  "Also computes hashes in 64-bit floats: other random numbers, so another picture")
         .needs(precision);
 }
 
 void add_device_options(Command command, platform::DeviceChoice& device) {
-    command.add_option("--device", device.name, "Where to draw: a name from `tidemark inspect --devices`")
+    command
+        .add_option("--device", device.name, "Device to draw with: a name from `tidemark inspect --devices`")
         .type_name("NAME")
         .capture_default_str();
     command.add_flag("--require-gpu", device.gpu_only,
-                     "Fails where the CPU would draw instead of a graphics card");
+                     "Fails if the CPU would draw instead of a graphics card");
 }
 
 void add_number_options(Command command, FrameOptions& options, std::string_view option) {
@@ -393,7 +395,9 @@ void add_number_options(Command command, FrameOptions& options, std::string_view
 }
 
 void add_picture_options(Command command, FrameOptions& options) {
-    command.add_option("--size", options.size, "Resolution in pixels, where the scene's #iSize says no other")
+    command
+        .add_option("--size", options.size,
+                    "Resolution in pixels; the default is the scene's #iSize, if it has one")
         .type_name("WxH")
         .default_str("640x360");
     add_number_options(command, options);
@@ -403,9 +407,8 @@ void add_picture_options(Command command, FrameOptions& options) {
         .add_option("--camera", options.camera,
                     "Orbit camera of a scene that declares iCamera or iOrbit, in degrees")
         .type_name("AZIMUTH,ELEVATION,DISTANCE[,X,Y,Z]");
-    command.add_option("--pass", options.pass, "The pass to show, as in \"Buffer A\" [Image]")
-        .type_name("NAME");
-    command.add_option("--input", options.input, "Mouse and keyboard events by frame, from a recording")
+    command.add_option("--pass", options.pass, "Pass to show, as in \"Buffer A\" [Image]").type_name("NAME");
+    command.add_option("--input", options.input, "Replays a recording of mouse and keyboard events")
         .type_name("FILE");
 }
 
@@ -423,8 +426,8 @@ void add_time_options(Command command, FrameOptions& options) {
     frames.excludes(time);
     command
         .add_option("--mouse", options.mouse,
-                    "iMouse after a click at that pixel, or after a drag to it from another; down: in the "
-                    "frame of the press, or before the drag's end")
+                    "iMouse after a click at X,Y, or after a drag to it from FROM_X,FROM_Y; down: while the "
+                    "button is pressed")
         .type_name("X,Y[,FROM_X,FROM_Y][,down]")
         .excludes("--input");
 }
@@ -529,7 +532,7 @@ bool compiles_scenes(Command command) {
 }
 
 void add_memory_option(Command command, LimitOptions& options) {
-    command.add_option("--memory", options.memory, "What compiling and drawing may take, as in 2G [50%]")
+    command.add_option("--memory", options.memory, "Memory limit for compiling and drawing, as in 2G [50%]")
         .type_name("SIZE");
 }
 
@@ -540,8 +543,9 @@ void add_limit_options(Command app, LimitOptions& options) {
         add_memory_option(command, options);
         if (!command.has_option("--timeout"))
             command
-                .add_option("--timeout", options.timeout,
-                            "Give up where the driver takes longer to compile a pass or to draw")
+                .add_option(
+                    "--timeout", options.timeout,
+                    "Stops with exit code 5 when the driver takes longer to compile a pass or to draw")
                 .type_name("SECONDS")
                 .check(number<double>("a number of seconds"));
     }

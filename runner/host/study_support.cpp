@@ -51,7 +51,7 @@ Result<void> StudyWatcher::finish() {
     progress_.reset();
     goes_on();
     return driver_.map_error([](Error error) {
-        error.message += "; nothing is kept of it, and a smaller --size gives the driver less at once";
+        error.message += "; the measurement was discarded, try a smaller --size";
         return error;
     });
 }
@@ -108,12 +108,13 @@ void say_findings(const lab::WorkPrecisionSet& set, const std::filesystem::path&
 
 void add_search_options(Command command, SearchOptions& options) {
     command
-        .add_option("--views", options.views,
-                    "Times and places of the mouse as parts of the picture, as in 0;10@0.75,0.4")
+        .add_option(
+            "--views", options.views,
+            "Views to measure: times, and mouse positions as parts of the picture, as in 0;10@0.75,0.4")
         .type_name("LIST")
         .default_str(options.usual_views);
     command.add_option("--size", options.size, "Resolution in pixels [320x180]").type_name("WxH");
-    command.add_option("--budget", options.seconds, "Seconds for the search and the timing, compiling aside")
+    command.add_option("--budget", options.seconds, "Seconds for searching and timing, not counting compilation")
         .type_name("S")
         .capture_default_str();
     command.add_option("--for", options.seconds, "The name of --budget in version 0.1").group("");
@@ -121,9 +122,9 @@ void add_search_options(Command command, SearchOptions& options) {
         .add_option("-o,--output", options.output,
                     fmt::format("Folder for the report [SCENE-{}]", command.name()))
         .type_name("FOLDER");
-    command.add_flag("--write", options.write, "Writes what was chosen into the scene's files");
+    command.add_flag("--write", options.write, "Writes the result into the scene's files");
     add_device_options(command, options.device);
-    command.add_flag("--json", options.json, "What was chosen and its study on standard output");
+    command.add_flag("--json", options.json, "Prints the result and its study as one JSON object");
 }
 
 Result<lab::SearchRequest> search_request(const SearchOptions& options, const scene::Scene& scene) {

@@ -109,7 +109,7 @@ Watchdog::Watch::Watch(Watchdog& dog, Task task) : dog_(dog) {
 
 Watchdog::Task Watchdog::frame_task(int frame, std::optional<double> limit_seconds, Clock::time_point start) {
     return {fmt::format("drawing frame {}", frame), limit_seconds, start,
-            "Ctrl-C stops behind this frame, a second one at once"};
+            "Ctrl-C stops after this frame, a second Ctrl-C at once"};
 }
 
 Watchdog::Watch::~Watch() {
@@ -149,10 +149,10 @@ void Watchdog::speak_or_end() {
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - work_->task.start).count();
     if (work_->deadline && now >= *work_->deadline)
-        end(fmt::format("gave up {} after {:.3g} s (--timeout)", work_->task.what, seconds),
+        end(fmt::format("stopped {} after {:.3g} s (--timeout)", work_->task.what, seconds),
             exit_code(ErrorCode::timed_out));
     if (work_->is_unwanted_for_long(now))
-        end(fmt::format("gave up {} after {:.3g} s: interrupted", work_->task.what, seconds),
+        end(fmt::format("stopped {} after {:.3g} s: interrupted", work_->task.what, seconds),
             Interrupt::k_exit_code);
     if (now >= work_->next_word) {
         say(fmt::format("still {} after {:.0f} s; {}", work_->task.what, seconds, work_->task.how_to_end));
@@ -181,7 +181,7 @@ void say_at_once(std::string_view line) {
     if (std::current_exception())
         exit_at_once(last_resort());
     say_at_once(
-        "tidemark: error: internal error: a library gave up, as they do where threads or memory run out\n");
+        "tidemark: error: internal error: a library ended the program; threads or memory may have run out\n");
     exit_at_once(k_internal_error);
 }
 
@@ -215,7 +215,7 @@ namespace {
 
 /// For outputs whose files appear whole or not at all, however the process ends.
 constexpr const char* k_words_on_resuming =
-    "; what is on disk is whole, and the same command with --resume goes on";
+    "; the files on disk are complete; to continue, run the same command with --resume";
 
 /// Seconds between two checks of memory: a process grows by some hundred MiB at most meanwhile.
 constexpr double k_look_seconds = 0.05;
@@ -347,8 +347,9 @@ private:
             return std::nullopt;
         if (seen.starting && seen.seconds > k_longest_start) {
             end_child();
-            return refuse(ErrorCode::no_context,
-                          fmt::format("{}: the driver hangs; --device names another", seen.what));
+            return refuse(
+                ErrorCode::no_context,
+                fmt::format("{}: the driver hangs; choose another device with --device", seen.what));
         }
         if (limits_.seconds && seen.seconds > *limits_.seconds)
             return give_up(fmt::format("more than {:.3g} s (--timeout)", *limits_.seconds));
@@ -380,18 +381,19 @@ private:
         const DoingPage::Seen seen = page_ ? page_->seen() : DoingPage::Seen{};
         if (signal == SIGKILL)
             return refuse(ErrorCode::timed_out,
-                          fmt::format("{} was ended from outside (SIGKILL), which is what a system does "
-                                      "that has no memory left: --memory ends it before{}",
+                          fmt::format("{} was killed from outside (SIGKILL), probably because the system ran "
+                                      "out of memory: a lower --memory stops it earlier{}",
                                       seen.what.empty() ? "the command" : seen.what, cut_short(seen.what)));
         if (!is_crash(signal))
             end_by(signal);
         if (!seen.what.empty())
             return refuse(seen.starting ? ErrorCode::no_context : ErrorCode::load,
-                          crash_text(signal, seen.what) +
-                              (seen.starting ? "; --device names another" : cut_short(seen.what)));
+                          crash_text(signal, seen.what) + (seen.starting
+                                                               ? "; choose another device with --device"
+                                                               : cut_short(seen.what)));
         if (page_ && page_->has_driver()) // its threads may crash between calls, too
             return refuse(ErrorCode::load, crash_text(signal, "") + ", or tidemark itself" + cut_short(""));
-        say(fmt::format("tidemark: error: tidemark itself crashed ({}), which is a defect of its own",
+        say(fmt::format("tidemark: error: tidemark itself crashed ({}); this is a bug in tidemark",
                         name_of(signal)));
         return k_internal_error;
     }
@@ -415,7 +417,7 @@ bool is_crash(int signal) {
 }
 
 std::string crash_text(int signal, const std::string& doing) {
-    const char* hint = signal == SIGBUS ? ": is the disk full that its cache is on?" : "";
+    const char* hint = signal == SIGBUS ? ": the disk with its cache may be full" : "";
     return fmt::format("the driver crashed ({}){}{}{}", name_of(signal), doing.empty() ? "" : " ", doing,
                        hint);
 }

@@ -84,7 +84,7 @@ public:
     using Clock = std::chrono::steady_clock;
 
     struct Task {
-        std::string what;                    ///< completes "still …" and "gave up …"
+        std::string what;                    ///< completes "still …" and "stopped …"
         std::optional<double> limit_seconds; ///< from `start` on
         Clock::time_point start = Clock::now();
         const char* how_to_end = "Ctrl-C ends it";

@@ -282,7 +282,7 @@ Result<void> check_water(const HeightMap& map) {
         const double inside = radius - length(map.position(node));
         if (std::abs(inside) <= 3.5 * map.spacing() && !map.is_water(node))
             return refuse(
-                fmt::format("the circle where the waves start, {:g} m round the middle, meets land at "
+                fmt::format("the circle where the waves start, {:g} m from the middle, meets land at "
                             "{}: leave open water there, or raise --sea",
                             radius, place_of(map, node)));
     }

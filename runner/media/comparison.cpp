@@ -541,7 +541,7 @@ SameChannels same_channels(Image left, Image right) {
     SameChannels same{std::move(left), std::move(right), {}};
     const auto note = [&](const std::string& text) { same.note += (same.note.empty() ? "" : "; ") + text; };
     if (is_grey(same.left) != is_grey(same.right))
-        note(fmt::format("{} is grey, which stands for its red, green and blue",
+        note(fmt::format("{} is grey: its value counts as red, green and blue",
                          is_grey(same.left) ? "A" : "B"));
     bool alpha = same.left.has_alpha();
     if (alpha != same.right.has_alpha()) {

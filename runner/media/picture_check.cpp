@@ -259,7 +259,7 @@ Objection chunk_objection(const PngChunk& chunk, bool is_first, int palettes) {
     if (chunk.name() == "PLTE" && palettes > 1)
         return "it has more than one palette";
     if (!makes_samples(chunk.name()) && !may_be_left_out(chunk.name()))
-        return "it has a PNG chunk of a kind that is not known";
+        return "it has an unknown kind of PNG chunk";
     return {};
 }
 
@@ -465,7 +465,7 @@ tl::expected<Metadata, std::string> read_metadata(const std::filesystem::path& p
         return refuse(file.error().message);
     const std::optional<FileFormat> format = format_of(*file, path);
     if (!format)
-        return refuse(file->empty() ? "the file is empty" : "it is no picture");
+        return refuse(file->empty() ? "the file is empty" : "it is not a picture");
     if (const auto checked = checked_file(*format, *file); !checked)
         return refuse(checked.error());
     if (*format == FileFormat::png)

@@ -367,7 +367,7 @@ Result<Image> read_picture(const fs::path& path) {
         return refuse("the file is empty");
     const std::optional<FileFormat> format = format_of(*file, path);
     if (!format)
-        return refuse("it is no PNG, JPEG, TIFF, EXR, HDR, BMP, WebP, PNM or TGA picture");
+        return refuse("it is not a PNG, JPEG, TIFF, EXR, HDR, BMP, WebP, PNM or TGA picture");
     const auto checked = checked_file(*format, std::move(*file));
     if (!checked)
         return refuse(checked.error());

@@ -165,7 +165,7 @@ Result<Playback> Playback::open(int rate) {
     if (!alsa_library())
         return fail(std::move(device.error()));
     return fail(ErrorCode::load,
-                fmt::format("there is no sound device (ALSA says: {})", device.error().message));
+                fmt::format("no audio device found (ALSA says: {})", device.error().message));
 }
 
 std::optional<size_t> Playback::write(std::span<const int16_t> samples) {

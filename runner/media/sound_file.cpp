@@ -298,7 +298,7 @@ Result<SoundData> read_sound(const std::filesystem::path& path) {
     const std::unique_ptr<SNDFILE, decltype(&sf_close)> file(
         library->open_virtual(&calls, SFM_READ, &info, &memory), library->close);
     if (!file)
-        return refuse(fmt::format("it is damaged or no WAV, AIFF, FLAC, Ogg or MP3 sound ({})",
+        return refuse(fmt::format("it is damaged, or not a WAV, AIFF, FLAC, Ogg or MP3 sound ({})",
                                   library->message(nullptr)));
     if (info.channels < 1 || info.channels > k_most_channels)
         return refuse(fmt::format("it has {} channels; the limit is {}", info.channels, k_most_channels));

@@ -320,7 +320,7 @@ Result<VolumeData> described(std::string_view file, size_t file_size, const std:
         return fail(ErrorCode::load, fmt::format("cannot read '{}': {}", name, why));
     };
     if (!file.starts_with(k_signature))
-        return refuse("it is no ShaderToy volume: it does not start with \"BIN\" and a zero byte");
+        return refuse("it is not a ShaderToy volume: it does not start with \"BIN\" and a zero byte");
     if (file.size() < k_header)
         return refuse("the file is cut short: a volume's header has 20 bytes");
     const uint32_t width = little_endian(file, 4, 4);
@@ -335,7 +335,7 @@ Result<VolumeData> described(std::string_view file, size_t file_size, const std:
         return refuse(fmt::format("its size is {}x{}x{}; the limit is {} on a side", width, height, depth,
                                   k_largest_volume_side));
     if (channels < 1 || channels > 4)
-        return refuse(fmt::format("it has {} channels; there may be 1 to 4", channels));
+        return refuse(fmt::format("it has {} channels; 1 to 4 are allowed", channels));
     if (format != 0 && format != 10)
         return refuse(
             fmt::format("its sample format is {}; known are 0 (bytes) and 10 (32-bit floats)", format));
@@ -346,7 +346,7 @@ Result<VolumeData> described(std::string_view file, size_t file_size, const std:
         return refuse(
             fmt::format("it has {} bytes of samples; the limit is {} MiB", wanted, k_largest_volume >> 20));
     if (file_size - k_header != wanted)
-        return refuse(fmt::format("{}x{}x{} texels of {} channel{} are {} bytes of samples, and it has {}",
+        return refuse(fmt::format("{}x{}x{} texels of {} channel{} need {} bytes of samples, but it has {}",
                                   width, height, depth, channels, channels == 1 ? "" : "s", wanted,
                                   file_size - k_header));
     return volume;

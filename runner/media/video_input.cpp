@@ -288,7 +288,7 @@ public:
         child_.read_words(words_);
         take_lines();
         if (starts_.empty())
-            return fail(ErrorCode::load, "ffmpeg gives a frame and no time; version 5.1 or later is needed");
+            return fail(ErrorCode::load, "ffmpeg gave a frame without a time; ffmpeg 5.1 or later is needed");
         frame.start = starts_.front();
         starts_.pop_front();
         return std::optional<TimedFrame>(std::move(frame));
@@ -398,7 +398,7 @@ Result<VideoFrames> VideoFrames::open(const std::filesystem::path& path) {
         std::string why = text.error().message;
         const std::string prefix = "file:" + path.string() + ": ";
         if (why.starts_with(prefix))
-            why = "it is no video that ffmpeg reads (" + why.substr(prefix.size()) + ")";
+            why = "ffmpeg cannot read it as a video (" + why.substr(prefix.size()) + ")";
         return cannot_read(path, why);
     }
     auto times = parse_video_times(*text);
@@ -464,7 +464,7 @@ std::vector<std::string> camera_arguments(const std::filesystem::path& path) {
 }
 
 tl::unexpected<Error> cannot_see(const std::filesystem::path& path, std::string_view why) {
-    return fail(ErrorCode::load, fmt::format("cannot see what '{}' shows: {}", path.string(), why));
+    return fail(ErrorCode::load, fmt::format("cannot read the webcam or video '{}': {}", path.string(), why));
 }
 
 } // namespace

@@ -260,8 +260,8 @@ Result<std::string_view> encoder_of(std::string_view codec, Extent extent) {
     if (missing.empty())
         return fail(ErrorCode::write, fmt::format("--codec {}: no encoder takes {}x{} pixels", codec,
                                                   extent.width, extent.height));
-    return fail(ErrorCode::write, fmt::format("--codec {}: this ffmpeg has no {}, which that needs", codec,
-                                              fmt::join(missing, " and no ")));
+    return fail(ErrorCode::write, fmt::format("--codec {}: this ffmpeg lacks the encoder {}", codec,
+                                              fmt::join(missing, " and ")));
 }
 
 Words colour_words() {
@@ -355,7 +355,7 @@ std::string list_of(std::span<const SegmentFile> segments, double fps) {
 tl::unexpected<Error> failure(const fs::path& video, const std::string& words) {
     const std::string why = last_line(words);
     return fail(ErrorCode::write, fmt::format("cannot write '{}': ffmpeg {}", video.string(),
-                                              why.empty() ? "ended without a word" : "says: " + why));
+                                              why.empty() ? "ended without a message" : "says: " + why));
 }
 
 /// Returns the error for an ffmpeg in PATH that is another program or broken.
@@ -363,8 +363,7 @@ tl::unexpected<Error> no_video(const fs::path& video) {
     return fail(
         ErrorCode::write,
         fmt::format(
-            "cannot write '{}': ffmpeg said that it is done, and what it wrote is no such video: look at "
-            "the ffmpeg in PATH",
+            "cannot write '{}': ffmpeg reported success, but wrote no valid video: check the ffmpeg in PATH",
             video.string()));
 }
 

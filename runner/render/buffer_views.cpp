@@ -17,8 +17,8 @@ namespace tidemark::render {
 Result<FilterProgram> FilterProgram::create(const char* what, const char* text) {
     auto program = gl::Program::link(glsl::k_vertex_shader, text);
     if (!program)
-        return fail(ErrorCode::load,
-                    fmt::format("the driver refuses the shader of {}: {}", what, program.error()));
+        return fail(ErrorCode::load, fmt::format("the driver does not compile tidemark's shader for {}: {}",
+                                                 what, program.error()));
     return FilterProgram(*std::move(program));
 }
 

@@ -95,7 +95,7 @@ public:
     }
 
     Result<Loaded> operator()(const scene::PassOutput&) const {
-        assert(false && "what a pass draws is the renderer's");
+        assert(false && "the renderer owns the pictures of passes");
         return flat(Image({1, 1}, 4, SampleType::u8));
     }
 
@@ -289,7 +289,7 @@ tl::unexpected<Error> refuse(const gl::Texture& texture) {
     while (glGetError() != GL_NO_ERROR) { // reported below
     }
     return fail(ErrorCode::load,
-                fmt::format("this driver has no room for a texture of {}x{}x{}; give a smaller one",
+                fmt::format("this driver has no memory for a texture of {}x{}x{}; give a smaller one",
                             texture.extent.width, texture.extent.height, texture.depth));
 }
 

@@ -93,7 +93,7 @@ private:
                 if (auto program = link(dialect, special.source))
                     return LinkedPass{*std::move(program), dialect, std::move(assembly->hashes),
                                       std::move(special.left_out), reading_.discards()};
-                special.left_out = {.kept_whole = "the driver does not take the shorter text"};
+                special.left_out = {.kept_whole = "the driver rejects the shorter text"};
             }
             auto program = link(dialect, assembly->source);
             if (program)
@@ -184,7 +184,8 @@ Result<void> CompiledScene::choose_pass() {
         }
         names.push_back(scene_.passes[i].name);
     }
-    return fail(ErrorCode::usage, fmt::format("--pass {}: the scene has {}", name, fmt::join(names, ", ")));
+    return fail(ErrorCode::usage,
+                fmt::format("--pass {}: no such pass; the scene has {}", name, fmt::join(names, ", ")));
 }
 
 /// Finds the passes that the shown one may need according to the scene; only these are compiled.

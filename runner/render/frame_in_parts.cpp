@@ -75,10 +75,9 @@ Result<void> FrameInParts::begin_pass(size_t pass) {
     }
     auto surface = renderer_->passes_[pass].target.make_apart(renderer_->compiled_[pass].linked.discards);
     if (!surface)
-        return fail(ErrorCode::load,
-                    fmt::format("this driver has no memory to draw {} in parts: frames are drawn whole, and "
-                                "hold the window for as long",
-                                renderer_->scene().passes[pass].name));
+        return fail(ErrorCode::load, fmt::format("this driver has no memory to draw {} in parts: frames are "
+                                                 "drawn whole, and the window may freeze meanwhile",
+                                                 renderer_->scene().passes[pass].name));
     drawing_.emplace(Apart{pass, *std::move(surface), *std::move(reads)});
     seconds_.push_back({pass, 0});
     return {};

@@ -167,8 +167,9 @@ Result<PassTarget> PassTarget::create(Extent extent, GLenum internal_format, con
         if (!surface)
             return fail(
                 ErrorCode::no_memory,
-                fmt::format("--size {}x{}: this driver has no memory for such a picture; give a smaller one",
-                            extent.width, extent.height));
+                fmt::format(
+                    "--size {}x{}: this driver has no memory for a picture of that size; give a smaller one",
+                    extent.width, extent.height));
         target.surfaces_.push_back(*std::move(surface));
     }
     return target;

@@ -167,11 +167,10 @@ Result<OrbitCamera> parse_camera(std::string_view setting) {
     const auto numbers = numbers_of(setting);
     if (!numbers || (numbers->size() != 3 && numbers->size() != 6) || (*numbers)[2] < k_nearest ||
         (*numbers)[2] > k_farthest)
-        return fail(
-            ErrorCode::usage,
-            fmt::format("--camera {}: give azimuth,elevation,distance as in 30,20,10 (degrees, degrees, "
-                        "a distance above 0), and behind them x,y,z where it is panned to",
-                        setting));
+        return fail(ErrorCode::usage,
+                    fmt::format("--camera {}: give azimuth,elevation,distance as in 30,20,10 (degrees, "
+                                "degrees, a distance above 0), and after them x,y,z if the view was panned",
+                                setting));
     OrbitCamera camera;
     camera.azimuth = wrapped((*numbers)[0]);
     camera.elevation = std::clamp((*numbers)[1], -k_highest, k_highest);

@@ -59,9 +59,9 @@ bool ran_out_of_memory() {
 std::optional<std::string_view> reset_reason() {
     switch (glGetGraphicsResetStatus()) {
     case GL_NO_ERROR: return std::nullopt;
-    case GL_GUILTY_CONTEXT_RESET: return "what was drawn took too long for its watchdog, or broke it";
-    case GL_INNOCENT_CONTEXT_RESET: return "another program broke it";
-    default: return "it does not say why";
+    case GL_GUILTY_CONTEXT_RESET: return "a draw call took too long or crashed it";
+    case GL_INNOCENT_CONTEXT_RESET: return "another program caused it";
+    default: return "it gives no reason";
     }
 }
 

@@ -223,8 +223,8 @@ Result<void> DirectiveReader::read_directive() {
     if (keyword == "iFirstPersonControls") {
         directives_.moves_view = true;
         directives_.warnings.push_back({where, Severity::warning,
-                                        "#iFirstPersonControls: mouse and wheel move iViewMatrix, around "
-                                        "what is in front; keys do not"});
+                                        "#iFirstPersonControls: mouse and wheel move iViewMatrix around the "
+                                        "point in view; keys do not move it"});
         return {};
     }
     auto name = expect_string(); // #iVertex
@@ -232,7 +232,7 @@ Result<void> DirectiveReader::read_directive() {
         return fail(std::move(name.error()));
     if (*name != "default")
         directives_.warnings.push_back(
-            {where, Severity::warning, "#iVertex is left out: every pass is drawn as one triangle"});
+            {where, Severity::warning, "#iVertex is ignored: every pass is drawn as one triangle"});
     return {};
 }
 
@@ -254,7 +254,7 @@ Result<void> DirectiveReader::read_channel_source(size_t number, const SourceLoc
         name.erase(0, std::string_view("file://").size());
     if (name.find("://") != std::string::npos)
         return fail(
-            error_at(where, fmt::format("'{}' is not a local file: tidemark downloads nothing", name)));
+            error_at(where, fmt::format("'{}' is not a local file: tidemark does not download files", name)));
     if (name.empty())
         return fail(error_at(where, "the name of the picture is empty"));
     Channel& channel = directives_.channels[number];
@@ -292,10 +292,9 @@ Result<void> DirectiveReader::read_channel_parameter(SamplingWishes& wishes) {
                 wishes.mipmaps = filter.mipmaps;
                 return {};
             }
-        return fail(
-            error_at(where, fmt::format("MinFilter \"{}\": give Nearest, Linear, or one of the two with "
-                                        "MipMapNearest or MipMapLinear behind it",
-                                        value)));
+        return fail(error_at(where, fmt::format("MinFilter \"{}\": give Nearest, Linear, or one of the two "
+                                                "followed by MipMapNearest or MipMapLinear",
+                                                value)));
     }
     if (parameter == "MagFilter") {
         if (value != "Nearest" && value != "Linear")
@@ -334,7 +333,7 @@ Result<void> DirectiveReader::read_size(const SourceLocation& where) {
     const auto extent = size_of_text(text);
     if (!extent)
         return fail(
-            error_at(place, fmt::format("'{}' is no size: give WIDTHxHEIGHT in pixels, each from 1 to "
+            error_at(place, fmt::format("'{}' is not a size: give WIDTHxHEIGHT in pixels, each from 1 to "
                                         "{}, as in #iSize 800x450",
                                         text, k_largest_stated_side)));
     directives_.sizes.push_back({*extent, where});
@@ -363,7 +362,7 @@ Result<void> DirectiveReader::check_name_is_free(const Knob& knob) const {
     if (is_host_uniform(knob.name))
         return fail(error_at(
             knob.where,
-            fmt::format("'{}' is a uniform of the host's own: give the knob another name", knob.name)));
+            fmt::format("'{}' is a uniform that the host provides: give the knob another name", knob.name)));
     const auto same = knob_of_name_.find(knob.name);
     if (same == knob_of_name_.end())
         return {};
@@ -413,7 +412,8 @@ Result<KnobRange> DirectiveReader::read_range(const Knob& knob) {
         return fail(closed.error());
     for (size_t i = 0; i < size_t(info(knob.type).components); ++i)
         if (low[i] > high[i])
-            return fail(error_at(where, fmt::format("the range of '{}' runs backwards", knob.name)));
+            return fail(error_at(
+                where, fmt::format("the range of '{}' is reversed: give the lower value first", knob.name)));
     return KnobRange{low, high};
 }
 

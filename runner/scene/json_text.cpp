@@ -60,7 +60,7 @@ private:
 
     tl::unexpected<Error> refuse(const std::string& what) const {
         return fail(
-            error_at({file_, line_, 0}, fmt::format("this JSON {}: it is no ShaderToy project", what)));
+            error_at({file_, line_, 0}, fmt::format("this JSON {}: it is not a ShaderToy project", what)));
     }
 
     /// Returns the code unit of a `\uXXXX` at `at`; 0 if there is none.
@@ -136,7 +136,7 @@ bool is_pass(const Json& json) {
 
 Result<Json> parse_json(std::string_view text, const std::string& file) {
     if (text.find_first_not_of(" \t\r\n") == text.npos)
-        return fail(error_at({file}, "this is no JSON: there is nothing in it"));
+        return fail(error_at({file}, "this is not JSON: it is empty"));
     Survey survey(text, file);
     TRY(survey.run());
     std::string mended;
@@ -151,9 +151,9 @@ Result<Json> parse_json(std::string_view text, const std::string& file) {
     } catch (const Json::parse_error& error) {
         const size_t offset = error.byte > 0 ? error.byte - 1 : 0;
         return fail(error_at(locate(text, offset, file),
-                             fmt::format("this is no JSON: {}", plain_words(error.what()))));
+                             fmt::format("this is not JSON: {}", plain_words(error.what()))));
     } catch (const Json::exception& error) {
-        return fail(error_at({file}, fmt::format("this is no JSON: {}", plain_words(error.what()))));
+        return fail(error_at({file}, fmt::format("this is not JSON: {}", plain_words(error.what()))));
     }
 }
 
@@ -178,11 +178,11 @@ Result<Json*> find_passes(Json& json, const std::string& file) {
             break;
     }
     if (found->is_array() && found->size() > 1 && (is_project((*found)[0]) || (*found)[0].contains("Shader")))
-        return refuse(fmt::format("this holds {} projects: a scene is one, so save it in a file of its own",
-                                  found->size()));
+        return refuse(
+            fmt::format("this holds {} projects: save one of them in a file of its own", found->size()));
     if (found->is_array() && found->empty())
-        return refuse("this is an empty list: ShaderToy knows no such project, or it is not public");
-    return refuse("this is no ShaderToy project: there is no list named renderpass");
+        return refuse("this is an empty list: the project does not exist on ShaderToy, or it is not public");
+    return refuse("this is not a ShaderToy project: it has no list named renderpass");
 }
 
 std::string as_text(const Json& object, const char* key) {

@@ -123,7 +123,7 @@ tl::unexpected<Error> refuse(const Knob& knob, std::string_view text) {
                            std::string_view("1,2,3,4").substr(0, size_t(2 * type.components - 1)));
     if (knob.type == KnobType::color3)
         form += " or #rrggbb";
-    return fail(ErrorCode::usage, fmt::format("'{}' is no value for {} ({}): give {}", text, knob.name,
+    return fail(ErrorCode::usage, fmt::format("'{}' is not a value for {} ({}): give {}", text, knob.name,
                                               type.directive_name, form));
 }
 
@@ -146,8 +146,8 @@ Result<KnobSetting> parse_knob_setting(std::string_view name, std::string_view t
     if (!given)
         return fail(
             ErrorCode::usage,
-            fmt::format("'{}' is no value for {}: give a number, up to four as in 1,2,3, #rrggbb or {}", text,
-                        name, k_default_value));
+            fmt::format("'{}' is not a value for {}: give a number, up to four as in 1,2,3, #rrggbb or {}",
+                        text, name, k_default_value));
     return KnobSetting{std::string(name), *given};
 }
 
@@ -269,7 +269,7 @@ Result<std::string> with_defaults(std::string_view text, const std::vector<Knob>
     for (const Knob& knob : knobs) {
         const auto place = place_of_default(text::tokenize(changed), knob.name);
         if (!place)
-            return fail(ErrorCode::write, fmt::format("no line '#iUniform … {}' is in it", knob.name));
+            return fail(ErrorCode::write, fmt::format("there is no line '#iUniform … {}' in it", knob.name));
         changed.replace(place->begin, place->end - place->begin, " = " + to_literal(knob));
     }
     return changed;

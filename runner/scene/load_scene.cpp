@@ -120,11 +120,11 @@ void warn_of_unread(Scene& scene, const PassFiles& files) {
         for (const auto& [name, file] : files)
             if ((name.kind == Kind::buffer || name.kind == Kind::cubemap) &&
                 scene.passes[pass].name == to_string(name) && !is_read_by_another(scene, pass))
-                scene.warnings.push_back(
-                    {{file.string()},
-                     Severity::warning,
-                     fmt::format("no other pass reads '{}': the one that does says #iChannel0 \"{}\"",
-                                 scene.passes[pass].name, file.filename().string())});
+                scene.warnings.push_back({{file.string()},
+                                          Severity::warning,
+                                          fmt::format("no other pass reads '{}': a pass that should read it "
+                                                      "needs the line #iChannel0 \"{}\"",
+                                                      scene.passes[pass].name, file.filename().string())});
 }
 
 Result<Scene> load_by_names(const fs::path& folder, const PassFiles& files, const LoadOptions& options) {
@@ -162,7 +162,7 @@ void warn_of_unused(Scene& scene, const PassFiles& files, const fs::path& projec
         if (std::find(scene.files.begin(), scene.files.end(), file) == scene.files.end())
             scene.warnings.push_back({{file.string()},
                                       Severity::warning,
-                                      fmt::format("'{}' has no pass with this file: it is not drawn",
+                                      fmt::format("'{}' has no pass with this file: the file is ignored",
                                                   project.filename().string())});
 }
 

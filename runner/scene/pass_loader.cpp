@@ -212,13 +212,13 @@ Result<void> PassLoader::take_size(const Directives& directives, const fs::path&
     const StatedSize* taken = nullptr;
     for (const StatedSize& size : directives.sizes) {
         if (image.empty() || !is_same_file(size.where.file, image)) {
-            scene_.warnings.push_back(
-                {size.where, Severity::warning, "#iSize is left out: it counts in the file of Image alone"});
+            scene_.warnings.push_back({size.where, Severity::warning,
+                                       "#iSize is ignored: it only has an effect in the file of Image"});
             continue;
         }
         if (taken) {
-            Error error = error_at(size.where, "#iSize is said twice");
-            error.diagnostics.push_back({taken->where, Severity::note, "first said here"});
+            Error error = error_at(size.where, "#iSize is given twice");
+            error.diagnostics.push_back({taken->where, Severity::note, "first given here"});
             return fail(std::move(error));
         }
         taken = &size;
@@ -274,11 +274,12 @@ Result<ChannelInput> PassLoader::input_of(size_t draft, const Channel& channel, 
         return output_of_name(source, channel.where);
     ChannelInput found = channel.input;
     if (!find_faces(found))
-        return fail(error_at(
-            channel.where, fmt::format("there are no six files for '{}': they end in e w u d n s, in east "
-                                       "west up down north south, in px nx py ny pz nz or in posx negx posy "
-                                       "negy posz negz",
-                                       source)));
+        return fail(
+            error_at(channel.where,
+                     fmt::format("there are no six files for '{}': their names end in e w u d n s, in east "
+                                 "west up down north south, in px nx py ny pz nz or in posx negx posy "
+                                 "negy posz negz",
+                                 source)));
     for (const fs::path& file : input_files(found))
         if (auto inside = bounds_.check(file); !inside)
             return fail(error_at(channel.where, inside.error().message));
@@ -323,10 +324,9 @@ Result<ChannelInput> PassLoader::output_of_name(const std::string& source,
     for (size_t i = 0; i < drafts_.size(); ++i)
         if (drafts_[i].pass.name == name)
             return PassOutput{i};
-    return fail(
-        error_at(where, fmt::format("there is no pass '{}' here: a scene folder has it in a file '{}', and "
-                                    "a single file names another by its path, as in \"blur.glsl\"",
-                                    name, file_name_of(name))));
+    return fail(error_at(where, fmt::format("there is no pass '{}': in a scene folder it is the file '{}'; a "
+                                            "single file names another file by its path, as in \"blur.glsl\"",
+                                            name, file_name_of(name))));
 }
 
 std::string PassLoader::unique_name(const fs::path& file) const {

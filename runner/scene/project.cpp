@@ -40,7 +40,7 @@ public:
 
     Result<Project> read() {
         if (!passes_.is_array() || passes_.empty())
-            return refuse("renderpass is no list of passes");
+            return refuse("renderpass is not a list of passes");
         if (passes_.size() > k_most_passes)
             return refuse(fmt::format("it has {} passes: ShaderToy has at most 8", passes_.size()));
         for (const Json& pass : passes_)
@@ -63,14 +63,14 @@ private:
     Result<void> read_pass(const Json& json) {
         const size_t number = project_.passes.size() + 1;
         if (!json.is_object())
-            return refuse(fmt::format("pass {} is no object", number));
+            return refuse(fmt::format("pass {} is not an object", number));
         ProjectPass pass;
         pass.name = as_text(json, "name");
         const std::string called =
             pass.name.empty() ? fmt::format("pass {}", number) : fmt::format("the pass '{}'", pass.name);
         const auto kind = kind_of(json, pass.name);
         if (!kind)
-            return refuse(fmt::format("{} is of the unknown type '{}': ShaderToy has image, buffer, common, "
+            return refuse(fmt::format("{} has the unknown type '{}': ShaderToy has image, buffer, common, "
                                       "cubemap and sound",
                                       called, as_text(json, "type")));
         pass.kind = *kind;
@@ -81,10 +81,9 @@ private:
                      code != json.end() && code->is_object() ? as_text(*code, "file") : "";
                  !named.empty()) {
             if (code_in_ == CodeIn::json)
-                return refuse(
-                    fmt::format("the code of {} stands in the file '{}': so it may in the scene.json "
-                                "of a folder, as `import` makes one; elsewhere it is a string",
-                                called, named));
+                return refuse(fmt::format("the code of {} is in the file '{}': this works only in the "
+                                          "scene.json of a scene folder; elsewhere code must be a string",
+                                          called, named));
             pass.file = named;
         } else if (code_in_ == CodeIn::json || (code != json.end() && !code->is_null()))
             return refuse(fmt::format("{} has no code", called));
@@ -134,8 +133,8 @@ private:
             project_.warnings.push_back(
                 {{file_},
                  Severity::warning,
-                 fmt::format("{} has an input of channel '{}': left out, for there are 0 to 3", called,
-                             channel)});
+                 fmt::format("{} has an input for channel '{}', which is ignored: channels are 0 to 3",
+                             called, channel)});
             return;
         }
         input.channel = channel[0] - '0';
@@ -413,7 +412,7 @@ ChannelInput InputReader::live_input(const std::string& name, Substitute instead
         warnings_.push_back(
             {{context_.file},
              Severity::warning,
-             fmt::format("'{0}' is live: {1} stands in for it without view --{0}", name, instead.name)});
+             fmt::format("'{0}' is a live input: {1} replaces it without view --{0}", name, instead.name)});
     return std::move(instead.input);
 }
 
@@ -426,7 +425,7 @@ ChannelInput InputReader::instead_of(const ProjectInput& input, const Media* med
     warnings_.push_back(
         {{context_.file},
          Severity::warning,
-         fmt::format("{} is not here: {} stands in for it (--media DIR says where such files are)", what,
+         fmt::format("{} was not found: {} replaces it (--media DIR names the folder with such files)", what,
                      instead.name)});
     return std::move(instead.input);
 }

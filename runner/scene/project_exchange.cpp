@@ -191,8 +191,8 @@ Result<std::vector<Json>> projects_in(std::string_view text, const std::string& 
     if (projects.empty())
         return fail(error_at(
             {file},
-            "there is no project in this page: ShaderToy's pages load theirs later. Save what "
-            "https://www.shadertoy.com/api/v1/shaders/ID?key=KEY shows, or a browser extension's export"));
+            "there is no project in this page: ShaderToy's pages load it later. Save the content of "
+            "https://www.shadertoy.com/api/v1/shaders/ID?key=KEY, or the export of a browser extension"));
     return projects;
 }
 
@@ -206,10 +206,10 @@ Result<Json> choose(std::vector<Json> projects, std::string_view id, const std::
     if (projects.size() == 1 && (id.empty() || ids[0].empty()))
         return std::move(projects[0]);
     if (id.empty())
-        return fail(
-            error_at({file}, fmt::format("this holds {} projects ({}): say which with `import ID --via FILE`",
-                                         ids.size(), fmt::join(ids, ", "))));
-    return fail(error_at({file}, fmt::format("this holds {}, and not {}", fmt::join(ids, ", "), id)));
+        return fail(error_at(
+            {file}, fmt::format("this holds {} projects ({}): choose one with `import ID --via FILE`",
+                                ids.size(), fmt::join(ids, ", "))));
+    return fail(error_at({file}, fmt::format("this holds {}, but not {}", fmt::join(ids, ", "), id)));
 }
 
 /// Returns whether an address is an id alone or on ShaderToy's own site.
@@ -233,7 +233,7 @@ Result<std::string> project_id(std::string_view address) {
     if (of_site && is_id(last))
         return std::string(last);
     return fail(ErrorCode::usage,
-                fmt::format("'{}' is no address of a ShaderToy project: give one as in "
+                fmt::format("'{}' is not the address of a ShaderToy project: give one as in "
                             "https://www.shadertoy.com/view/XxXxXx, or its last six characters",
                             address));
 }
@@ -284,7 +284,8 @@ Result<std::string> join_project(const fs::path& folder, const Bounds& bounds) {
             (void)value.dump();
         } catch (const Json::type_error&) {
             return fail(ErrorCode::load,
-                        fmt::format("'{}' is not UTF-8: save it as that, for JSON is", code_file.string()));
+                        fmt::format("'{}' is not UTF-8: JSON needs UTF-8, so save the file in that encoding",
+                                    code_file.string()));
         }
         (*passes)[i]["code"] = std::move(value);
     }
@@ -369,8 +370,7 @@ private:
                     ++number;
                 if (number == k_buffers)
                     return fail(ErrorCode::load,
-                                fmt::format("'{}' has more than {} buffers, which is all that "
-                                            "ShaderToy has",
+                                fmt::format("'{}' has more than {} buffers, the most that ShaderToy allows",
                                             scene_.file.string(), k_buffers));
                 numbers_[i] = number;
                 taken[size_t(number)] = true;
@@ -393,11 +393,12 @@ private:
 
     Json pass_of(const Pass& pass, const char* type, const std::string& name, int output) {
         if (pass.keyboard_helpers)
-            warn({}, fmt::format("'{}' says #iKeyboard: ShaderToy has no isKeyDown and the like", pass.name));
+            warn({}, fmt::format("'{}' uses #iKeyboard: ShaderToy has no isKeyDown and similar functions",
+                                 pass.name));
         for (const HostUniform& row : k_host_uniforms)
             if (row.breaks_as_zero && (pass.text.text().find(row.name) != std::string::npos ||
                                        scene_.common.text().find(row.name) != std::string::npos))
-                warn({}, fmt::format("'{}' says {}: ShaderToy has no such uniform, and it is all zeros there",
+                warn({}, fmt::format("'{}' uses {}: ShaderToy has no such uniform; there it is all zeros",
                                      pass.name, row.name));
         Json inputs = Json::array();
         for (size_t i = 0; i < pass.channels.size(); ++i) {
@@ -472,7 +473,7 @@ private:
         const auto files = input_files(channel.input);
         const std::string source =
             files.empty() ? std::string(traits_of(channel.input).name) : relative(files.front());
-        warn(channel.where, fmt::format("ShaderToy has no '{}': choose something there", source));
+        warn(channel.where, fmt::format("ShaderToy has no '{}': choose another input there", source));
         return {{"id", 0}, {"src", source}, {"ctype", traits_of(channel.input).site_type}};
     }
 
@@ -505,9 +506,11 @@ Result<std::string> make_project(const Scene& scene, std::vector<Diagnostic>& wa
     try {
         return json.dump(k_json_indent) + "\n";
     } catch (const Json::type_error&) { // JSON must be Unicode
-        return fail(ErrorCode::load,
-                    fmt::format("'{}' has a text that is not UTF-8: save it as that, for JSON is",
-                                scene.file.string()));
+        return fail(
+            ErrorCode::load,
+            fmt::format(
+                "'{}' has a text that is not UTF-8: JSON needs UTF-8, so save the text in that encoding",
+                scene.file.string()));
     }
 }
 

@@ -98,7 +98,7 @@ Result<std::pair<Pass*, std::string_view>> channel_of(Scene& scene, std::string_
     std::string names;
     for (const Pass& known : scene.passes)
         names += fmt::format("{}{}", names.empty() ? "" : ", ", known.name);
-    return fail(ErrorCode::usage, fmt::format("--channel {}: the scene has {}", place, names));
+    return fail(ErrorCode::usage, fmt::format("--channel {}: no such pass; the scene has {}", place, names));
 }
 
 } // namespace
@@ -125,8 +125,8 @@ Result<void> override_channel(Scene& scene, std::string_view setting) {
     const auto test = test_input(what);
     if (!test && names_a_pass(what))
         return fail(ErrorCode::usage,
-                    fmt::format("--channel {}: '{}' is a pass: a scene names it with #iChannel{}", setting,
-                                what, number));
+                    fmt::format("--channel {}: '{}' is a pass: bind it in the scene with #iChannel{}",
+                                setting, what, number));
     // The user's own path: no bounds.
     Channel channel;
     channel.input = test ? *test : input_of_name(what, {});
@@ -143,11 +143,10 @@ Result<void> override_knob(Scene& scene, std::string_view setting) {
     const auto value = TRY(parse_knob_value(*knob, split.second));
     (knob)->value = value;
     if (!in_range(*knob))
-        scene.warnings.push_back(
-            {(knob)->where, Severity::warning,
-             fmt::format("--set {}: {} has the range {} to {}; the value is taken as it is", setting,
-                         (knob)->name, to_string(*knob, (knob)->range->low),
-                         to_string(*knob, (knob)->range->high))});
+        scene.warnings.push_back({(knob)->where, Severity::warning,
+                                  fmt::format("--set {}: {} has the range {} to {}; the value is used anyway",
+                                              setting, (knob)->name, to_string(*knob, (knob)->range->low),
+                                              to_string(*knob, (knob)->range->high))});
     return {};
 }
 

@@ -91,7 +91,7 @@ class Unknown(ProgramTest):
                 self.expect_failure([command], 2, f"tidemark: error: {command}: SCENE is required")
         self.expect_failure(["inspect"], 2, "tidemark: error: inspect: give a SCENE, or --devices")
 
-    def test_scene_behind_an_option_that_may_be_given_again(self):
+    def test_scene_after_a_repeatable_option(self):
         (self.folder / "a.glsl").write_text("#define N 1\n#iUniform float k = 1.0 in { 0.0, 2.0 }\n" + SHADER)
         for words in (["export", "--set", "k=2", "a.glsl", "-o", "-"],
                       ["inspect", "--device", "none", "--set", "k=2", "--define", "N=2", "a.glsl"],

@@ -83,8 +83,8 @@ class BadScene(ProgramTest):
 
     def test_picture_from_the_net(self):
         self.write("a.glsl", f'#iChannel0 "https://example.org/a.png"\n{READS_CHANNEL}')
-        self.expect_refusal("a.glsl", "a.glsl:1: error: 'https://example.org/a.png' is not a local file: "
-                                      "tidemark downloads nothing")
+        self.expect_refusal("a.glsl", "a.glsl:1: error: 'https://example.org/a.png' is not a local file: tidemark does not "
+                                      "download files")
 
 
 class DoesNotCompile(ProgramTest):
@@ -106,7 +106,7 @@ class DoesNotCompile(ProgramTest):
         self.expect_refusal("a.glsl", r"tidemark: error: 'a\.glsl' does not compile\nlib/b\.glsl:2(:20)?: error: .*"
                                       r"(\n[^\n]+)*")
 
-    def test_error_behind_an_include_has_its_own_line(self):
+    def test_error_after_an_include_has_its_own_line(self):
         self.write("a.glsl", '#include "b.glsl"\nvoid mainImage(out vec4 c, in vec2 p) { c = nothing; }\n')
         self.write("b.glsl", "float f() {\n    return 1.0;\n}")
         self.expect_refusal("a.glsl", r"tidemark: error: 'a\.glsl' does not compile\na\.glsl:2(:45)?: error: .*"
@@ -146,7 +146,7 @@ class BadPicture(ProgramTest):
     def test_text(self):
         self.write("text.png", "hello\n")
         self.capture_of("text.png", "a.glsl:2: error: cannot read 'text.png': "
-                                    "it is no PNG, JPEG, TIFF, EXR, HDR, BMP, WebP, PNM or TGA picture")
+                                    "it is not a PNG, JPEG, TIFF, EXR, HDR, BMP, WebP, PNM or TGA picture")
 
     def test_empty(self):
         self.write("empty.png", "")
@@ -164,7 +164,7 @@ class BadPicture(ProgramTest):
         self.expect_failure(["capture", "a.glsl", "--channel", "0=none.png"], 3,
                             "tidemark: error: cannot read 'none.png': no such file")
 
-    def test_an_unread_missing_file_is_no_error(self):
+    def test_unread_missing_file_is_no_error(self):
         self.write("a.glsl", f'#iChannel0 "none.png"\n{GOOD}')
         self.succeed("capture", "a.glsl", "--size", "4x4")
 
@@ -175,7 +175,7 @@ class NoContext(ProgramTest):
              "libgl1-mesa-dri draws on the CPU; a graphics card needs its vendor's EGL driver); "
              "`tidemark inspect --devices` lists what there is")
 
-    def test_says_what_was_tried_and_what_to_do(self):
+    def test_error_names_tried_devices_and_remedy(self):
         self.write("a.glsl", GOOD)
         without_driver = environment(__EGL_VENDOR_LIBRARY_FILENAMES="/dev/null")
         for command in ("capture", "inspect"):

@@ -134,7 +134,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {{
         sand = self.heights("sand.png", lambda x, y: 128)
         refused(sand, "there is no water: the lowest height is 0.502 m above the sea; raise --sea")
         edge = self.heights("edge.png", lambda x, y: 200 if x > 60 else 0)
-        refused(edge, "the circle where the waves start, 30 m round the middle, meets land at column 61, row 47: "
+        refused(edge, "the circle where the waves start, 30 m from the middle, meets land at column 61, row 47: "
                       "leave open water there, or raise --sea", "--sea", "0.5")
         self.write("wide.png", png.encode(80, 64, 1, [bytes(80)] * 64))
         refused("wide.png", "a height map is square; this picture is 80x64")

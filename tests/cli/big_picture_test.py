@@ -99,7 +99,7 @@ class Refusals(BigPicture):
         self.expect_failure_like(["capture", "places.glsl", "--tile", "7"], 2,
                                  r"tidemark: error: --tile 7: give an even number of pixels from 2 to \d+")
         self.expect_failure(["capture", "places.glsl", "--tile", "8", "-o", "a.mp4"], 2,
-                            "tidemark: error: --tile: the frames of a video are drawn whole")
+                            "tidemark: error: --tile: the frames of a video are not drawn in tiles")
 
     def test_a_full_disk_leaves_nothing(self):
         def small_files():
@@ -115,7 +115,8 @@ class Refusals(BigPicture):
     def test_a_frame_that_takes_too_long_leaves_nothing(self):
         self.write("slow.glsl", SLOW)
         self.expect_failure_like(["capture", "slow.glsl", "--size", "20000x20000", "--timeout", "0.7"], 5,
-                                 r"(\d+/1\d{3} tiles.*\n)*tidemark: error: gave up drawing frame 0 after 0\.\d+ s \(--timeout\)")
+                                 r"(\d+/1\d{3} tiles.*\n)*tidemark: error: stopped drawing frame 0 after 0\.\d+ s "
+                                 r"\(--timeout\)")
 
     def test_ctrl_c_leaves_nothing(self):
         self.write("slow.glsl", SLOW)

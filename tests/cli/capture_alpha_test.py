@@ -38,7 +38,7 @@ class Alpha(ProgramTest):
 
 
 class Pictures(Alpha):
-    def test_is_one_unless_it_is_asked_for(self):
+    def test_alpha_is_one_by_default(self):
         plain = self.capture("a.png")
         self.assertEqual(png.read(self.folder / "a.png").channels, 3)
         self.assertEqual(self.capture("b.png", "--alpha", "opaque"), plain)
@@ -115,11 +115,12 @@ class Pictures(Alpha):
         self.assertEqual((red, green, blue), (255, 0, 0))
         self.assertLessEqual(abs(alpha - 127.5), 4)
 
-    def test_what_is_no_coverage_is_said(self):
+    def test_warns_of_alpha_outside_0_to_1(self):
         self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { float a = p.x < 1.0 ? -0.5 : p.x < 3.0 ? 1.5 : p.x < 4.0 ? sqrt(-p.x) : 0.5;"
                              " c = vec4(0.5, 0.25, 1.0, a); }\n")
         done = self.succeed("capture", "a.glsl", *SIZE, "--alpha", "keep", "-o", "a.png", "--json")
-        self.assertIn("warning: alpha is below 0 or above 1 in 48 pixels of frame 0; the file has 0 or 1\n", done.stderr)
+        self.assertIn("warning: alpha is below 0 or above 1 in 48 pixels of frame 0; the file stores them as 0 or "
+                      "1\n", done.stderr)
         self.assertIn("warning: 16 pixels of frame 0 are not finite; where from: tidemark check --trace a.glsl", done.stderr)
         frame, = json.loads(done.stdout)["frames"]
         self.assertEqual((frame["no_coverage"], frame["not_finite"]), (48, 16))
@@ -127,7 +128,7 @@ class Pictures(Alpha):
         self.assertEqual([picture.pixel(x, 0)[3] for x in range(5)], [0, 255, 255, 0, 128])
         done = self.succeed("capture", "a.glsl", *SIZE, "--alpha", "keep", "-o", "a.exr", "--frames", "0-2",
                             "-o", "%d.exr", "--tile", "4")
-        self.assertIn("in 48 pixels of frame 0 (and of 2 other frames); the file has it as it is\n", done.stderr)
+        self.assertIn("in 48 pixels of frame 0 (and of 2 other frames); the file stores them unchanged\n", done.stderr)
         part, = exr.read(self.folder / "0.exr")
         self.assertEqual([*part.values("A")[:3], part.values("A")[4]], [-0.5, 1.5, 1.5, 0.5])
         self.assertNotEqual(part.values("A")[3], part.values("A")[3])
@@ -143,11 +144,13 @@ class Pictures(Alpha):
             self.expect_failure(["capture", "a.glsl", "--alpha", *options], 2, f"tidemark: error: --alpha {options[0]}: {words}")
 
         for name in ("a.jpg", "a.hdr", "a.mp4", "a.gif", "-"):
-            refused("that has no alpha: give a .png, .tif, .exr, .mov, .webm or .webp", "keep", "-o", name)
-        refused("that has no alpha: give a .png, .tif, .exr, .mov, .webm or .webp", "keep", "-o", "a.webm", "--codec", "av1")
+            refused("this output has no alpha: give a .png, .tif, .exr, .mov, .webm or .webp", "keep", "-o", name)
+        refused("this output has no alpha: give a .png, .tif, .exr, .mov, .webm or .webp", "keep", "-o", "a.webm", "--codec", "av1")
         for name in ("a.png", "a.webp", "a.webm"):
-            refused(f"readers of a {name[1:]} multiply themselves: give keep, or a .tif, .exr or .mov", "premultiplied", "-o", name)
-        refused("what another pass holds is numbers: all four are in the file", "keep", "-o", "a.png", "--pass", "Buffer A")
+            refused(f"{name[1:]} stores straight alpha: give --alpha keep, or write .tif, .exr or "
+                    f".mov", "premultiplied", "-o", name)
+        refused("only Image has an alpha to convert; the file of another pass has all four channels "
+                "unchanged", "keep", "-o", "a.png", "--pass", "Buffer A")
         refused("give opaque, keep or premultiplied", "straight", "-o", "a.png")
 
 

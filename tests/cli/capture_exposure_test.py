@@ -59,12 +59,12 @@ class Exposure(ProgramTest):
         self.succeed("capture", "bright.glsl", "--size", "16x16", "-o", "b.exr", "--depth", "float")
         self.assertIn("RMSE 0,", self.succeed("compare", "a.exr", "b.exr").stdout.decode())
 
-    def test_what_has_no_mean(self) -> None:
+    def test_refuses_passes_that_cannot_be_averaged(self) -> None:
         self.write("trail.glsl", '#iChannel0 "self"\nvoid mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }\n')
         self.write("shows.glsl", '#iChannel0 "trail.glsl"\nvoid mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }\n')
         self.write("holes.glsl", "void mainImage(out vec4 c, in vec2 p) { if (p.x < 9.0) discard; c = vec4(1.0); }\n")
-        for words, says in ((["holes.glsl", "--samples", "4"], "Image cannot be drawn again"),
-                            (["shows.glsl", "--pass", "trail.glsl", "--samples", "4"], "only Image is a picture"),
+        for words, says in ((["holes.glsl", "--samples", "4"], "Image cannot be drawn several times"),
+                            (["shows.glsl", "--pass", "trail.glsl", "--samples", "4"], "only frames of Image can be averaged"),
                             (["shows.glsl", "--shutter", "0.5"], "reads its own last frame"),
                             (["disc.glsl", "--samples", "0"], "give a whole number from 1 to 65536"),
                             (["disc.glsl", "--shutter", "2"], "give a number from 0 to 1")):

@@ -110,11 +110,12 @@ class Layers(ProgramTest):
             self.expect_failure(["capture", "s", "--layers", *options], 2, f"tidemark: error: --layers: {words}")
 
         for name in ("a.png", "a.tif", "a.mp4", "-"):
-            refused("only an .exr holds several pictures", "-o", name)
-        refused("the faces of a cube are layers: leave {} out of the name", "-o", "a_{}.exr")
-        refused("all passes are in the file: leave --pass out", "-o", "a.exr", "--pass", "Buffer A")
-        refused("passes are drawn whole: leave --tile out", "-o", "a.exr", "--tile", "64")
-        refused("with --shutter a frame has several moments, and a buffer has no mean", "-o", "a.exr", "--shutter", "0.5")
+            refused("only an .exr can hold several pictures", "-o", name)
+        refused("the faces of a cube become layers: remove {} from the name", "-o", "a_{}.exr")
+        refused("the file holds all passes: remove --pass", "-o", "a.exr", "--pass", "Buffer A")
+        refused("passes are not drawn in tiles: remove --tile", "-o", "a.exr", "--tile", "64")
+        refused("not with --shutter: a frame then has several moments, and buffers cannot be "
+                "averaged", "-o", "a.exr", "--shutter", "0.5")
         refused("a side has at most 16384 pixels", "-o", "a.exr", "--size", "16385x4")
 
 

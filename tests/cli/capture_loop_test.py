@@ -11,13 +11,14 @@ class Loop(ProgramTest):
         self.write("spin.glsl", SPIN.replace("TURNS", turns))
         return self.succeed("capture", "spin.glsl", "--size", "32x18", "--fps", "20", "-o", "%d.png", "--loop", *options).stderr
 
-    def test_a_sequence_that_goes_round(self) -> None:
+    def test_seamless_sequence(self) -> None:
         said = self.looped("1.0", "--frames", "0-19")
-        self.assertRegex(said, r"loop: the frame behind the last is the first to (inf|[5-9]\d\.\d) dB \(the second is it to [12]\d\.\d\): it goes round\n")
-        self.assertIn("it goes round", self.looped("1.0", "--frames", "0-18x2"))
+        self.assertRegex(said, r"loop: seamless; the frame after the last matches the first with (inf|[5-9]\d\.\d) dB \(the "
+                               r"second: [12]\d\.\d dB\)\n")
+        self.assertIn("seamless", self.looped("1.0", "--frames", "0-18x2"))
 
-    def test_a_sequence_that_jumps(self) -> None:
-        self.assertIn("it jumps where it begins again", self.looped("0.5", "--frames", "0-19"))
+    def test_jumping_sequence(self) -> None:
+        self.assertIn("jumps at the start", self.looped("0.5", "--frames", "0-19"))
         self.assertNotIn("20.png", self.files())  # what was drawn behind the last goes nowhere
 
     def test_samples_and_json(self) -> None:
@@ -29,8 +30,9 @@ class Loop(ProgramTest):
 
     def test_what_it_needs(self) -> None:
         self.write("spin.glsl", SPIN.replace("TURNS", "1.0"))
-        for words, says in ((["--loop"], "give --frames, two at least"),
-                            (["--loop", "--frames", "0-9", "-o", "%d.png", "--tile", "8", "--size", "32x32"], "are never in memory as a whole"),
+        for words, says in ((["--loop"], "give at least two --frames"),
+                            (["--loop", "--frames", "0-9", "-o", "%d.png", "--tile", "8", "--size", "32x32"], "drawn in tiles "
+                                    "cannot be compared"),
                             (["--loop", "--frames", "0-9", "-o", "%d.png", "--resume"], "excludes")):
             self.expect_failure_like(["capture", "spin.glsl", *words], 2, f"(.|\n)*{says}(.|\n)*")
 

@@ -155,8 +155,8 @@ class Mouse(Told):
 
     def test_errors(self):
         for wrong in ("x", "1", "1,", "1,2,up", "1,2,", "1;2", "nan,1", "1,inf"):
-            self.refused(f"--mouse {wrong}", f"--mouse {wrong}: give x,y after a click or x,y,from_x,from_y after "
-                                             "a drag, and ,down before its end, in pixels from the bottom left")
+            self.refused(f"--mouse {wrong}", f"--mouse {wrong}: give x,y for a click or x,y,from_x,from_y for a drag, in "
+                                             f"pixels from the bottom left, and ,down while the button is pressed")
 
 
 class Date(Told):
@@ -211,8 +211,8 @@ class Camera(Told):
     def test_errors(self):
         for wrong in ("x", "1,2", "1,2,3,4", "1,2,0", "1,2,-3", "1,,2", "nan,0,1"):
             self.refused(f"--camera {wrong}",
-                         f"--camera {wrong}: give azimuth,elevation,distance as in 30,20,10 (degrees, degrees, a "
-                         "distance above 0), and behind them x,y,z where it is panned to")
+                         f"--camera {wrong}: give azimuth,elevation,distance as in 30,20,10 (degrees, degrees, a distance "
+                         f"above 0), and after them x,y,z if the view was panned")
 
 
 class Knobs(Told):
@@ -242,11 +242,11 @@ class Knobs(Told):
             ("depth=1", "the scene has no knob 'depth': it has height, tint, cells"),
             ("height", "--set height: give it as NAME=VALUE"),
             ("=1", "--set =1: give it as NAME=VALUE"),
-            ("height=tall", "'tall' is no value for height (float): give a number"),
-            ("height=1,2", "'1,2' is no value for height (float): give a number"),
-            ("height=nan", "'nan' is no value for height (float): give a number"),
-            ("tint=#12345", "'#12345' is no value for tint (color3): give 3 numbers, as in 1,2,3 or #rrggbb"),
-            ("cells=1.5,2", "'1.5,2' is no value for cells (ivec2): give 2 whole numbers, as in 1,2"),
+            ("height=tall", "'tall' is not a value for height (float): give a number"),
+            ("height=1,2", "'1,2' is not a value for height (float): give a number"),
+            ("height=nan", "'nan' is not a value for height (float): give a number"),
+            ("tint=#12345", "'#12345' is not a value for tint (color3): give 3 numbers, as in 1,2,3 or #rrggbb"),
+            ("cells=1.5,2", "'1.5,2' is not a value for cells (ivec2): give 2 whole numbers, as in 1,2"),
         ]:
             self.refused(f"--set {setting}", words, self.DIRECTIVES + GOOD)
 
@@ -344,7 +344,7 @@ class Specialised(ProgramTest):
         self.assertIn("not specialised: it would differ from the plain program by ",
                       self.succeed(*trial, "--input", "hand.txt").stderr)
 
-    def test_plain_compiles_what_nobody_calls(self):
+    def test_plain_compiles_uncalled_functions(self):
         self.write("a.glsl", "float unused() { return 1.0; }\nfloat broken() { return undeclared; }\n" + self.SCENE)
         self.drawn()
         done = self.run_program("capture", "a.glsl", *self.SEQUENCE, "--plain")

@@ -77,8 +77,9 @@ class Names(CaptureTest):
             ("-o a.png --frames 0-1", "-o a.png: 2 frames need a frame number in the name, as in wave.%04d.png"),
             ("-o a%x.png", "-o a%x.png: write the frame number as %04d or ####"),
             ("-o a%d.%d.png", "-o a%d.%d.png: it has two frame numbers; one is enough"),
-            ("-o - --json", "--json and -o - both want standard output: give one of them"),
-            ("-o - --depth 16", "--depth: raw frames on standard output have 8 bits, videos what their codec has (--codec)"),
+            ("-o - --json", "--json and -o - both write to standard output: give one of them"),
+            ("-o - --depth 16", "--depth: is for picture files only; raw frames have 8 bits, the depth of a video follows from "
+                                "--codec"),
             ("--depth 12", "--depth 12: give 8, 16, half or float"),
             ("-o a.exr --depth 16", "'a.exr' cannot hold 16-bit samples: .exr holds half, float"),
             ("-o a.jpg --depth float", "'a.jpg' cannot hold float samples: .jpg holds 8-bit"),
@@ -238,8 +239,8 @@ class Json(CaptureTest):
         self.assertEqual(alone[0]["sha256"], sequence[1]["sha256"])
         self.assertEqual(self.picture("alone.png").pixel(0, 0)[:3], (255, 0, 0))
         self.expect_failure(["capture", "wave.glsl", *SIZE, "--tile", "2"], 2,
-                            "tidemark: error: --tile: Image must be drawn whole: it is a cube, a pass reads it, "
-                            "or it discards pixels")
+                            "tidemark: error: --tile: Image cannot be drawn in tiles: it is a cube, another pass reads it, or "
+                            "it discards pixels")
 
     def test_hash_of_a_float_picture_is_of_its_floats(self):
         self.write("wave.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p.x, -p.y, 1000.25, 0.0); }\n")
@@ -279,7 +280,7 @@ class SixFaces(ProgramTest):
     def test_are_of_a_cube_only(self):
         self.write("wave.glsl", SHADER)
         self.expect_failure(["capture", "wave.glsl", *SIZE, "-o", "a{}.png"], 2,
-                            'tidemark: error: -o a{}.png: {} stands for a face of a cube: give --pass "Cube A"')
+                            'tidemark: error: -o a{}.png: {} in the name stands for a face of a cube: give --pass "Cube A"')
 
 
 class CannotWrite(CaptureTest):

@@ -55,7 +55,7 @@ class Sheet(ProgramTest):
         self.expect_frames(self.sheet("--sheet", "4x1", "--duration", "2", "--fps", "10"), 4, 1, [0, 5, 10, 15])
         self.expect_frames(self.sheet("--sheet", "2x1", "--fps", "20"), 2, 1, [0, 100])
 
-    def test_what_remembers_is_stepped_through(self):
+    def test_feedback_scene_is_stepped_through(self):
         self.write("s/image.glsl", '#iChannel0 "Buffer A"\nvoid mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }\n')
         self.write("s/buffer_a.glsl", '#iChannel0 "Buffer A"\nvoid mainImage(out vec4 c, in vec2 p) '
                                       "{ c = texelFetch(iChannel0, ivec2(p), 0) + 1.0 / 255.0; }\n")
@@ -84,8 +84,8 @@ class Sheet(ProgramTest):
         done = self.succeed("capture", "a.glsl", *SIZE, "--sheet", "2x1", "--frames", "0-9", "-o", "s.png")
         self.assertEqual(done.stderr, "wrote s.png: 2 moments, frames 0 to 9\n")
         self.expect_failure(["capture", "--like", "s.png", "-o", "t.png"], 2,
-                            "tidemark: error: --like s.png: it does not hold how it was drawn: give one that `tidemark "
-                            "capture` or the window's S saved, other than .hdr, and that no other program has saved since")
+                            "tidemark: error: --like s.png: the file has no record of how it was drawn; give a picture from "
+                            "`tidemark capture` or from the window's S key, not .hdr and not saved again by another program")
 
     def test_interrupted_leaves_nothing(self):
         self.write("s/image.glsl", '#iChannel0 "Buffer A"\nvoid mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }\n')
@@ -105,14 +105,14 @@ class Sheet(ProgramTest):
             self.expect_failure(["capture", "a.glsl", *options], 2, f"tidemark: error: --sheet{words}")
 
         for text in ("5", "5x", "0x4", "5x4x3", "-1x2", "99999x99999"):
-            refused(f" {text}: give columns and rows, as in 5x4, 1000 cells at most", f"--sheet={text}")
-        refused(": one moment is a picture: give --frames or --duration", "--sheet", "2x2", "--frame", "3")
-        refused(": 2x2 cells want 4 frames, --frames names 3", "--sheet", "2x2", "--frames", "0-2")
-        refused(": --frames and --duration both say which moments: give one of them", "--sheet", "2x2", "--frames", "0-9", "--duration", "3")
-        refused(": 0.05 s at 60 frames a second are not 4 moments", "--sheet", "2x2", "--duration", "0.05")
+            refused(f" {text}: give columns and rows, as in 5x4, at most 1000 cells", f"--sheet={text}")
+        refused(": --frame and --time name one moment: give --frames or --duration", "--sheet", "2x2", "--frame", "3")
+        refused(": 2x2 cells need 4 frames, but --frames names 3", "--sheet", "2x2", "--frames", "0-2")
+        refused(": give either --frames or --duration", "--sheet", "2x2", "--frames", "0-9", "--duration", "3")
+        refused(": 0.05 s at 60 frames per second cannot give 4 moments", "--sheet", "2x2", "--duration", "0.05")
         for name in ("a.mp4", "-", "a_{}.png"):
-            refused(": it is one picture: give a .png, .jpg, .tif, .exr or .hdr", "--sheet", "2x2", "-o", name)
-        refused(": it would be 19232x2168 pixels: give a smaller --size, or fewer cells", "--sheet", "5x2", "--size", "3840x1080")
+            refused(": the sheet is one picture: give a .png, .jpg, .tif, .exr or .hdr", "--sheet", "2x2", "-o", name)
+        refused(": the sheet would have 19232x2168 pixels: give a smaller --size, or fewer cells", "--sheet", "5x2", "--size", "3840x1080")
 
 
 if __name__ == "__main__":

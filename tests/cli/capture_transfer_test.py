@@ -139,8 +139,8 @@ class Others(Transfer):
 
     def test_refused(self):
         for options, words in (
-                (["-o", "a.png"], "linear: 8 bits of light show steps where it is dark: give --depth 16, or an .exr"),
-                (["-o", "a.jpg"], "linear: 8 bits of light show steps where it is dark: give --depth 16, or an .exr"),
+                (["-o", "a.png"], "linear: 8 bits of linear light show steps in dark areas: give --depth 16, or an .exr"),
+                (["-o", "a.jpg"], "linear: 8 bits of linear light show steps in dark areas: give --depth 16, or an .exr"),
                 (["-o", "a.mp4"], "linear: videos and raw frames on standard output are always sRGB"),
                 (["-o", "-"], "linear: videos and raw frames on standard output are always sRGB")):
             self.expect_failure(["capture", "a.glsl", *options, "--transfer", "linear"], 2,

@@ -58,7 +58,7 @@ class Video(ProgramTest):
             if self.lacks(codec):
                 done = self.run_program("capture", "a.glsl", *SIZE, "--codec", codec, "-o", "a.mp4")
                 self.assertEqual(done.returncode, 4)
-                self.assertIn(f"--codec {codec}: this ffmpeg has no ", done.stderr)
+                self.assertIn(f"--codec {codec}: this ffmpeg lacks the encoder ", done.stderr)
                 continue
             for name in names:
                 # The second is too small for SVT-AV1; x265 4.1 (Debian 13) crashes on pictures narrower than 64.
@@ -185,7 +185,7 @@ class Video(ProgramTest):
         # Ticks of two frames of the scene: frame 0 for two, 4 for one, 6 for five, 16 for two, 20 for one.
         done = self.succeed("capture", "s", *SIZE, "--fps", "10", "--frames", "0,4,6,16,20", "-o", "s.mp4")
         self.assertEqual(done.stderr.splitlines(), [
-            "its frames are not evenly apart: the video shows each until the next one is due, 5 a second",
+            "the frames are not evenly spaced: the video (5 frames per second) holds each until the time of the next",
             "wrote s.mp4: 5 frames, 5 a second"])
         video = self.facts("s.mp4")["video"]
         self.assertEqual((video["r_frame_rate"], video["nb_read_frames"]), ("5/1", "11"))
@@ -204,11 +204,13 @@ class Video(ProgramTest):
     def test_frames_that_are_not_later_say_so_and_are_silent(self):
         self.write("s/image.glsl", SCENE)
         self.write("s/sound.glsl", "vec2 mainSound(int samp, float t) { return vec2(sin(t)); }")
-        one_by_one = "some of its frames are not later than the one before, and they come one after another"
+        one_by_one = "its frames are not in ascending order; they are shown one after another"
         for frames, why, rate in (("2,2", one_by_one, 10), ("0,3,2", one_by_one, 10),
-                                  ("9-0", "its frames go backwards", 10), ("8-0x2", "its frames go backwards", 5)):
+                                  ("9-0", "its frames are in descending order", 10), ("8-0x2", "its frames are in descending "
+                                                                                               "order", 5)):
             done = self.succeed("capture", "s", *SIZE, "--fps", "10", "--frames", frames, "-o", "s.mp4")
-            self.assertEqual(done.stderr.splitlines()[0], f"the video does not go by the scene's time: {why}, {rate} a second; "
+            self.assertEqual(done.stderr.splitlines()[0], f"the video does not follow the scene's time: {why}; it shows {rate} "
+                                                          f"frames per second; "
                                                           "it is silent")
             facts = self.facts("s.mp4")
             self.assertEqual((set(facts), facts["video"]["r_frame_rate"]), ({"video"}, f"{rate}/1"))
@@ -219,8 +221,8 @@ class Video(ProgramTest):
         self.succeed("capture", "s", *SIZE, "--fps", "1", "--frames", "47990-47991", "-o", "last.mp4")
         self.assertEqual(set(self.facts("last.mp4")), {"video", "audio"})
         done = self.succeed("capture", "s", *SIZE, "--fps", "1", "--frames", "47999-48000", "-o", "late.mp4")
-        self.assertIn("the video is silent: tidemark: error: sound ends at 48000 s: iSampleOffset counts its samples "
-                      "in an int\n", done.stderr)
+        self.assertIn("the video is silent: tidemark: error: sound cannot be longer than 48000 s, because iSampleOffset counts "
+                      "samples in an int\n", done.stderr)
         self.assertEqual(set(self.facts("late.mp4")), {"video"})
 
     def test_broken_sound_pass_leaves_a_silent_video(self):
@@ -237,8 +239,9 @@ class Video(ProgramTest):
 
         refused("cannot write 'a.mp4': there is no program 'ffmpeg' in PATH, which videos need; install the package "
                 "ffmpeg", 4, environment(PATH=str(self.folder)), "-o", "a.mp4")
-        refused("--fps 60: a GIF shows 50 frames a second at most", 2, None, "-o", "a.gif")
-        refused("--depth: raw frames on standard output have 8 bits, videos what their codec has (--codec)", 2, None, "-o",
+        refused("--fps 60: a GIF has at most 50 frames per second", 2, None, "-o", "a.gif")
+        refused("--depth: is for picture files only; raw frames have 8 bits, the depth of a video follows from "
+                "--codec", 2, None, "-o",
                 "a.mp4", "--depth", "16")
         refused("--codec hevc: give an .mp4, an .mkv or a .webm", 2, None, "-o", "a.gif", "--codec", "hevc")
         refused("--codec av1: give an .mp4, an .mkv or a .webm", 2, None, "-o", "a.png", "--codec", "av1")

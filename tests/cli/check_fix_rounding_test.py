@@ -88,7 +88,7 @@ class CheckFixRounding(ProgramTest):
 
     def test_a_text_that_loses_nothing_stays(self):
         self.write("a.glsl", BODY % "c = vec4(1.0 - cos(uv.x), uv.x * uv.x - uv.y * uv.y, sin(uv.x + iTime), 1.0);")
-        self.assertEqual(self.succeed("check", "--fix", "a.glsl", *BUDGET).stdout, b"nothing to mend\n")
+        self.assertEqual(self.succeed("check", "--fix", "a.glsl", *BUDGET).stdout, b"nothing to fix\n")
 
     def test_an_equation_that_does_not_hold_is_not_offered(self):
         """acos(dot(a, b)) is the angle of vectors of length 1, and one of these is shorter: floats lose nothing in the

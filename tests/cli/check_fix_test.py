@@ -43,7 +43,7 @@ class CheckFix(ProgramTest):
         self.assertEqual(done.returncode, code, done.stderr)
         return json.loads(done.stdout)
 
-    def test_planted_faults_are_mended_and_check_is_clean_after(self):
+    def test_planted_faults_are_fixed_and_check_is_clean_after(self):
         for number, (fault, mended) in enumerate(PLANTED.items()):
             with self.subTest(fault):
                 name = f"planted{number}.glsl"
@@ -92,7 +92,7 @@ void mainImage(out vec4 c, in vec2 p) {
 }
 """
         scene = self.write("noise.glsl", text)
-        self.assertEqual(self.succeed("check", "--fix", "noise.glsl", *BUDGET).stdout, b"nothing to mend\n")
+        self.assertEqual(self.succeed("check", "--fix", "noise.glsl", *BUDGET).stdout, b"nothing to fix\n")
         cure, = self.fix("noise.glsl", "--hashes", "--write")["cures"]
         self.assertEqual(cure["fault"], {"of": "hashes of large sines", "before": 3, "after": 0})
         self.assertIn("another picture", cure["cure"])
@@ -147,15 +147,15 @@ void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(hash(floor(p) - 64.0)), 1.
         scene = self.write("a.glsl", BODY % "c = vec4(sqrt(uv.x - 0.5));")
         before = scene.read_text()
         said = self.succeed("check", "--fix", "a.glsl", *BUDGET).stdout.decode()
-        self.assertIn("  elsewhere: the same bytes in ", said)
+        self.assertIn("  elsewhere: unchanged in all ", said)
         self.assertIn("--- a.glsl\n+++ a.glsl\n@@ -3 +3 @@\n-    c = vec4(sqrt(uv.x - 0.5));\n", said)
         self.assertEqual(scene.read_text(), before)
 
-    def test_a_page_has_every_cure_and_what_is_left(self):
+    def test_page_has_every_fix_and_remaining_finding(self):
         self.write("a.glsl", BODY % "float a[65]; c = vec4(sqrt(uv.x - 0.5), a[0], 0.0, 1.0);")
         self.fix("a.glsl", "-o", "page", code=1)
         page = (self.folder / "page" / "index.html").read_text()
-        self.assertIn("1 cure, each measured on top of those before; 1 finding is not mended", page)
+        self.assertIn("1 fix, each measured on top of those before it; 1 finding is not fixed", page)
         self.assertIn("+    float a[65]; c = vec4(sqrt(max(uv.x - 0.5, 0.0)), a[0]", page)
         self.assertIn("pixels that are not finite: ", page)
         self.assertIn("no fix is known", page)
@@ -163,9 +163,9 @@ void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(hash(floor(p) - 64.0)), 1.
 
     def test_a_sound_scene_has_nothing_to_mend(self):
         self.write("a.glsl", BODY % "c = vec4(uv, 0.5, 1.0);")
-        self.assertEqual(self.succeed("check", "--fix", "a.glsl", *BUDGET).stdout, b"nothing to mend\n")
+        self.assertEqual(self.succeed("check", "--fix", "a.glsl", *BUDGET).stdout, b"nothing to fix\n")
 
-    def test_an_include_is_mended_where_it_is_written(self):
+    def test_include_is_fixed_in_its_own_file(self):
         root = self.write("root.glsl", "float root(float x) {\n    return sqrt(\n        x - 0.3);\n}\n")
         scene = self.write("a.glsl", '#include "root.glsl"\n' + BODY % "c = vec4(root(uv.x));")
         before = scene.read_text()
@@ -178,14 +178,14 @@ void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(hash(floor(p) - 64.0)), 1.
         self.fix("a.glsl", "--write")
         self.assertEqual(scene.read_bytes(), (BODY % "c = vec4(sqrt(max(uv.x - 0.5, 0.0)));").replace("\n", "\r\n").encode())
 
-    def test_two_faults_of_a_line_are_mended_one_after_the_other(self):
+    def test_two_faults_of_a_line_are_fixed_one_after_the_other(self):
         scene = self.write("a.glsl", BODY % "c = vec4(sqrt(uv.x - 0.5), log(uv.x / d.y), 0.0, 1.0);")
         self.assertEqual(len(self.fix("a.glsl", "--write")["cures"]), 3)
         self.assertEqual(scene.read_text(), BODY % (
             "c = vec4(sqrt(max(uv.x - 0.5, 0.0)), "
             "log(max(uv.x / (d.y + (1.0 - abs(sign(d.y))) * 1e-18), 1e-30)), 0.0, 1.0);"))
 
-    def test_two_faults_of_one_pixel_are_mended_at_once(self):
+    def test_two_faults_of_one_pixel_are_fixed_at_once(self):
         """Either cure alone leaves the pixels as they are: not finite for the other reason."""
         text = """void mainImage(out vec4 c, in vec2 p) {
     float far = floor(abs(p.x - 8.5) / 4.0);
@@ -199,7 +199,7 @@ void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(hash(floor(p) - 64.0)), 1.
         self.assertEqual(scene.read_text().count("1e-18"), 2)
         self.succeed("check", "both.glsl", *BUDGET, "--probe", "times", "--probe", "sizes")
 
-    def test_what_doubles_know_better_is_not_mended(self):
+    def test_overflow_that_doubles_can_represent_is_not_fixed(self):
         """Where floats overflow a guard would show another picture."""
         self.write("a.glsl", BODY % "c = vec4(exp(200.0 * uv.x) / exp(200.0 * uv.x));")
         found = self.fix("a.glsl", code=1)
@@ -214,10 +214,10 @@ void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(hash(floor(p) - 64.0)), 1.
         self.succeed("check", "--fix", "--write", "p/b.json", *BUDGET)  # the folder is as it was written
         self.assertIn("max(", (self.folder / "p/b/image.glsl").read_text())
         self.assertEqual((self.folder / "p/b.json").read_text(), before)
-        self.assertEqual(self.succeed("check", "--fix", "p/b", *BUDGET).stdout, b"nothing to mend\n")
+        self.assertEqual(self.succeed("check", "--fix", "p/b", *BUDGET).stdout, b"nothing to fix\n")
         for command in (["check", "--fix"], ["simplify"], ["tune", "--vary", "k=1,2"]):
             self.expect_failure_like([*command, "p/b.json"], 4,
-                                     "tidemark: error: 'p/b/image.glsl' was not written by import, or has changed since.*")
+                                     "tidemark: error: 'p/b/image.glsl' was not written by import, or was changed since.*")
 
     def test_it_stops_at_once(self):
         """There are more faults to come when the first is told."""

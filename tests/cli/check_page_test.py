@@ -47,7 +47,7 @@ class Page(ProgramTest):
         self.assertEqual(len(png.read(self.folder / "again.png").rows), 36)
         self.assertEqual(self.browser.evaluate("[...document.images].map(i => i.naturalWidth)"), [64])
 
-    def test_it_asks_nobody_and_texts_are_no_markup(self):
+    def test_makes_no_requests_and_escapes_texts(self):
         self.open("--probe", "times")
         asked = [address for address in self.browser.requests if not address.startswith("data:")]
         self.assertEqual([re.sub("%20", " ", address) for address in asked], [f"file://{self.folder}/seen/index.html"])
@@ -67,13 +67,13 @@ class Page(ProgramTest):
             self.resize(width)
             self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
 
-    def test_what_was_cut_is_told(self):
+    def test_reports_cut_probes(self):
         self.write("broken & co/waves.glsl", BROKEN)
         done = self.run_program("check", "broken & co/waves.glsl", "-o", "seen", "--budget", "1e-9", "--probe", "times")
         self.assertEqual(done.returncode, 5)
-        self.assertIn("Cut off by the budget", (self.folder / "seen/index.html").read_text())
+        self.assertIn("Cut off by --budget", (self.folder / "seen/index.html").read_text())
 
-    def test_a_folder_that_cannot_be_made_is_told_before_any_probe(self):
+    def test_reports_unwritable_folder_before_any_probe(self):
         self.write("file", "")
         self.write("a.glsl", BROKEN)
         done = self.run_program("check", "a.glsl", "-o", "file/seen")

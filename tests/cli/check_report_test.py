@@ -94,12 +94,12 @@ class Report(CheckTest):
                 self.assertEqual(running.wait(TIME_LIMIT), 130)
                 self.assertEqual(running.stdout.read(), b"")
 
-    def test_what_was_not_answered_is_no_success(self):
+    def test_unfinished_probe_is_no_success(self):
         result = self.check(SLOW, "--budget", "2")
         self.assertEqual(result.returncode, 5)
         text = result.stdout.decode()
-        self.assertRegex(text, r"(?m)^cut   mouse       --budget is spent: not finished$")
-        self.assertRegex(text, r"(?m)^cut   sizes, inputs, .*  --budget is spent: not asked$")
+        self.assertRegex(text, r"(?m)^cut   mouse       not finished: --budget is used up$")
+        self.assertRegex(text, r"(?m)^cut   sizes, inputs, .*  not run: --budget is used up$")
         self.assertEqual(self.check(BROKEN + SLOW.replace("mainImage", "other"), "--budget", "30", "--probe", "times",
                                     ).returncode, 1)
 
@@ -139,7 +139,7 @@ class Frames(CheckTest):
         self.assertRegex(entry["found"], r"^from frame \d+ on: \+Inf in 2304 of 2304 pixels of \S+")
         self.assertEqual(entry["trace"]["first"]["line"], 4)
 
-    def test_what_stays_finite_passes(self):
+    def test_finite_scene_passes(self):
         entry = self.entry(FEEDBACK % "", "frames")
         self.assertEqual((entry["verdict"], entry["found"]), ("pass", "no NaN or infinity in the first 600 frames"))
         self.assertEqual(self.entry(SOUND, "frames")["verdict"], "n/a")

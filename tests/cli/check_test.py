@@ -112,7 +112,7 @@ class Check(ProgramTest):
                 self.assertGreater(float(said[2]), 0.99 * falls)
                 self.assertLess(float(said[2]), 1.3 * falls)
 
-    def test_that_rays_keep_within_their_turns_is_proved(self):
+    def test_proves_that_rays_stay_within_their_iterations(self):
         march = MARCH.replace("max(d, 0.4)", "d")
         entry = self.verdicts(self.write("march.glsl", march), "--probe", "turns")["turns"]
         self.assertEqual(entry["verdict"], "pass", entry["found"])
@@ -185,7 +185,7 @@ class Check(ProgramTest):
             entry = self.verdicts(scene, "--probe", "normals")["normals"]
             self.assertEqual(entry["verdict"], verdict, entry["found"])
 
-    def test_a_main_hit_that_drifts_is_told(self):
+    def test_reports_drifting_main_hit(self):
         hit = ("#ifdef TIDEMARK_HIT\nvoid mainHit(out vec4 hit, in vec2 p) {\n"
                "    vec4 c;\n    mainImage(c, p);\n    float t = 10.0 * c.x;\n"
                "    hit = vec4(t > 9.0 ? -1.0 : OFF * t, 9.0, 0.0, 0.0);\n}\n#endif\n")
@@ -276,8 +276,8 @@ class Check(ProgramTest):
                                         "    for (int i = 0; i < 60000; ++i)\n"
                                         "        for (int k = 0; k < 60000; ++k) c += sin(c + p.x);\n}\n")
         entries = self.verdicts(scene, "--budget", "1")
-        self.assertEqual(entries["times"]["found"], "--budget is spent: not finished")
-        self.assertEqual(entries["mouse"]["found"], "--budget is spent: not asked")
+        self.assertEqual(entries["times"]["found"], "not finished: --budget is used up")
+        self.assertEqual(entries["mouse"]["found"], "not run: --budget is used up")
         self.assertEqual(entries["times"]["verdict"], "cut")
 
     def test_a_probe_that_does_not_end_leaves_time_for_the_trace(self):
@@ -285,7 +285,7 @@ class Check(ProgramTest):
                                         "    if (iMouse.x > 0.0)\n        for (int i = 0; i < 60000; ++i)\n"
                                         "            for (int k = 0; k < 60000; ++k) c += sin(c + p.x);\n}\n")
         entries = self.verdicts(scene, "--budget", "10")
-        self.assertTrue(any(entry["found"] == "--budget is spent: not finished" for entry in entries.values()))
+        self.assertTrue(any(entry["found"] == "not finished: --budget is used up" for entry in entries.values()))
         self.assertEqual(entries["times"]["trace"]["first"]["line"], 2, entries["times"]["traced"])
 
     def test_a_large_sine_is_named_with_its_line(self):
@@ -347,7 +347,7 @@ class Check(ProgramTest):
         smooth = self.write("smooth.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(sin(0.1 * p.x)); }\n")
         self.assertEqual(self.verdicts(smooth, "--probe", "sine")["sine"]["verdict"], "pass")
 
-    def test_what_hangs_on_the_last_bit_is_told(self):
+    def test_reports_dependence_on_the_last_bit(self):
         for text, manner in (("fract(p.x * 15625.3 + 0.37)", "fused multiply-add"),
                              ("fract(0.3 * p.x + (1e6 + iTime) - (1e6 - iTime))", "sums added in reverse order"),
                              ("fract(1e6 * sqrt(p.x))", "quotients, roots, powers and logarithms a unit off"),
@@ -414,7 +414,7 @@ class Check(ProgramTest):
         self.assertEqual(entry["verdict"], "warn")
         self.assertIn(f"fwidth ({scene}:4, neighbours may branch at {scene}:3)", entry["found"])
 
-    def test_a_derivative_behind_an_early_return_is_named(self):
+    def test_reports_derivative_after_an_early_return(self):
         scene = self.write("edge.glsl", "float soft(float x) { return fwidth(x); }\n"
                                         "void mainImage(out vec4 c, in vec2 p) {\n    c = vec4(0.0);\n"
                                         "    if (p.x > p.y)\n        return;\n    c += fwidth(p.x) + soft(p.y);\n}\n")
@@ -448,7 +448,7 @@ class Check(ProgramTest):
         self.write("late.check.json", '{"time_horizon": 1, "skip": {"camera": "it has none"}}')
         entries = self.verdicts(scene)
         self.assertEqual(entries["horizon"]["verdict"], "pass")
-        self.assertEqual(entries["camera"]["found"], "left out by the scene: it has none")
+        self.assertEqual(entries["camera"]["found"], "skipped by the scene: it has none")
 
     def test_a_probe_asked_for_by_name_is_asked(self):
         scene = self.write("turn.glsl", FAULTS["camera"])

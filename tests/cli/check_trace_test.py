@@ -38,8 +38,8 @@ class CheckTrace(ProgramTest):
 
     def test_a_finite_scene(self):
         run = self.check(SOUND)
-        self.assertEqual((run.returncode, run.stdout), (0, "every pixel is finite; --hidden looks for a NaN "
-                                                               "that was masked on the way\n"))
+        self.assertEqual((run.returncode, run.stdout), (0, "every pixel is finite; --hidden searches for a NaN that was "
+                                                           "masked\n"))
         run = self.check(SOUND, "--hidden", "--json")
         self.assertEqual(run.returncode, 0)
         self.assertTrue(json.loads(run.stdout)["finite"])
@@ -65,18 +65,18 @@ class CheckTrace(ProgramTest):
                          "{ c = 0.5 * texelFetch(iChannel0, ivec2(p), 0) + 0.5; }\n", "--frame", "100000000",
                          "--timeout", "5")
         self.assertEqual(run.returncode, 5)
-        self.assertRegex(run.stderr, r"gave up after 5 s at frame \d+ of 100000000: a scene with feedback is drawn "
-                                     r"frame by frame from 0\n")
+        self.assertRegex(run.stderr, r"stopped after 5 s at frame \d+ of 100000000: a scene with feedback must be drawn frame "
+                                     r"by frame from 0\n")
 
     def test_a_scene_that_does_not_compile(self):
         run = self.check("void mainImage(out vec4 c, in vec2 p) { c = x; }\n")
         self.assertEqual(run.returncode, 3)
         self.assertIn("waves.glsl:1", run.stderr)
 
-    def test_what_takes_too_long_is_given_up(self):
+    def test_stops_after_the_time_limit(self):
         run = self.check(SOUND, "--timeout", "0.001")  # no context is made so fast
         self.assertEqual(run.returncode, 5)
-        self.assertIn("gave up after 0.001 s", run.stderr)
+        self.assertIn("stopped after 0.001 s", run.stderr)
 
     def test_usage(self):
         for options in (("--pixel", "16,0"), ("--pixel", "x"), ("--timeout", "0"), ("--frames", "0-3"),

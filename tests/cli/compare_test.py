@@ -90,8 +90,8 @@ class Pictures(Compare):
             self.compared(f"{name}_01.exr", f"{name}_01.exr", *every)
             self.compared(f"{name}_01.exr", f"{name}_01.exr", "--max-differing", "0", "--min-ssim", "1", "--max-flip", "0")
         done = self.run_program("compare", "good_01.exr", "nan_01.exr", "--max-difference", "0")
-        self.assertEqual(done.stderr, "largest difference 0 is not within --max-difference 0: NaN or infinity against a "
-                                      "number, or another of them\n")
+        self.assertEqual(done.stderr, "largest difference 0 is not within --max-difference 0: NaN or infinity where the other "
+                                      "picture has another value\n")
 
     def channels(self, name: str, *pixel: int) -> str:
         self.write(name, png.encode(16, 12, len(pixel), [bytes(pixel) * 16] * 12))
@@ -107,11 +107,11 @@ class Pictures(Compare):
                 (rgb, clear, 0.2, "A has no alpha: it counts as 1"),
                 (clear, rgb, 0.2, "B has no alpha: it counts as 1"),
                 (opaque, clear, 0.2, None),
-                (grey, rgb, 0, "A is grey, which stands for its red, green and blue"),
-                (coloured, grey, 0.2, "B is grey, which stands for its red, green and blue"),
-                (grey, opaque, 0, "A is grey, which stands for its red, green and blue; only B has an alpha, 1 "
+                (grey, rgb, 0, "A is grey: its value counts as red, green and blue"),
+                (coloured, grey, 0.2, "B is grey: its value counts as red, green and blue"),
+                (grey, opaque, 0, "A is grey: its value counts as red, green and blue; only B has an alpha, 1 "
                                   "throughout: it is not compared"),
-                (clear, grey, 0.2, "B is grey, which stands for its red, green and blue; B has no alpha: it counts "
+                (clear, grey, 0.2, "B is grey: its value counts as red, green and blue; B has no alpha: it counts "
                                    "as 1")):
             with self.subTest(a=a, b=b):
                 frame, = self.compared(a, b)["frames"]
@@ -136,9 +136,9 @@ class Pictures(Compare):
                                           "3 channels, the other 8x8 with 3 channels")
         self.refuse("a.png none.png", 3, "cannot read 'none.png': no such file")
         self.refuse("a.png a.png -o no/d.png", 4, "cannot write 'no/d.png': No such file or directory")
-        self.refuse("a.png a.png -o -", 2, "-o: the picture of the difference needs a file")
+        self.refuse("a.png a.png -o -", 2, "-o: the difference picture cannot go to standard output; give a file")
         self.refuse("a.png a.png --gain 0", 2, "--gain: give a number above 0")
-        self.refuse("a.png a.png --tolerance -1", 2, "--tolerance: give a number from 0 up, in parts of the peak")
+        self.refuse("a.png a.png --tolerance -1", 2, "--tolerance: give a number from 0 up, as a part of the peak")
         self.refuse("a.png a.png --max-rmse nan", 2, "--max-rmse: give a number, not 'nan'")
 
 
@@ -167,10 +167,10 @@ class Sequences(Compare):
 
     def test_errors(self):
         self.picture("a_0005.png", 0)
-        self.refuse("a_%04d.png b%d.png", 1, "frame 5 is missing: there is 'a_0005.png' but none of it in 'b%d.png'")
-        self.refuse("b%d.png a_%04d.png", 1, "frame 5 is missing: there is 'a_0005.png' but none of it in 'b%d.png'")
+        self.refuse("a_%04d.png b%d.png", 1, "frame 5 is missing: 'a_0005.png' has no counterpart in 'b%d.png'")
+        self.refuse("b%d.png a_%04d.png", 1, "frame 5 is missing: 'a_0005.png' has no counterpart in 'b%d.png'")
         self.refuse("a_%04d.png b3.png", 2,
-                    "'a_%04d.png' is a sequence and 'b3.png' is one picture: compare like with like")
+                    "'a_%04d.png' is a sequence and 'b3.png' is one picture: give two of the same kind")
         self.refuse("x_%04d.png b%d.png", 3, "there is no file 'x_%04d.png'")
         self.refuse("a_%04x.png b%d.png", 2, "a_%04x.png: write the frame number as %04d or ####")
         self.refuse("b%d.png b%d.png -o d.png", 2,

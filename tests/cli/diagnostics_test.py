@@ -108,7 +108,7 @@ class Forms(ProgramTest):
         self.assertEqual(first, {"file": "broken.glsl", "line": 3, "column": column, "end_column": column + 6,
                                  "severity": "error", "rule": "scene", "message": "no function with name 'thrice'"})
 
-    def test_what_follows_is_counted(self) -> None:
+    def test_further_errors_are_counted(self) -> None:
         found = self.json_lines("capture", "broken.glsl")
         self.assertEqual([each["line"] for each in found if each["severity"] == "error"], [3, 4])
         self.assertTrue(any("follow" in each["message"] for each in found if each["severity"] == "note"), found)

@@ -117,19 +117,19 @@ class Timeout(ProgramTest):
         for command in ("capture", "inspect"):
             with self.subTest(command):
                 self.expect_failure_like([command, "switch.glsl", "--timeout", "1"], 5,
-                                         r"tidemark: error: (gave up compiling after 1(\.\d+)? s|compiling Image of "
+                                         r"tidemark: error: (stopped compiling after 1(\.\d+)? s|compiling Image of "
                                          r"'switch\.glsl' takes more than 1 s) \(--timeout\)")
 
     def test_of_a_first_draw_that_never_ends(self):
         self.write("endless.glsl", ENDLESS)
         self.expect_failure_like(["capture", "endless.glsl", "--timeout", "2"], 5,
-                                 r"tidemark: error: gave up drawing frame 0 after 2(\.\d+)? s \(--timeout\)")
+                                 r"tidemark: error: stopped drawing frame 0 after 2(\.\d+)? s \(--timeout\)")
 
     def test_counts_the_frames_that_lead_to_one(self):
         self.write("feedback.glsl", '#iChannel0 "self"\n' + MAIN % "c = texelFetch(iChannel0, ivec2(p), 0) + 0.001;")
         self.expect_failure_like(["capture", "feedback.glsl", "--size", "8x8", "--frame", "100000000", "--timeout", "4"], 5,
                                  r"(\d+/100000000 frames stepped, .* a second, \d+ s left\n)*"
-                                 r"tidemark: error: gave up drawing frame [1-9]\d* after 4(\.\d+)? s \(--timeout\)")
+                                 r"tidemark: error: stopped drawing frame [1-9]\d* after 4(\.\d+)? s \(--timeout\)")
 
 
 class LastFrames(ProgramTest):

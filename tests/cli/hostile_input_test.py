@@ -51,9 +51,9 @@ class Names(ProgramTest):
 
     def test_a_link_to_nothing_says_where_it_leads(self):
         os.symlink("none.glsl", self.folder / "x.glsl")
-        self.refused('#include "x.glsl"', "cannot read 'x.glsl': it is a link to 'none.glsl', where there is nothing")
+        self.refused('#include "x.glsl"', "cannot read 'x.glsl': it is a link to 'none.glsl', which does not exist")
         self.expect_failure(["capture", "x.glsl"], 3, "tidemark: error: cannot read 'x.glsl': it is a link to "
-                                                      "'none.glsl', where there is nothing")
+                                                      "'none.glsl', which does not exist")
 
     def test_bytes_that_are_no_utf_8(self):
         self.write("a.glsl", b'#include "\xff\xfe"\n' + GOOD.encode())
@@ -91,7 +91,7 @@ class TooLarge(ProgramTest):
                                  f"{{ c = texture(iChannel0, {place}); }}\n")
             with self.subTest(name=name):
                 done = self.run_program("capture", "a.glsl", "--size", "4x4", "-o", "out.png")
-                self.assertRegex(done.stderr, rf"cannot read '{name}': it is (larger than \d+ MiB|no ShaderToy volume)")
+                self.assertRegex(done.stderr, rf"cannot read '{name}': it is (larger than \d+ MiB|not a ShaderToy volume)")
                 self.assertEqual(done.returncode, 3)
 
 
@@ -111,9 +111,8 @@ class OtherFiles(ProgramTest):
             for command in (["capture", "-o", "-"], ["inspect"], ["import", "-o", "folder"]):
                 with self.subTest(name=name, command=command):
                     self.expect_failure([*command, "a.json"], 3,
-                                        f"a.json: error: the code of the pass 'Image' stands in the file '{name}': so "
-                                        "it may in the scene.json of a folder, as `import` makes one; elsewhere it "
-                                        "is a string")
+                                        f"a.json: error: the code of the pass 'Image' is in the file '{name}': this works only "
+                                        f"in the scene.json of a scene folder; elsewhere code must be a string")
         for code in (5, None, [], {}, {"file": 5}, {"file": ["a"]}, True):
             self.write("a.json", self.project(code))
             with self.subTest(code=code):
@@ -142,7 +141,7 @@ class OtherFiles(ProgramTest):
                 with self.subTest(key=key, name=name):
                     done = self.run_program("inspect", "scene/a.json", "--device", "none", "--json")
                     if done.returncode == 0:  # looked up by name among the site's media, and not found
-                        self.assertIn("stands in for it", done.stderr)
+                        self.assertIn("replaces it", done.stderr)
                     else:
                         self.assertEqual(done.returncode, 3)
                         self.assertRegex(done.stderr, "lies outside the scene's folder|there is a zero byte in its")

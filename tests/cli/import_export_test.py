@@ -59,9 +59,9 @@ class Import(ProgramTest):
         self.succeed("import", "x.json")
         self.assertFalse((self.folder / "x/common.glsl").exists())
 
-    def test_never_over_somebodys_work(self):
-        words = ("tidemark: error: 'x/{}' was not written by import, or has changed since: give another folder with "
-                 "-o, or --force to write into this one")
+    def test_never_overwrites_foreign_files(self):
+        words = ("tidemark: error: 'x/{}' was not written by import, or was changed since: give another folder with -o, or "
+                 "--force to overwrite")
         self.write("x/notes.txt", "mine")
         self.expect_failure(["import", "x.json"], 4, words.format("notes.txt"))
         self.succeed("import", "x.json", "--force")
@@ -72,10 +72,10 @@ class Import(ProgramTest):
         self.expect_failure(["import", "x.json"], 4, words.format("common.glsl"))
         self.assertEqual((self.folder / "x/common.glsl").read_text(), "int mine;\n")
 
-    def test_what_is_no_project(self):
+    def test_refuses_other_json(self):
         self.expect_failure(["import", "none.json"], 3, "tidemark: error: cannot read 'none.json': no such file")
         self.write("a.json", "{\n  nothing\n")
-        self.expect_failure_like(["import", "a.json"], 3, r"a\.json:2:4: error: this is no JSON: .*")
+        self.expect_failure_like(["import", "a.json"], 3, r"a\.json:2:4: error: this is not JSON: .*")
         self.write("b.json", '{"Error": "Shader not found"}')
         self.expect_failure(["import", "b.json"], 3, "b.json: error: ShaderToy answered with an error instead of a "
                                                      "project: Shader not found")
@@ -115,9 +115,9 @@ class Export(ProgramTest):
 
     def test_usage(self):
         self.write("x.json", "[]")
-        self.expect_failure(["export", "x.json"], 2, "tidemark: error: 'x.json' is ShaderToy's JSON already")
+        self.expect_failure(["export", "x.json"], 2, "tidemark: error: 'x.json' is already ShaderToy's JSON")
         self.expect_failure(["export", "a.glsl", "--json"], 2,
-                            "tidemark: error: --json and -o - both want standard output: give one of them")
+                            "tidemark: error: --json and -o - both write to standard output: give one of them")
         self.expect_failure(["export", "none.glsl"], 3, "tidemark: error: cannot read 'none.glsl': no such file")
 
 

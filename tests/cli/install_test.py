@@ -42,8 +42,8 @@ class Installed(ProgramTest):
         for more in ([], ["--allow-outside"]):
             done = self.installed("inspect", "mine.glsl", "--device", "none", *more)
             self.assertEqual(done.returncode, 3)
-            self.assertRegex(done.stderr, r"^mine\.glsl:1: error: cannot read '.*/noise\.glsl': the shader library that comes with "
-                             r"tidemark is not there: it was looked for in '.*/bin/shaders/lib' and in '.*/share/tidemark/shaders/lib'")
+            self.assertRegex(done.stderr, r"^mine\.glsl:1: error: cannot read '.*/noise\.glsl': tidemark's shader library was "
+                                          r"found neither in '.*/bin/shaders/lib' nor in '.*/share/tidemark/shaders/lib'")
 
     def test_runs(self) -> None:
         self.assertEqual(self.installed("--version").stdout, self.succeed("--version").stdout.decode())

@@ -51,8 +51,8 @@ class Interrupted(ProgramTest):
                 self.assertEqual(self.files(), {"wave.glsl", *names})
                 lines = [line for line in stderr.splitlines() if not re.match(r"\d+/\d+ frames, ", line)]
                 self.assertEqual(lines, [f"wrote {count} frames, wave.0000.png to wave.{count - 1:04}.png",
-                                         f"interrupted after {count} of 10000000 frames; {count} frames are whole, "
-                                         "and the same command with --resume goes on"])
+                                         f"interrupted after {count} of 10000000 frames; {count} frames are complete; to "
+                                         f"continue, run the same command with --resume"])
                 for name in self.files():
                     (self.folder / name).unlink()
 
@@ -83,7 +83,7 @@ class Interrupted(ProgramTest):
                 for name in self.files():
                     (self.folder / name).unlink()
 
-    def test_a_child_that_somebody_has_stopped_follows_too(self):
+    def test_stopped_child_follows_too(self):
         running = self.start()
         with open(f"/proc/{running.pid}/task/{running.pid}/children", encoding="ascii") as file:
             child = int(file.read().split()[0])

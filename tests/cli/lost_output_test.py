@@ -38,7 +38,7 @@ def llvmpipe() -> bool:
 class Failures(Resume):
     """What is on disk is whole, the frame is named, and --resume goes on."""
 
-    WORDS = r"(\d+) frames? (?:is|are) whole, and the same command with --resume goes on\n"
+    WORDS = r"(\d+) frames? (?:is|are) complete; to continue, run the same command with --resume\n"
 
     def expect_cut(self, done: subprocess.CompletedProcess, code: int, error: str) -> int:
         """How many frames are whole."""
@@ -113,7 +113,7 @@ class Folders(Failures):
         self.write_feedback()
         done = self.run_program("capture", "fb", "--size", "8x8", "--frames", "0-6,100000000", "-o", "out/f_%d.png",
                                 "--timeout", "2")
-        self.assertEqual(self.expect_cut(done, 5, r"error: gave up drawing frame \d+ after 2(\.\d+)? s \(--timeout\)"), 7)
+        self.assertEqual(self.expect_cut(done, 5, r"error: stopped drawing frame \d+ after 2(\.\d+)? s \(--timeout\)"), 7)
         self.assertEqual(set(self.contents()), {f"f_{i}.png" for i in range(7)})
         self.assertEqual(self.resume("capture", "fb", "--size", "8x8", "--frames", "0-6", "-o", "out/f_%d.png"),
                          ["kept 7 of 7 frames"])
@@ -184,13 +184,13 @@ class Encoders(Failures):
                              "ffmpeg says: x264: malloc failed")
 
     def test_one_that_is_killed(self):
-        self.go_wrong_and_on("[ $run = 3 ] && { head -c 9216 > /dev/null; kill -9 $$; }", "ffmpeg ended without a word")
+        self.go_wrong_and_on("[ $run = 3 ] && { head -c 9216 > /dev/null; kill -9 $$; }", "ffmpeg ended without a message")
 
     def test_one_that_writes_no_video_and_says_that_all_is_well(self):
         for script in ("", 'for last; do :; done; echo junk > "${last#file:}"; '):
             with self.subTest(script):
                 self.go_wrong_and_on(f"[ $run = 3 ] && {{ cat > /dev/null; {script}exit 0; }}",
-                                     "ffmpeg said that it is done, and what it wrote is no such video: look at the ffmpeg in PATH")
+                                     "ffmpeg reported success, but wrote no valid video: check the ffmpeg in PATH")
                 for name in ("out", "tools"):
                     shutil.rmtree(self.folder / name)
                 (self.folder / "out").mkdir()
@@ -212,7 +212,7 @@ class Encoders(Failures):
 
     def test_one_that_hangs_is_given_up(self):
         done = self.run_program(*self.FILM, "--timeout", "2", env=self.with_ffmpeg(self.HANGS))
-        self.assertEqual(self.expect_cut(done, 5, r"error: gave up encoding frame 2\d after 2(\.\d+)? s \(--timeout\)"), 20)
+        self.assertEqual(self.expect_cut(done, 5, r"error: stopped encoding frame 2\d after 2(\.\d+)? s \(--timeout\)"), 20)
         self.assertEqual(self.resume(*self.FILM)[0], "kept 20 of 50 frames")
 
     def test_one_that_hangs_is_ended_by_one_interrupt(self):
@@ -226,8 +226,8 @@ class Encoders(Failures):
         before = self.contents()
         done = self.run_program(*self.FILM, "--resume")
         self.assertEqual(done.returncode, 4)
-        self.assertRegex(done.stderr, r"error: cannot write 'out/a.mp4': process \d+ is making it: wait for its end, or give another "
-                                      r"name \(-o\)")
+        self.assertRegex(done.stderr, r"error: cannot write 'out/a.mp4': process \d+ is writing it: wait until that process "
+                                      r"ends, or give another name \(-o\)")
         self.assertEqual(self.contents(), before)
         self.run_program("capture", "a.glsl", "--size", "64x36", "--frames", "0-2", "-o", "out/b.mp4", check=True)
         first.kill()
@@ -270,8 +270,9 @@ class Memory(Failures):
         if not llvmpipe():
             self.skipTest("another driver may have the memory")
         self.write_feedback()
-        self.expect_failure([*self.LARGE], 4, "tidemark: error: --size 16384x16384: this driver has no memory for such a picture; "
-                            "give a smaller one; Buffer A cannot be drawn in tiles, because a pass reads it or it discards pixels "
+        self.expect_failure([*self.LARGE], 4, "tidemark: error: --size 16384x16384: this driver has no memory for a picture of "
+                                              "that size; give a smaller one; Buffer A cannot be drawn in tiles, because a "
+                                              "pass reads it or it discards pixels "
                             "(before frame 3)")
 
     def test_a_limit(self):
@@ -288,9 +289,9 @@ class Memory(Failures):
         os.kill(int(children[0]), signal.SIGKILL)
         done = self.finished(process)
         self.assertEqual(done.returncode, 5, done.stderr)
-        self.assertRegex(done.stderr, r"error: .* was ended from outside \(SIGKILL\), which is what a system does that has no memory "
-                                      r"left: --memory ends it before \(in frame \d+\); what is on disk is whole, and the same "
-                                      r"command with --resume goes on\n\Z")
+        self.assertRegex(done.stderr, r"error: .* was killed from outside \(SIGKILL\), probably because the system ran out of "
+                                      r"memory: a lower --memory stops it earlier \(in frame \d+\); the files on disk are "
+                                      r"complete; to continue, run the same command with --resume\n\Z")
         self.assertRegex(self.resume(*SEQUENCE)[0], r"kept \d+ of 20 frames")
         self.expect_whole()
 

@@ -185,7 +185,7 @@ class Diagnostics(Lsp):
         client.change(scene, scene.read_text().replace("mainImage", "mainImagee"), 2)
         self.assertIn("mainImage", errors(client.diagnostics(scene, errors))[0]["message"])
 
-    def test_an_uncalled_function_is_a_hint(self) -> None:
+    def test_error_in_uncalled_function_is_a_hint(self) -> None:
         """As capture has it, which leaves it out; the site compiles it."""
         scene = self.write("a.glsl", "float f() { return wrong; }\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n")
         self.succeed("capture", "a.glsl", "--size", "16x9")
@@ -227,7 +227,7 @@ class Questions(Lsp):
         return result["contents"]["value"] if result else ""
 
     def test_hover_on_a_knob(self) -> None:
-        self.assertEqual(self.hover("bright *"), "```glsl\nuniform float bright\n```\nKnob, 0.5 at first, from 0 to 2.\n")
+        self.assertEqual(self.hover("bright *"), "```glsl\nuniform float bright\n```\nKnob, initially 0.5, from 0 to 2.\n")
 
     def test_hover_on_a_builtin_function(self) -> None:
         text = self.hover("sqrt")
@@ -313,9 +313,11 @@ class Questions(Lsp):
     def test_renames_that_are_refused(self) -> None:
         client, scene, _ = self.scene()
         for word, name, why in (("paint(p /", "x", "only knobs"), ("bright *", "paint", "has that name already"),
-                                ("bright *", "disc", "has that name already"), ("bright *", "2x", "no name of GLSL"),
-                                ("bright *", "vec3", "GLSL's or the host's"), ("bright *", "while", "GLSL's or the host's"),
-                                ("bright *", "main", "GLSL's or the host's"), ("bright *", "mainImage", "GLSL's or the host's")):
+                                ("bright *", "disc", "has that name already"), ("bright *", "2x", "not a GLSL name"),
+                                ("bright *", "vec3", "reserved by GLSL or the host"), ("bright *", "while", "reserved by GLSL "
+                                        "or the host"),
+                                ("bright *", "main", "reserved by GLSL or the host"), ("bright *", "mainImage", "reserved by "
+                                        "GLSL or the host")):
             with self.subTest(name):
                 self.assertIn(why, self.at(client, "rename", scene, GOOD, word, newName=name)["error"]["message"])
         self.assertIsNone(self.at(client, "prepareRename", scene, GOOD, "paint(p /")["result"])
@@ -358,7 +360,7 @@ class Protocol(Lsp):
             self.assertEqual(answer["error"]["code"], -32602, uri)
         self.assertEqual(client.close(), 0)
 
-    def test_a_position_behind_the_end(self) -> None:
+    def test_position_after_the_end(self) -> None:
         client, scene, _ = self.scene()
         for line, character in ((10**6, 0), (0, 10**6), (2**40, 2**40)):
             self.assertIn("result", client.at("hover", scene, line, character))

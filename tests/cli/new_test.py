@@ -15,7 +15,7 @@ class Written(ProgramTest):
         done = self.succeed("new", name, "--json", *([kind] if kind else []))
         report = json.loads(done.stdout)
         self.assertEqual(done.stderr.splitlines()[:-1], [f"wrote {file}" for file in report["files"]])
-        self.assertEqual(done.stderr.splitlines()[-1], f"see it with: tidemark {report['scene']}")
+        self.assertEqual(done.stderr.splitlines()[-1], f"open it with: tidemark {report['scene']}")
         return report["scene"]
 
     def test_draws_and_has_a_picture(self) -> None:
@@ -61,7 +61,7 @@ class Named(ProgramTest):
         self.succeed("new", "pond/", "--buffers")
         self.assertTrue((self.folder / "pond/image.glsl").is_file())
         self.expect_failure(["new", "pond/"], 2,
-                            "tidemark: error: 'pond/' is no name: give one as in `tidemark new waves`")
+                            "tidemark: error: 'pond/' is not a name for a scene: give one as in `tidemark new waves`")
 
     def test_nothing_is_written_over(self) -> None:
         self.write("a.glsl", "mine")
@@ -69,13 +69,14 @@ class Named(ProgramTest):
         (self.folder / "c.glsl").symlink_to("elsewhere.glsl")
         for name, arguments in (("a.glsl", ["a"]), ("b", ["b", "--buffers"]), ("c.glsl", ["c"])):
             self.expect_failure(["new", *arguments], 4,
-                                f"tidemark: error: there is a '{name}' already: give another name")
+                                f"tidemark: error: '{name}' already exists: give another name")
 
     def test_usage(self) -> None:
         self.expect_failure(["new"], 2, "tidemark: error: new: NAME is required")
-        self.expect_failure(["new", ""], 2, "tidemark: error: '' is no name: give one as in `tidemark new waves`")
+        self.expect_failure(["new", ""], 2, "tidemark: error: '' is not a name for a scene: give one as in `tidemark new "
+                                            "waves`")
         self.expect_failure(["new", "a", "--orbit", "--sound"], 2,
-                            "tidemark: error: --orbit and --sound are two scenes: give one of them")
+                            "tidemark: error: --orbit and --sound are different scenes: give one of them")
         self.expect_failure(["new", "none/a"], 4,
                             "tidemark: error: cannot write 'none/a.glsl': No such file or directory")
 

@@ -53,7 +53,7 @@ class NotFinite(ProgramTest):
                              "void main() { colour = vec4(gl_FragCoord.x < 3.0 ? sqrt(-1.0 - iTime) : 0.5); }\n")
         self.assertEqual(self.counts("a.glsl", *SIZE, "-o", "a.png"), [12])
 
-    def test_marks_are_not_in_the_picture(self):
+    def test_marks_are_not_visible(self):
         """Alpha is 1 in the file and in the digest, and in what a pass reads of Image."""
         self.write("a.glsl", SCENE)
         self.succeed("capture", "a.glsl", *SIZE, "--frame", "2", "-o", "a.tif")

@@ -26,8 +26,8 @@ STUDY = ("--vary", "level=0.2,0.4", "--reference", "level=0.5", "--size", "16x16
 
 
 def sentence(path: str, target, link: str | None = None) -> str:
-    return (f"tidemark: error: cannot write '{path}': {repr(link) if link else 'it'} is a link to '{target}', and a link "
-            "is followed only where -o names it: remove it, or give another place")
+    return (f"tidemark: error: cannot write '{path}': {repr(link) if link else 'it'} is a link to '{target}', and only links "
+            f"named with -o are followed: remove the link, or give another name")
 
 
 class Links(ProgramTest):
@@ -54,7 +54,8 @@ class Links(ProgramTest):
     def refuse(self, arguments: list[str], path: str, link: str | None = None, target=None) -> None:
         """Ends with exit code 4 and the sentence; what lies behind the link is as it was."""
         done = self.run_program(*arguments)
-        said = re.sub(r"; \d+ frames? (is|are) whole, and the same command with --resume goes on$", "", done.stderr.strip())
+        said = re.sub(r"; \d+ frames? (is|are) complete; to continue, run the same command with "
+                      r"--resume$", "", done.stderr.strip())
         self.assertEqual(said.splitlines()[-1:], [sentence(path, target or self.victim, link)])
         self.assertEqual(done.returncode, 4)
         self.assertEqual([name for name in self.files() if ".part-" in name], [])
@@ -255,7 +256,7 @@ class Streams(ProgramTest):
     def test_pipe_without_a_reader(self):
         os.mkfifo(self.folder / "p.png")
         done = self.run_program("capture", "a.glsl", *SMALL, "-o", "p.png")
-        self.assertEqual(done.stderr, "tidemark: error: cannot write 'p.png': it is a pipe, and nobody read it for 10 s\n")
+        self.assertEqual(done.stderr, "tidemark: error: cannot write 'p.png': it is a pipe that no program read for 10 s\n")
         self.assertEqual(done.returncode, 4)
 
     def test_devices(self):

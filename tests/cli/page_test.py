@@ -378,9 +378,9 @@ class Behaviour(Page):
 class Words(ProgramTest):
     def test_of_the_command(self):
         self.write("a.glsl", MOUSE)
-        for words, message in ((["--embed"], "--embed goes with --html FILE"), (["--media", "."], "--media goes with --html FILE"),
-                               (["--bpm", "90"], "--bpm goes with --html FILE"),
-                               (["--html", "-", "--json"], "--json and --html - both want standard output: give one of them")):
+        for words, message in ((["--embed"], "--embed needs --html FILE"), (["--media", "."], "--media needs --html FILE"),
+                               (["--bpm", "90"], "--bpm needs --html FILE"),
+                               (["--html", "-", "--json"], "--json and --html - both write to standard output: give one of them")):
             self.expect_failure(["export", "a.glsl", *words], 2, f"tidemark: error: {message}")
         self.assertEqual(self.succeed("export", "a.glsl", "--html", "a.html").stderr, "wrote a.html\n")
         self.assertTrue((self.folder / "a.html").read_text().startswith("<!doctype html>"))

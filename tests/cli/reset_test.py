@@ -8,8 +8,8 @@ from support.program import PROGRAM, ProgramTest, environment, main, not_sanitiz
 
 DRIVER = pathlib.Path(PROGRAM).parent / "tidemark_reset_driver.so"
 SCENE = "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, fract(iTime), 1.0); }\n"
-LESS = "a smaller --size or --tile gives it less at once"
-WATCHDOG = "what was drawn took too long for its watchdog, or broke it"
+LESS = "try a smaller --size or --tile"
+WATCHDOG = "a draw call took too long or crashed it"
 GUILTY = f"{WATCHDOG}; {LESS}"
 KNOBS = """#iUniform int turns = 8 in { 1, 16 }
 void mainImage(out vec4 c, in vec2 p) {
@@ -43,8 +43,8 @@ class Reset(ProgramTest):
         done = self.struck(*SEQUENCE, TIDEMARK_READ_BACK=read_back, **{fault: "6"})
         self.assertEqual(done.returncode, code, done.stderr)
         frame = len(self.contents())  # the next one is named
-        self.assertEqual(done.stderr, f"tidemark: error: the graphics driver {words.format(frame)}; {frame} frames are whole, "
-                                      "and the same command with --resume goes on\n")
+        self.assertEqual(done.stderr, f"tidemark: error: the graphics driver {words.format(frame)}; {frame} frames are "
+                                      f"complete; to continue, run the same command with --resume\n")
         self.assertEqual(self.contents(), {name: whole[name] for name in sorted(whole)[:frame]})
         self.assertEqual(self.succeed(*SEQUENCE, "--resume").stderr.splitlines()[0], f"kept {frame} of 20 frames")
         self.assertEqual(self.contents(), whole)
@@ -72,8 +72,8 @@ class Reset(ProgramTest):
     @not_sanitized
     def test_no_memory_for_the_picture(self):
         done = self.struck("capture", "a.glsl", "--size", "2048x2048", "-o", "out/a.png", TIDEMARK_TEST_NO_TARGET="1")
-        self.assertEqual(done.stderr, "tidemark: error: --size 2048x2048: this driver has no memory for such a picture; "
-                                      "give a smaller one (before frame 0)\n")
+        self.assertEqual(done.stderr, "tidemark: error: --size 2048x2048: this driver has no memory for a picture of that "
+                                      "size; give a smaller one (before frame 0)\n")
         self.assertEqual((done.returncode, self.contents()), (4, {}))
 
     @not_sanitized
@@ -86,7 +86,7 @@ class Reset(ProgramTest):
         done = self.struck(*run, TIDEMARK_TEST_RESET="14")  # frame 12
         self.assertEqual(done.returncode, 5, done.stderr)
         self.assertIn("reset while drawing frame 12", done.stderr)
-        self.assertIn("; 10 frames are whole, and the same command with --resume goes on\n", done.stderr)
+        self.assertIn("; 10 frames are complete; to continue, run the same command with --resume\n", done.stderr)
         self.assertIn("kept 10 of 20 frames", self.succeed(*run, "--resume").stderr)
         self.assertEqual(self.contents(), whole)
 
@@ -94,7 +94,7 @@ class Reset(ProgramTest):
     def test_what_measures(self):
         """A number that was taken of a lost context is none: nothing is printed, nothing is written."""
         self.write("k.glsl", KNOBS)
-        of_measuring = f"was reset while measuring: {WATCHDOG}; nothing is kept of it, and a smaller --size gives the driver less at once"
+        of_measuring = f"was reset while measuring: {WATCHDOG}; the measurement was discarded, try a smaller --size"
         for command, words in {("study", "k.glsl", "--vary", "turns=2,4,8"): of_measuring,
                                ("tune", "k.glsl", "--max-error", "rmse=0.1"): of_measuring,
                                ("simplify", "k.glsl"): of_measuring,
@@ -113,7 +113,7 @@ class Reset(ProgramTest):
         self.assertIn(b"2 pass;", self.succeed(*probes).stdout)
         done = self.struck(*probes, TIDEMARK_TEST_RESET="10")
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertRegex(done.stdout.decode(), f"(?m)^fail +times +the graphics driver was reset while it drew: {WATCHDOG}")
+        self.assertRegex(done.stdout.decode(), f"(?m)^fail +times +the graphics driver was reset while drawing: {WATCHDOG}")
         self.assertRegex(done.stdout.decode(), "(?m)^pass +repeats")
 
     @not_sanitized
@@ -122,7 +122,7 @@ class Reset(ProgramTest):
         self.assertIn(b"+void mainImage", self.run_program("check", "faulty.glsl", "--fix").stdout)
         done = self.struck("check", "faulty.glsl", "--fix", TIDEMARK_TEST_RESET="2")
         self.assertEqual((done.returncode, done.stdout), (5, b""), done.stderr)
-        self.assertIn(f"the graphics driver was reset while drawing cures: {WATCHDOG}", done.stderr)
+        self.assertIn(f"the graphics driver was reset while drawing fixes: {WATCHDOG}", done.stderr)
 
 
 if __name__ == "__main__":

@@ -35,18 +35,18 @@ class Sequences(Resume):
 
     def expect_redrawn(self, reason: str, *changes: str) -> None:
         lines = self.resume(*SEQUENCE, *changes)
-        self.assertEqual(lines[:2], [f"drawing 20 frames again, out/f_0000.png first: it was drawn with {reason}",
+        self.assertEqual(lines[:2], [f"drawing 20 frames again, from out/f_0000.png: it was drawn with {reason}",
                                      "kept 0 of 20 frames"])
         self.assertEqual(self.resume(*SEQUENCE, *changes), ["kept 20 of 20 frames"])
 
     def test_draws_again_what_was_drawn_otherwise(self):
         self.succeed(*SEQUENCE)
         self.expect_redrawn("other knobs", "--set", "speed=0.75")
-        self.expect_redrawn("other knobs, another state of the frame", "--mouse", "3,4")
-        self.expect_redrawn("another state of the frame", "--size", "32x36")
-        self.expect_redrawn("other options of drawing, another state of the frame", "--depth", "16")
+        self.expect_redrawn("other knobs, another time, size, mouse or camera", "--mouse", "3,4")
+        self.expect_redrawn("another time, size, mouse or camera", "--size", "32x36")
+        self.expect_redrawn("other drawing options, another time, size, mouse or camera", "--depth", "16")
         self.write("a.glsl", SCENE.replace("400", "401"))
-        self.expect_redrawn("another text of the scene, other options of drawing")
+        self.expect_redrawn("another text of the scene, other drawing options")
 
     def test_a_changed_input_is_noticed(self):
         def picture(value: int) -> bytes:
@@ -73,14 +73,14 @@ class Sequences(Resume):
             "drawing out/f_0001.png again: the file is damaged or cut short",
             "drawing out/f_0005.png again: the file is damaged: a checksum in it is wrong",
             "drawing out/f_0006.png again: the file is empty",
-            "drawing out/f_0007.png again: it is no picture",
+            "drawing out/f_0007.png again: it is not a picture",
             "kept 16 of 20 frames", "wrote 4 frames, out/f_0001.png to out/f_0007.png"])
         self.assertEqual(self.contents(), whole)
 
     def test_says_what_it_cannot_resume(self):
-        for output, why in (("-", "frames on standard output are not kept"),
-                            ("f_%d.hdr", "a .hdr does not hold how it was drawn; .exr and .tif do"),
-                            ("a.wav", "a sound is made at once, and whole or not at all")):
+        for output, why in (("-", "frames on standard output cannot be resumed"),
+                            ("f_%d.hdr", "a .hdr cannot record how it was drawn: give a .png, .jpg, .tif or .exr"),
+                            ("a.wav", "a sound cannot be resumed")):
             self.expect_failure(["capture", "a.glsl", "--frames", "0-1", "-o", output, "--resume"], 2,
                                 f"tidemark: error: --resume: {why}")
 
@@ -120,7 +120,7 @@ class Feedback(Resume):
             if "f_003" in name and name > "f_0033.png":
                 (self.folder / "out" / name).unlink()
         done = self.succeed(*self.RUN, "--resume", "--json")
-        self.assertIn("going on from the state before frame 30", done.stderr)
+        self.assertIn("continuing from the saved state before frame 30", done.stderr)
         frames = {f["frame"]: f for f in json.loads(done.stdout)["frames"]}
         self.assertEqual(frames[min(frames)]["passes_drawn"], (min(frames) - 30) * 2 + 2)
         self.assertEqual(self.contents(), whole)
@@ -132,7 +132,7 @@ class Feedback(Resume):
             self.cut(*self.RUN)
             state = self.folder / "out/f_0030.png.state"
             state.write_bytes(damage(state.read_bytes()))
-            self.assertNotIn("going on", "".join(self.resume(*self.RUN)))
+            self.assertNotIn("continuing from", "".join(self.resume(*self.RUN)))
             self.assertEqual(self.contents(), whole)
             for name in whole:
                 (self.folder / "out" / name).unlink()
@@ -142,7 +142,7 @@ class Feedback(Resume):
         whole = self.whole(*self.RUN)
         self.cut(*self.RUN)
         os.truncate(self.folder / "out/f_0030.png.state", 30 << 30)
-        self.assertNotIn("going on", "".join(self.resume(*self.RUN)))
+        self.assertNotIn("continuing from", "".join(self.resume(*self.RUN)))
         self.assertEqual(self.contents(), whole)
 
 
@@ -181,7 +181,7 @@ class Videos(Resume):
             self.assertRegex(lines[0], r"kept [2345]0 of 50 frames")
             self.assertEqual(lines[-1], f"wrote out/a{extension}: 50 frames")
             self.assertEqual(scene == "fb" and lines[0] != "kept 50 of 50 frames",
-                             any(line.startswith("going on from the state before frame") for line in lines))
+                             any(line.startswith("continuing from the saved state before frame") for line in lines))
             self.assertEqual(self.contents(), whole)
             (self.folder / f"out/a{extension}").unlink()
 
@@ -221,8 +221,8 @@ class Videos(Resume):
         whole = self.whole(*arguments)
         done = self.run_program(*arguments, env=environment(PATH=f"{tools}:{os.environ['PATH']}"))
         self.assertEqual(done.returncode, 4)
-        self.assertRegex(done.stderr, r"error: cannot write 'out/a.mp4': ffmpeg ended without a word \(in frame 2\d\); "
-                                      r"20 frames are whole, and the same command with --resume goes on\n\Z")
+        self.assertRegex(done.stderr, r"error: cannot write 'out/a.mp4': ffmpeg ended without a message \(in frame 2\d\); "
+                                      r"20 frames are complete; to continue, run the same command with --resume\n\Z")
         self.assertEqual(self.resume(*arguments)[0], "kept 20 of 50 frames")
         self.assertEqual(self.contents(), whole)
 

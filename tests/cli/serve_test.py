@@ -380,14 +380,15 @@ class Access(Serve):
                             "Address already in use")
         self.expect_failure(["serve", "a.glsl", "--port", "65536"], 2, "tidemark: error: --port: give a whole number from 0 to 65535, "
                             "not '65536'")
-        self.expect_failure(["serve", "a.glsl", "--host", ""], 2, "tidemark: error: --host '': give an address or a name of this "
-                            "machine, as in --host 127.0.0.1; 0.0.0.0 is every address of it")
+        self.expect_failure(["serve", "a.glsl", "--host", ""], 2, "tidemark: error: --host '': give an address or a name of "
+                                                                  "this machine, as in --host 127.0.0.1; 0.0.0.0 stands for "
+                                                                  "all its addresses")
         self.expect_failure_like(["serve", "a.glsl", "--size", "65500x1"], 2, r"tidemark: error: --size 65500x1: this driver draws at most "
                                  r"\d+ pixels on a side")
         everywhere = self.serve("a.glsl", "--host", "0.0.0.0")
         self.assertTrue(everywhere.address.startswith(f"http://{socket.gethostname()}:"))
         everywhere.process.send_signal(signal.SIGTERM)
-        self.assertRegex(everywhere.end()[1], "^warning: everybody who can reach this machine can read along")
+        self.assertRegex(everywhere.end()[1], "^warning: the connection is not encrypted")
 
 
 class Loading(Serve):

@@ -11,7 +11,7 @@ SCENE = """#iUniform float speed = 0.5
 void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, fract(iTime * speed), 1.0); }
 """
 SEQUENCE = ("capture", "a.glsl", "--size", "32x18", "--fps", "25", "--frames", "0-9", "-o")
-DRIVEN = r"10 frames are there, whole and with one fingerprint, drawn by .*"
+DRIVEN = r"10 frames: all complete, with one fingerprint, drawn by .*"
 
 
 class Shards(ProgramTest):
@@ -36,7 +36,7 @@ class Shards(ProgramTest):
         self.assertEqual(self.contents("out"), self.contents("whole"))
         lines = self.succeed("gather", "out").stderr.splitlines()
         self.assertRegex(lines[0], DRIVEN)
-        self.assertEqual(lines[1:], ["3 of them drawn again: the same pixels"])
+        self.assertEqual(lines[1:], ["3 of them drawn again for comparison: the same pixels"])
 
     def test_what_another_machine_left_goes(self):
         """A shard leaves it alone; when all frames are there nobody is at work any more."""
@@ -52,16 +52,16 @@ class Shards(ProgramTest):
     def test_says_what_is_missing(self):
         self.shard("1/3")
         self.shard("3/3")
-        self.expect_failure(["gather", "out"], 1, "3 of 10 frames: missing, out/f_0001.png first (shard 2/3)")
+        self.expect_failure(["gather", "out"], 1, "3 of 10 frames: missing; the first is out/f_0001.png (shard 2/3)")
         self.shard("2/3")
         (self.folder / "out/f_0004.png").write_bytes(b"x")
         self.expect_failure(["gather", "out"], 1,
-                            "1 of 10 frames: not whole: it is no picture, out/f_0004.png first (shard 2/3)")
+                            "1 of 10 frames: incomplete: it is not a picture; the first is out/f_0004.png (shard 2/3)")
         self.assertIn("kept 2 of 3 frames", self.shard("2/3", "--resume"))
         self.succeed("gather", "out")
         self.write("a.glsl", SCENE.replace("speed), 1.0", "speed), 0.5"))
-        self.expect_failure(["gather", "out"], 1, "10 of 10 frames: drawn with another text of the scene, "
-                                                  "out/f_0000.png first (shard 1/3)")
+        self.expect_failure(["gather", "out"], 1, "10 of 10 frames: drawn with another text of the scene; "
+                                                  "the first is out/f_0000.png (shard 1/3)")
 
     def test_a_frame_that_is_not_what_it_says(self):
         """The metadata of one frame around the pixels of another."""
@@ -71,7 +71,8 @@ class Shards(ProgramTest):
         data = first.index(b"IDAT") - 4, last.index(b"IDAT") - 4
         (self.folder / "out/f_0009.png").write_bytes(last[:data[1]] + first[data[0]:])
         self.expect_failure_like(["gather", "out"], 1,
-                                 r"10 frames are there.*\nout/f_0009.png is drawn otherwise here: a sample differs by 0\.\d+")
+                                 r"10 frames: all complete.*\nout/f_0009.png looks different when drawn here: a sample differs "
+                                 r"by 0\.\d+")
         self.assertRegex(self.succeed("gather", "out", "--sample", "0").stderr, rf"\A{DRIVEN}\n\Z")
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
@@ -93,22 +94,22 @@ class Shards(ProgramTest):
             run = ("capture", "s", *SEQUENCE[2:-1], *self.FILM)
             for k in (3, 1):
                 said = self.succeed(*run, f"out/{name}", "--shard", f"{k}/3").stderr.splitlines()
-                self.assertEqual(said[-1], f"wrote {'3' if k == 3 else '4'} frames of out/{name}, in segments that "
-                                           "`tidemark gather` joins")
+                self.assertEqual(said[-1], f"wrote {'3' if k == 3 else '4'} frames of out/{name} as segments; `tidemark "
+                                           f"gather` joins them")
             extension = ".mov" if name == "a.mov" else ".mp4"
-            self.expect_failure(["gather", "out"], 1, f"1 of 4 segments: missing, out/{name}.segment-0001{extension} first "
-                                                      "(shard 2/3)")
+            self.expect_failure(["gather", "out"], 1, "1 of 4 segments: missing; the first is "
+                                                      f"out/{name}.segment-0001{extension} (shard 2/3)")
             self.succeed(*run, f"out/{name}", "--shard", "2/3")
             middle = self.folder / f"out/{name}.segment-0001{extension}"
             whole = middle.read_bytes()
             middle.write_bytes(whole[:-100])
-            self.expect_failure(["gather", "out"], 1, f"1 of 4 segments: not whole, out/{name}.segment-0001{extension} first "
-                                                      "(shard 2/3)")
+            self.expect_failure(["gather", "out"], 1, "1 of 4 segments: incomplete; the first is "
+                                                      f"out/{name}.segment-0001{extension} (shard 2/3)")
             self.assertIn("kept 0 of 3 frames", self.succeed(*run, f"out/{name}", "--shard", "2/3", "--resume").stderr)
             self.assertEqual(middle.read_bytes(), whole)
             self.assertIn("kept 3 of 3 frames", self.succeed(*run, f"out/{name}", "--shard", "2/3", "--resume").stderr)
             lines = self.succeed("gather", "out").stderr.splitlines()
-            self.assertEqual(lines, ["10 frames are there, whole and with one fingerprint, drawn by this device",
+            self.assertEqual(lines, ["10 frames: all complete, with one fingerprint, drawn by this device",
                                      f"wrote out/{name}: 10 frames"])
             self.succeed(*run, f"whole/{name}")
             self.assertEqual(self.contents("out"), self.contents("whole"))
@@ -140,17 +141,17 @@ class Shards(ProgramTest):
         self.assertEqual(self.contents("out"), self.contents("whole"))
         again = self.run_program("gather", "out")
         self.assertEqual(again.returncode, 1)
-        self.assertIn("out/a.mp4 is there, and none of its segments: where it was joined before, nothing is left to do\n",
+        self.assertIn("out/a.mp4 exists, but none of its segments; if it was joined before, nothing is left to do\n",
                       again.stderr)
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_segments_refused(self):
         run = (*SEQUENCE[:-1], "-o", "out/a.mp4", "--shard")
         self.succeed(*run, "1/2")
-        self.assertIn("this shard has no frame: there are more shards than segments of the video, which --state-every makes "
-                      "shorter", self.succeed(*run, "2/2").stderr)
+        self.assertIn("this shard has nothing to draw: there are more shards than video segments; a smaller --state-every "
+                      "makes more segments", self.succeed(*run, "2/2").stderr)
         self.expect_failure_like(["gather", "out", "-o", "b.mp4"], 2, r".*\ntidemark: error: -o b.mp4: the shards made segments "
-                                 "of 'out/a.mp4', which they are joined to: leave it out")
+                                 "of 'out/a.mp4' and are joined to that video: remove -o")
 
     def luma(self, name: str) -> array.array:
         return array.array("H", subprocess.run(["ffmpeg", "-v", "error", "-i", name, "-pix_fmt", "gray12le", "-f", "rawvideo", "-"],
@@ -180,7 +181,8 @@ class Shards(ProgramTest):
             self.succeed(*frames, "--codec", "hevc", "-o", "b.mp4")
             self.assertEqual(*((self.folder / name).read_bytes() for name in ("a.mp4", "b.mp4")))
         self.expect_failure_like(["gather", "straight", "--sample", "0", "-o", "a2.mp4"], 2,
-                                 ".*\ntidemark: error: -o a2.mp4: the frames have an alpha that it cannot hold: give a .mov")
+                                 ".*\ntidemark: error: -o a2.mp4: this format cannot store the alpha of the frames: give a "
+                                 ".mov")
 
     def write_feedback(self) -> None:
         self.write("fb/image.glsl", '#iChannel0 "Buffer A"\n'
@@ -195,7 +197,7 @@ class Shards(ProgramTest):
         for order in ((1, 2), (2, 1)):
             said = [self.succeed(*run, "out/f_%04d.png", "--state-every", "100", "--shard", f"{k}/2").stderr
                     for k in order]
-            self.assertEqual("going on from the state before frame 5" in said[1], order == (1, 2))
+            self.assertEqual("continuing from the saved state before frame 5" in said[1], order == (1, 2))
             self.assertIn("wrote 5 frames, out/f_0005.png to out/f_0009.png", "".join(said))
             self.succeed("gather", "out")
             self.assertEqual(self.contents("out"), self.contents("whole"))
@@ -209,32 +211,35 @@ class Shards(ProgramTest):
         self.succeed("gather", "out")
         refused = ["capture", "a.glsl", "--frames", "0-9", "-o", "out/f_%04d.png", "--shard"]
         self.expect_failure([*refused, "slurm"], 2, "tidemark: error: --shard slurm: SLURM_ARRAY_TASK_ID is not set; "
-                                                    "start it as a task of `sbatch --array`",
+                                                    "start this command as a task of `sbatch --array`",
                             env=environment(SLURM_ARRAY_TASK_ID=None))
-        self.expect_failure([*refused, "slurm"], 2, "tidemark: error: --shard slurm: task 5 of 2 from 4 on: give --array "
-                                                    "as 0-7, without gaps", env=environment(SLURM_ARRAY_TASK_ID="5", **task))
+        self.expect_failure([*refused, "slurm"], 2, "tidemark: error: --shard slurm: task 5 does not fit an array of 2 "
+                                                    "tasks that starts at 4; give --array without gaps, as in 0-7",
+                            env=environment(SLURM_ARRAY_TASK_ID="5", **task))
         for text in ("0/2", "3/2", "1", "a/b", "1/2/3"):
-            self.expect_failure([*refused, text], 2, f"tidemark: error: --shard {text}: give K/N, K from 1 to N, as in "
-                                                     "2/8, or slurm")
+            self.expect_failure([*refused, text], 2, f"tidemark: error: --shard {text}: give K/N with K from 1 to N, as in "
+                                                     f"2/8, or slurm")
 
     def test_refused(self):
         self.shard("1/2")
         self.expect_failure([*SEQUENCE, "out/f_%04d.png", "--shard", "1/3"], 2,
-                            "tidemark: error: --shard: 'out/shards.json' is of another capture: give a folder of its own, "
-                            "or remove it")
-        self.expect_failure([*SEQUENCE, "-", "--shard", "1/2"], 2, "tidemark: error: --shard: give a sequence of "
-                            "pictures, or a video: `tidemark gather` reads them")
+                            "tidemark: error: --shard: 'out/shards.json' belongs to another capture: give each capture its own "
+                            "folder, or remove that file")
+        self.expect_failure([*SEQUENCE, "-", "--shard", "1/2"], 2, "tidemark: error: --shard: write files (a sequence of "
+                                                                   "pictures or a video), so that `tidemark gather` can read "
+                                                                   "them")
         self.expect_failure(["gather", "whole"], 3, "tidemark: error: cannot read 'whole/shards.json': no such file")
         for note in ("", "[]", '{"capture": ["x"], "shards": 0}', '{"capture": [1], "shards": 2}'):
             self.write("whole/shards.json", note)
-            self.expect_failure(["gather", "whole"], 3, "tidemark: error: 'whole/shards.json' is not of `capture --shard`")
+            self.expect_failure(["gather", "whole"], 3, "tidemark: error: 'whole/shards.json' was not written by `capture "
+                                                        "--shard`")
         note = json.loads((self.folder / "out/shards.json").read_text())
         asks = dict(note, capture=[*note["capture"], "--help"])
         self.write("whole/shards.json", json.dumps(asks))
-        self.expect_failure(["gather", "whole"], 3, "tidemark: error: 'whole/shards.json': it asks for help, and a file cannot")
+        self.expect_failure(["gather", "whole"], 3, "tidemark: error: 'whole/shards.json': --help is not allowed in a file")
         self.write("whole/shards.json", json.dumps(note))
         self.expect_failure(["gather", "whole"], 2, "tidemark: error: 'whole/shards.json' was written for "
-                            "'out/f_%04d.png': run gather where the shards were run")
+                            "'out/f_%04d.png': run gather in the folder from which the shards were run")
 
 
 if __name__ == "__main__":

@@ -105,7 +105,7 @@ void mainImage(out vec4 c, in vec2 p) { c = 0.9 * texture(iChannel0, p / iResolu
         self.assertIn("no cut is measurably faster", said)
 
     def test_bad_requests_are_refused(self):
-        for arguments, words in ((("--max-error", "wrong=1%"), "held against the picture"),
+        for arguments, words in ((("--max-error", "wrong=1%"), "simplify compares pictures"),
                                  (("--max-error", "flip"), "give rmse=0.01"),
                                  (("--budget", "0"), "above 0"),
                                  (("--exact", "--max-error", "flip=0.1"), "--exact")):

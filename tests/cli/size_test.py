@@ -31,7 +31,7 @@ class Size(ProgramTest):
                             "tidemark: error: --pixel 40,10: give x,y from the bottom left, within 30x20")
 
     def test_only_the_file_of_image_has_a_say(self):
-        left_out = "warning: #iSize is left out: it counts in the file of Image alone"
+        left_out = "warning: #iSize is ignored: it only has an effect in the file of Image"
         for name, text in {"s/common.glsl": "#iSize 1x1\n", "s/lib.glsl": "\n#iSize 2x2\n",
                            "s/buffer_a.glsl": "#iSize 3x3\n" + SHADER,
                            "s/image.glsl": '#include "lib.glsl"\n#iChannel0 "buffer_a.glsl"\n' + SIZED +
@@ -45,12 +45,12 @@ class Size(ProgramTest):
 
     def test_it_is_said_once(self):
         self.write("a.glsl", SIZED + "#iSize 80x45\n")
-        self.expect_failure(["capture", "a.glsl"], 3, "a.glsl:3: error: #iSize is said twice\n"
-                                                      "a.glsl:1: note: first said here")
+        self.expect_failure(["capture", "a.glsl"], 3, "a.glsl:3: error: #iSize is given twice\n"
+                                                      "a.glsl:1: note: first given here")
 
     def test_what_is_no_size_is_said_at_its_place(self):
         self.write("a.glsl", "\n#iSize 80 x 45\n" + SHADER)
-        words = ("a.glsl:2:8: error: '80' is no size: give WIDTHxHEIGHT in pixels, each from 1 to 32767, as in "
+        words = ("a.glsl:2:8: error: '80' is not a size: give WIDTHxHEIGHT in pixels, each from 1 to 32767, as in "
                  "#iSize 800x450")
         self.expect_failure(["capture", "a.glsl"], 3, words)
 

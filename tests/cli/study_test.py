@@ -401,12 +401,12 @@ class BadInput(Study):
 
     def test_lines(self):
         self.write("sum.glsl", SUM + "#iUniform float gain = 1.0\n")
-        self.refuse("sum.glsl", 2, "there is no 'sum.study.json': say what to turn with --vary NAME=a,b,c")
+        self.refuse("sum.glsl", 2, "there is no 'sum.study.json': name a knob to study with --vary NAME=a,b,c")
         self.refuse("sum.glsl --vary STEP=1,2", 2,
                     "the scene has no #iUniform, #define or const 'STEP': did you mean 'STEPS'?")
         self.refuse("sum.glsl --vary STEPS=1,,2", 2, "--vary STEPS=1,,2: give NAME=a,b,c, none of them empty")
         self.refuse("sum.glsl --vary STEPS", 2, "--vary STEPS: give NAME=a,b,c, none of them empty")
-        self.refuse("sum.glsl --vary gain=1,two", 2, "'two' is no value for gain (float): give a number")
+        self.refuse("sum.glsl --vary gain=1,two", 2, "'two' is not a value for gain (float): give a number")
         self.refuse("sum.glsl --vary STEPS=1,2 --reference STEPS", 2,
                     "--reference STEPS: give NAME=V or NAME=V,NAME=V")
         self.refuse("sum.glsl --vary STEPS=1,2 --reference STOPS=3", 2,

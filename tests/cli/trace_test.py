@@ -93,11 +93,11 @@ class Trace(ProgramTest):
         self.assertLess(lines[3]["lost"], 1)
         self.assertIn("not_finite", lines[5])
 
-    def test_what_is_not_finite_is_said(self):
+    def test_reports_non_finite_values(self):
         run = self.trace(CANCELLED)
         self.assertEqual(run.returncode, 0)
         text = run.stdout.decode()
-        self.assertRegex(text, r"digits are lost \(of 7.2 that a float has\)\n  scene.glsl:4: \d\.\d lost; left has \d\.\d\n"
+        self.assertRegex(text, r"lost digits \(a float has 7.2\)\n  scene.glsl:4: \d\.\d lost; left has \d\.\d\n"
                                r"      float left = sum - 1.0;\n")
         self.assertRegex(text, r"not finite\n  scene.glsl:5: color\n")
         self.assertRegex(text, r"  g +NaN +NaN +0\.0 +NaN\n")
@@ -126,16 +126,16 @@ class Trace(ProgramTest):
         run = self.trace(MARCH, "--line", "11", "--turns", "2")
         lines = run.stdout.decode().splitlines()
         self.assertEqual(lines[6], "scene.glsl:11:  float d = 0.3 * map(ro + t * rd);")
-        self.assertRegex(lines[7], r"^ +turn  value +float +double  digits$")
-        self.assertEqual(lines[8], "         …")
+        self.assertRegex(lines[7], r"^ +iteration  value +float +double  digits$")
+        self.assertEqual(lines[8], "          …")
         self.assertRegex(lines[9], r"^ +2  p\.x +0\.\d+ +0\.\d+ +\d\.\d$")
         self.assertRegex(lines[12], r"^ +2  d +0\.\d+ +0\.\d+ +\d\.\d")
 
-    def test_a_line_that_the_pixel_does_not_come_to(self):
+    def test_line_that_the_pixel_does_not_reach(self):
         run = self.trace(MARCH, "--line", "20")
         self.assertEqual(run.returncode, 0)
         self.assertTrue(run.stdout.decode().endswith(
-            "scene.glsl:20:  t = 3.0;\n  the pixel does not come to it\n"), run.stdout)
+            "scene.glsl:20:  t = 3.0;\n  the pixel does not reach this line\n"), run.stdout)
 
     def test_a_value_of_a_global_that_is_computed(self):
         report = self.report("float twice = 2.0 * iTime;\n"
@@ -155,9 +155,9 @@ class Trace(ProgramTest):
         self.fails(2, "tidemark: error: --line 9: that line of scene.glsl computes nothing; the nearest line that does: 8, 10\n", MARCH, "--line", "9")
         self.fails(2, "tidemark: error: --line none: give a line from 1, or FILE:LINE\n", MARCH, "--line", "none")
         self.fails(2, "tidemark: error: --line other.glsl:3: the pass has no code from that file; it has code from scene.glsl\n", MARCH, "--line", "other.glsl:3")
-        self.fails(2, "tidemark: error: --turns 5-2: give a turn of the loop from 1, or a range, as in 4-20\n", MARCH,
+        self.fails(2, "tidemark: error: --turns 5-2: give an iteration of the loop, from 1, or a range, as in 4-20\n", MARCH,
                    "--line", "11", "--turns", "5-2")
-        self.fails(2, "tidemark: error: trace looks at one frame: give --frame N or --time T\n", MARCH, "--frames",
+        self.fails(2, "tidemark: error: trace works on one frame: give --frame N or --time T\n", MARCH, "--frames",
                    "0-3")
         self.fails(3, "scene.glsl:2: error: cannot evaluate this texture read: the texture is of the previous frame or too large, or the read is textureGather or textureQueryLod\n",
                    "void mainImage(out vec4 c, in vec2 p) {\n    c = textureGather(iChannel0, p);\n}\n")
@@ -165,7 +165,7 @@ class Trace(ProgramTest):
         self.assertEqual(run.returncode, 2)
         self.assertIn("Buffer Z", run.stderr)
 
-    def test_an_unused_look_up_does_not_matter(self):
+    def test_unused_texture_lookup_does_not_matter(self):
         report = self.report("void mainImage(out vec4 c, in vec2 p) {\n    vec4 unused = texture(iChannel1, p);\n"
                              "    c = vec4(0.5);\n}\n")
         self.assertTrue(report["colour"]["as_drawn"], report["colour"])
@@ -183,7 +183,7 @@ class Trace(ProgramTest):
         run = self.trace("void mainImage(out vec4 c, in vec2 p) {\n    float a = 0.0;\n"
                          "    for (int i = 0; p == vec2(8.5) && i < 20000000; ++i)\n        a += sin(a) + 0.001;\n    c = vec4(a);\n}\n")
         self.assertEqual(run.returncode, 5)
-        self.assertIn(b"given up: the pixel takes too many operations", run.stdout)
+        self.assertIn(b"stopped: the pixel takes too many operations", run.stdout)
 
     def test_a_discarded_pixel(self):
         run = self.trace("void mainImage(out vec4 c, in vec2 p) {\n    if (p.x > 3.0)\n        discard;\n"

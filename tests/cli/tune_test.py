@@ -40,8 +40,8 @@ class Tune(ProgramTest):
 
     def test_fewer_steps_are_offered_where_an_error_is_allowed(self):
         found, said = self.tune("--max-error", "psnr=50dB")
-        self.assertIn("turns STEPS (bounds the loop at sum.glsl:5): 256, ", said)
-        self.assertIn("leaves SIDES", said)
+        self.assertIn("varies STEPS (bounds the loop at sum.glsl:5): 256, ", said)
+        self.assertIn("leaves SIDES unchanged", said)
         self.assertLess(int(found["chosen"]["STEPS"]), 1024)
         self.assertIn("-#define STEPS 1024\n+#define STEPS ", found["difference"][0])
         self.assertEqual((self.folder / "sum.glsl").read_text(), SUM)
@@ -69,8 +69,8 @@ class Tune(ProgramTest):
     def test_numbers_without_a_name_are_turned_in_the_march(self):
         self.write("march.glsl", MARCH)
         done = self.succeed("tune", "march.glsl", "--json", *QUICK, "--max-time", "100000", "--write")
-        self.assertIn("turns march.glsl:4:25 (8, which bounds the march): 2, 3, 4, 6, 8, 12, 16\n", done.stderr)
-        self.assertIn("turns march.glsl:6:17 (0.001, which is the threshold): 0.032, ", done.stderr)
+        self.assertIn("varies march.glsl:4:25 (8, which bounds the march): 2, 3, 4, 6, 8, 12, 16\n", done.stderr)
+        self.assertIn("varies march.glsl:6:17 (0.001, which is the threshold): 0.032, ", done.stderr)
         chosen = json.loads(done.stdout)["chosen"]
         self.assertIn(chosen["march.glsl:4:25"], ("12", "16"))
         turns, threshold = chosen["march.glsl:4:25"], chosen.get("march.glsl:6:17", "0.001")
@@ -90,12 +90,12 @@ class Tune(ProgramTest):
 
     def test_own_values_instead_of_ours(self):
         found, said = self.tune("--max-error", "psnr=50dB", "--vary", "STEPS=128,256,512,1024")
-        self.assertIn("turns STEPS (--vary): 128, 256, 512, 1024", said)
+        self.assertIn("varies STEPS (--vary): 128, 256, 512, 1024", said)
         self.assertIn(found["chosen"]["STEPS"], ["128", "256", "512"])  # a busy machine tells near ones apart badly
 
     def test_what_is_kept_or_unknown_is_refused(self):
         for arguments, words in (
-                (("--keep", "STEPS"), "no number of this scene is known to buy exactness with time"),
+                (("--keep", "STEPS"), "found no number in this scene that trades time for exactness"),
                 (("--vary", "STEP=1,2"), "did you mean 'STEPS'"),
                 (("--max-error", "ssim=1"), "give rmse=0.01, psnr=40dB"),
                 (("--max-error", "rmse=1", "--max-time", "5"), "give one of them"),

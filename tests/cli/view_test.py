@@ -31,8 +31,8 @@ class NoDisplay(ProgramTest):
         self.expect_failure(["view", "a.glsl", "--size", "99999x5"], 2,
                             "tidemark: error: --size 99999x5: a window has at most 32767 pixels on a side")
         self.expect_failure(["view", "a.glsl", "--camera", "1"], 2,
-                            "tidemark: error: --camera 1: give azimuth,elevation,distance as in 30,20,10 (degrees, "
-                            "degrees, a distance above 0), and behind them x,y,z where it is panned to")
+                            "tidemark: error: --camera 1: give azimuth,elevation,distance as in 30,20,10 (degrees, degrees, a "
+                            "distance above 0), and after them x,y,z if the view was panned")
         self.expect_failure(["view", "a.glsl", "--set", "x=1"], 2,
                             "tidemark: error: the scene has no knob 'x': it declares none with #iUniform")
 

@@ -89,7 +89,7 @@ class Cluster(ProgramTest):
         words = [word.strip("'") for word in command.replace("frames/", "one/").split()]
         self.succeed(*words)
         said = self.succeed("gather", "frames", "--sample", "3").stderr.splitlines()
-        self.assertRegex(said[0], r"\A1000 frames are there, whole and with one fingerprint, drawn by ")
+        self.assertRegex(said[0], r"\A1000 frames: all complete, with one fingerprint, drawn by ")
         self.assertEqual(self.contents("frames"), self.contents("one"))
 
     def logs(self) -> str:

@@ -164,7 +164,7 @@ TEST(HeadlessContext, a_software_driver_is_no_gpu) {
     const auto context = HeadlessContext::create({any->device(), true});
     ASSERT_FALSE(context);
     EXPECT_EQ(context.error().code, ErrorCode::no_context);
-    EXPECT_THAT(context.error().message, testing::StartsWith("no graphics card draws: " + any->device() +
+    EXPECT_THAT(context.error().message, testing::StartsWith("no graphics card can draw: " + any->device() +
                                                              ": draws on the CPU (" + renderer + ")"));
 }
 

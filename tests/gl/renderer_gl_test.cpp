@@ -1,7 +1,7 @@
-#include "render/gl_context.hpp"
 #include "gl_test.hpp"
-#include "shader/shader_source.hpp"
 #include "media/image.hpp"
+#include "render/gl_context.hpp"
+#include "shader/shader_source.hpp"
 
 #include <gmock/gmock.h>
 
@@ -249,8 +249,7 @@ TEST_F(RendererTest, picture_that_cannot_be_read_is_named_with_its_directive) {
     constexpr const char* k_reads = "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel2, p); }\n";
     for (const auto& [file, why] :
          {std::pair("none.png", "no such file"),
-          std::pair("text.png", "it is no PNG, JPEG, TIFF, EXR, HDR, BMP, WebP, PNM or TGA "
-                                "picture")}) {
+          std::pair("text.png", "it is not a PNG, JPEG, TIFF, EXR, HDR, BMP, WebP, PNM or TGA picture")}) {
         const auto made = create(fmt::format("\n\n#iChannel2 \"{}\"\n{}", file, k_reads), {4, 4});
         ASSERT_FALSE(made);
         EXPECT_EQ(to_string(made.error()), fmt::format("{}:3: error: cannot read '{}': {}",

@@ -1,10 +1,10 @@
 // Specialised programs draw the bytes of the plain ones, in our scenes with their features on and off, and in
 // each kind of pass.
-#include "host/program_trial.hpp"
 #include "gl_test.hpp"
-#include "shader/survey.hpp"
-#include "shader/definitions.hpp"
+#include "host/program_trial.hpp"
 #include "scene/load_scene.hpp"
+#include "shader/definitions.hpp"
+#include "shader/survey.hpp"
 
 #include <gmock/gmock.h>
 
@@ -45,8 +45,7 @@ protected:
         for (const Specialise how : {Specialise::unreachable, Specialise::invariant_uniforms}) {
             Renderer special = made(scene, how);
             for (const PlannedPass& planned : special.plan().passes)
-                EXPECT_NE(special.left_out(planned.pass).kept_whole,
-                          "the driver does not take the shorter text");
+                EXPECT_NE(special.left_out(planned.pass).kept_whole, "the driver rejects the shorter text");
             EXPECT_TRUE(drawn(special) == plain);
         }
     }
@@ -164,7 +163,7 @@ TEST_F(SpecialiseTest, what_the_driver_refuses_is_drawn_plain) {
                                         "    float a[2] = float[2](0.25, 0.75); c = vec4(a[place]); }");
     const glsl::LeftOut left = left_out(scene, Specialise::constants);
     EXPECT_FALSE(left.anything());
-    EXPECT_EQ(left.kept_whole, "the driver does not take the shorter text");
+    EXPECT_EQ(left.kept_whole, "the driver rejects the shorter text");
     EXPECT_TRUE(drawn(scene, Specialise::constants) == drawn(scene, Specialise::nothing));
 }
 

@@ -75,7 +75,7 @@ class Osc(LiveTest):
         self.assertEqual(said, [
             "OSC: the scene has no knob 'hieght': did you mean 'height'?",
             "OSC: tint (color3) has no component 'w'",
-            "OSC: 'much' is no value for height (float): give a number",
+            "OSC: 'much' is not a value for height (float): give a number",
             "OSC: unknown address '/fader/1': send /knob/NAME, /time or /play",
             "OSC: /time takes one number of seconds, 0 or more",
             "OSC: ignored: a packet that is not OSC",

@@ -173,7 +173,7 @@ class Record(LiveTest):
         view.key("ctrl+s") # what became of the first is told then, or at the end
         view.key("Escape")
         view.wait_for_end()
-        self.assertIn("is a link to 'victim', and a link is followed only where -o names it", view.stderr())
+        self.assertIn("is a link to 'victim', and only links named with -o are followed", view.stderr())
         self.assertEqual((self.folder / "victim").read_text(), "before")
 
     def test_recording_that_cannot_be_written_is_an_error_at_the_start(self):

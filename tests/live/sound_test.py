@@ -76,7 +76,7 @@ class Sound(LiveTest):
 
     def test_no_device_is_one_line(self):
         view = self.start(device=False)
-        view.wait_for_words(r"\Ano sound: tidemark: error: there is no sound device "
+        view.wait_for_words(r"\Ano sound: tidemark: error: no audio device found "
                             r"\(ALSA says: .+\)\n\Z")
         view.key("Escape")
         self.assertEqual(view.wait_for_end(), 0)

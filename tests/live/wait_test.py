@@ -109,7 +109,7 @@ class Wait(LiveTest):
         self.write("a.glsl", marked(1))
         for options, words in ((["--set", "x=1"], "the scene has no knob 'x': it declares none with #iUniform"),
                                (["--define", "X=1"], "the scene has no #define or const 'X'"),
-                               (["--pass", "Buffer A"], "--pass Buffer A: the scene has Image")):
+                               (["--pass", "Buffer A"], "--pass Buffer A: no such pass; the scene has Image")):
             with self.subTest(options):
                 done = self.run_program("view", "a.glsl", *SIZE, *options, env=environment(DISPLAY=self.screen.display))
                 self.assertIn(words, done.stderr)

@@ -67,7 +67,7 @@ class Webcam(LiveTest):
         for name, why in (("/dev/video9", "No such file or directory"), ("a.glsl", "Invalid data found")):
             done = self.run_program("view", "a.glsl", "--webcam", name, env=environment(DISPLAY=self.screen.display))
             self.assertEqual(done.returncode, 3, done.stderr)
-            self.assertRegex(done.stderr, f"tidemark: error: cannot see what '{name}' shows: .*{why}")
+            self.assertRegex(done.stderr, f"tidemark: error: cannot read the webcam or video '{name}': .*{why}")
 
 
 if __name__ == "__main__":

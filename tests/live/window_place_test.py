@@ -65,7 +65,7 @@ class Place(LiveTest):
         for options, words in (
                 (["--position", "5000,10"], "--position 5000,10: no monitor shows that place: monitor 1 is 1280x800 at 0,0"),
                 (["--monitor", "2"], "--monitor 2: there is no such monitor: monitor 1 is 1280x800 at 0,0"),
-                (["--position", "5"], "--position 5: give X,Y, the window's left upper corner, as in 100,50"),
+                (["--position", "5"], "--position 5: give X,Y of the window's upper left corner, as in 100,50"),
                 (["--monitor", "0"], "--monitor: give a monitor's number from 1, not '0'")):
             with self.subTest(options):
                 self.expect_failure(["view", "a.glsl", *options], 2, f"tidemark: error: {words}",

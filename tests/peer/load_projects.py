@@ -2,7 +2,7 @@
 
     python3 tests/peer/load_projects.py FOLDER [--program PROGRAM] [--jobs 2] [--json OUT]
 
-FOLDER holds projects as ShaderToy's API gives them. Exit 1 where the program crashed over one, or took more than
+FOLDER holds projects as ShaderToy's API gives them. Exit code 1 if the program crashed over one, or took more than
 five seconds of the CPU."""
 import argparse
 import collections

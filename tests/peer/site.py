@@ -5,7 +5,7 @@
 FOLDER holds projects as ShaderToy's API gives them (ID.json). The browser is headless Chromium, whose ANGLE hands
 the texts to the driver that tidemark draws with (--angle gl-egl: Mesa), through a plain page that shares no code
 with tidemark (site.html). Both read the same generated media; music, video, webcam and microphone are taken out
-for both. Exit 1 where a project differs that both draw."""
+for both. Exit code 1 if a project differs that both draw."""
 import argparse
 import collections
 import http.server

@@ -35,7 +35,7 @@ TEST(PlugIn, a_library_of_someone_elses_is_refused) {
     const auto foreign = load_plug_in(plug_in("libm.so.6"), {});
     ASSERT_FALSE(foreign);
     EXPECT_EQ(foreign.error().message,
-              "cannot load the picture plug-in 'libm.so.6': it is not Tidemark's; install "
+              "cannot load the picture plug-in 'libm.so.6': it is not a plug-in of Tidemark; install "
               "OpenImageIO 2.4 and the plug-in of this build of Tidemark");
 }
 

@@ -99,10 +99,9 @@ TEST(ReadFile, a_link_that_leads_nowhere_says_where) {
     fs::create_symlink("none", folder / "a");
     fs::create_symlink("/none", folder / "b");
     const std::string a = folder / "a", below = folder / "b/c.glsl", b = folder / "b";
-    EXPECT_EQ(refusal(read_file(a)),
-              "cannot read '" + a + "': it is a link to 'none', where there is nothing");
+    EXPECT_EQ(refusal(read_file(a)), "cannot read '" + a + "': it is a link to 'none', which does not exist");
     EXPECT_EQ(refusal(read_file(below)),
-              "cannot read '" + below + "': '" + b + "' is a link to '/none', where there is nothing");
+              "cannot read '" + below + "': '" + b + "' is a link to '/none', which does not exist");
 }
 
 TEST(ReadFile, names_that_no_file_has) {

@@ -87,7 +87,7 @@ TEST(ReplaceText, what_was_changed_or_is_read_only_stays) {
     const std::string path = folder / "a.glsl";
     ASSERT_TRUE(write_file(path, "edited"));
     EXPECT_EQ(refusal(replace_text(OutputPath::typed(path), "before", "after")),
-              "'" + path + "' was changed meanwhile: nothing is written");
+              "'" + path + "' changed on disk meanwhile; nothing was written");
     ASSERT_EQ(::chmod(path.c_str(), 0444), 0);
     EXPECT_EQ(refusal(replace_text(OutputPath::typed(path), "edited", "after")),
               "cannot write '" + path + "': it is read-only");
@@ -179,7 +179,7 @@ TEST(WriteFile, a_link_that_was_typed_stays_one) {
 
 std::string links_sentence(const std::string& path, const std::string& link, const std::string& target) {
     return "cannot write '" + path + "': " + (link == path ? "it" : "'" + link + "'") + " is a link to '" +
-           target + "', and a link is followed only where -o names it: remove it, or give another place";
+           target + "', and only links named with -o are followed: remove the link, or give another name";
 }
 
 TEST(WriteFile, a_link_that_nobody_named_is_not_followed) {

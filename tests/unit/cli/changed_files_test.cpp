@@ -42,7 +42,7 @@ TEST(CuredFiles, AFileThatChangedMeanwhileIsLeft) {
     const auto written = write_files(*changed);
     ASSERT_FALSE(written);
     EXPECT_EQ(written.error().message,
-              "'" + file + "' was changed meanwhile: nothing is written; what it would have been is in '" +
+              "'" + file + "' changed on disk meanwhile; nothing was written; the change is saved in '" +
                   file + ".diff'");
     EXPECT_EQ(read_text_file(file).value_or(""), "x = z;\n");
     const std::string difference = fmt::format("--- {0}\n+++ {0}\n@@ -1 +1 @@\n-x = y;\n+x = (y);\n", file);

@@ -34,7 +34,7 @@ TEST(Fingerprint, comes_back_from_its_text) {
 TEST(Fingerprint, names_what_differs) {
     const Fingerprint run = run_of(plan_of("a"));
     EXPECT_EQ(run.of_frame({.frame = 3}).differences(run.of_frame({.frame = 4})),
-              "another state of the frame");
+              "another time, size, mouse or camera");
     EXPECT_EQ(run.differences(run_of(plan_of("b"))), "another text of the scene");
     gl::Capabilities processor; // whose reciprocals are rounded otherwise
     processor.renderer = "one";
@@ -52,7 +52,7 @@ TEST(Fingerprint, names_what_differs) {
     EXPECT_EQ(run.differences(Fingerprint::parse("what")),
               "another version of Tidemark, another device or driver, another text of the scene, other "
               "inputs, other "
-              "knobs, other options of drawing, something that this version does not know");
+              "knobs, other drawing options, something unknown to this version");
 }
 
 TEST(Fingerprint, of_another_device_differs_in_that_alone) {

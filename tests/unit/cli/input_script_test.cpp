@@ -43,7 +43,7 @@ TEST(InputScript, takes_comments_blanks_and_other_line_ends) {
 }
 
 TEST(InputScript, says_what_is_wrong_and_where) {
-    const std::string number = "a line begins with the number of a frame, as in `12 move 100 50`";
+    const std::string number = "a line must begin with a frame number, as in `12 move 100 50`";
     EXPECT_EQ(refusal("press left 1 2"), "take.txt:1: error: " + number);
     EXPECT_EQ(refusal("\n# x\n-1 move 1 2"), "take.txt:3: error: " + number);
     EXPECT_EQ(refusal("100000001 move 1 2"), "take.txt:1: error: " + number);
@@ -65,7 +65,7 @@ TEST(InputScript, says_what_is_wrong_and_where) {
     EXPECT_EQ(refusal("1 camera"), "take.txt:1: error: give it as `1 camera reset`");
     EXPECT_EQ(refusal("1 keyup 256"), "take.txt:1: error: give it as `1 keyup CODE (1 to 255)`");
     EXPECT_EQ(refusal("7 wheel 1\n6 wheel 1"),
-              "take.txt:2: error: frame 6 comes after frame 7: frames do not go backwards");
+              "take.txt:2: error: frame 6 follows frame 7: frames must be in ascending order");
 }
 
 TEST(InputScript, values_are_written_in_their_shortest_form) {

@@ -92,16 +92,15 @@ TEST(Resolve, the_option_at_fault_is_named) {
               "--frames 1-: give frames from 0 to 100000000 as in 7, 0-29, 0-120x10 or 0-9,20-29");
     options = {};
     options.mouse = "1";
-    EXPECT_EQ(refusal(options),
-              "--mouse 1: give x,y after a click or x,y,from_x,from_y after a drag, and ,down before "
-              "its end, in pixels from the bottom left");
+    EXPECT_EQ(refusal(options), "--mouse 1: give x,y for a click or x,y,from_x,from_y for a drag, in pixels "
+                                "from the bottom left, and ,down while the button is pressed");
     options = {};
     options.date = "today";
     EXPECT_EQ(refusal(options), "--date today: give a date as in 2024-12-31 or 2024-12-31T23:59:58.5");
     options = {};
     options.camera = "1,2";
     EXPECT_EQ(refusal(options), "--camera 1,2: give azimuth,elevation,distance as in 30,20,10 (degrees, "
-                                "degrees, a distance above 0), and behind them x,y,z where it is panned to");
+                                "degrees, a distance above 0), and after them x,y,z if the view was panned");
 }
 
 } // namespace tidemark::cli::options_test

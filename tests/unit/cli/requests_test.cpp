@@ -103,8 +103,8 @@ TEST(ParseMouse, what_is_no_mouse) {
         EXPECT_EQ(mouse.error().code, ErrorCode::usage);
         EXPECT_EQ(mouse.error().message,
                   "--mouse " + text +
-                      ": give x,y after a click or x,y,from_x,from_y after a drag, and ,down before its "
-                      "end, in pixels from the bottom left");
+                      ": give x,y for a click or x,y,from_x,from_y for a drag, in pixels from the bottom "
+                      "left, and ,down while the button is pressed");
     }
 }
 

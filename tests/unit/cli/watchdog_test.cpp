@@ -20,7 +20,7 @@ TEST(Watchdog, work_that_ends_while_its_leavings_are_taken_down_does_not_go_on) 
             }
             ::_exit(1);
         },
-        testing::ExitedWithCode(exit_code(ErrorCode::timed_out)), "gave up drawing after ");
+        testing::ExitedWithCode(exit_code(ErrorCode::timed_out)), "stopped drawing after ");
 }
 
 TEST(Watchdog, work_in_time_is_left_alone) {
@@ -48,7 +48,7 @@ TEST(Watchdog, work_that_nobody_wants_any_more_has_a_moment_to_end) {
             std::this_thread::sleep_for(60s);
             ::_exit(1);
         },
-        testing::ExitedWithCode(130), "gave up encoding after .* interrupted");
+        testing::ExitedWithCode(130), "stopped encoding after .* interrupted");
 }
 
 } // namespace tidemark::cli::watchdog_test

@@ -241,14 +241,14 @@ TEST(Data, what_a_set_has_not_is_left_out) {
     WorkPrecisionSet set = usual();
     set.picture_standard = {};
     set.hit_standard = {"closed forms", 1e-15, "exact"};
-    set.words = {"RMS error of the way", "local solutions a node", "the bake's own setting"};
+    set.words = {"RMS error of the path length", "local solutions a node", "the bake's own setting"};
     for (WorkPrecision& p : set.points)
         p.all.hits = p.views[0].hits = HitErrors{.pixels = 4, .both = 4, .rms = p.all.picture.samples.rmse};
     judge(set);
     const auto json = nlohmann::json::parse(to_json(set));
     EXPECT_FALSE(json["references"].contains("picture"));
     EXPECT_FALSE(json["points"][0]["all"].contains("picture"));
-    EXPECT_EQ(json["error"], "RMS error of the way");
+    EXPECT_EQ(json["error"], "RMS error of the path length");
     const std::string page = to_html(set, {});
     EXPECT_THAT(page, Not(HasSubstr("PSNR")));
     EXPECT_THAT(page, Not(HasSubstr("float target")));

@@ -40,7 +40,7 @@ TEST(FileCheck, a_png_keeps_the_chunks_that_make_samples) {
 
 TEST(FileCheck, a_png_with_a_chunk_that_must_be_understood_is_refused) {
     EXPECT_EQ(refusal(FileFormat::png, hand_made_png(1, 1, 8, 0, "\0x"s, png_chunk("QQQQ", "?"))),
-              "it has a PNG chunk of a kind that is not known");
+              "it has an unknown kind of PNG chunk");
     const std::string palette = png_chunk("PLTE", "abc");
     EXPECT_EQ(refusal(FileFormat::png, hand_made_png(1, 1, 8, 3, "\0\0"s, palette + palette)),
               "it has more than one palette");

@@ -53,7 +53,7 @@ TEST_F(PictureDamage, what_is_no_file_is_said) {
 }
 
 TEST_F(PictureDamage, what_is_no_picture_is_said) {
-    const std::string what = "it is no PNG, JPEG, TIFF, EXR, HDR, BMP, WebP, PNM or TGA picture";
+    const std::string what = "it is not a PNG, JPEG, TIFF, EXR, HDR, BMP, WebP, PNM or TGA picture";
     EXPECT_EQ(outcome("text.png", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1); }"), what);
     EXPECT_EQ(outcome("one.jpg", "x"), what);
     EXPECT_EQ(outcome("zero.exr", std::string(4096, '\0')), what);

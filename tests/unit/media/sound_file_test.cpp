@@ -134,7 +134,7 @@ TEST_F(SoundFile, what_is_wrong_is_said) {
     EXPECT_EQ(message_of(put("e.wav", "")), "cannot read " + in("e.wav") + ": the file is empty");
     EXPECT_THAT(message_of(put("t.wav", "not a sound at all, only text\n")),
                 HasSubstr("cannot read " + in("t.wav") +
-                          ": it is damaged or no WAV, AIFF, FLAC, Ogg or MP3 sound ("));
+                          ": it is damaged, or not a WAV, AIFF, FLAC, Ogg or MP3 sound ("));
     const fs::path fast = write_encoded(in_folder("f.wav"), SoundData{500000, 1, std::vector<float>(10)},
                                         SF_FORMAT_WAV | SF_FORMAT_PCM_16);
     EXPECT_EQ(message_of(fast),

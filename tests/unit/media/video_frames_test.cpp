@@ -249,7 +249,7 @@ TEST_F(Video, a_play_list_names_no_other_file) {
           {"list.m3u8", "#EXTM3U\n#EXT-X-TARGETDURATION:1\n#EXTINF:1,\na.mkv\n#EXT-X-ENDLIST\n"}}) {
         const Result<VideoFrames> video = VideoFrames::open(put(name, text));
         ASSERT_FALSE(video) << name;
-        EXPECT_THAT(video.error().message, HasSubstr("it is no video that ffmpeg reads"));
+        EXPECT_THAT(video.error().message, HasSubstr("ffmpeg cannot read it as a video"));
     }
 }
 
@@ -265,7 +265,7 @@ TEST_F(Video, what_is_wrong_is_said) {
     EXPECT_EQ(message(folder()), "cannot read '" + folder().string() + "': it is a directory");
     EXPECT_EQ(message("/dev/null"), "cannot read '/dev/null': it is not a regular file");
     EXPECT_EQ(message(put("t.mp4", "only text\n")),
-              in("t.mp4") + "it is no video that ffmpeg reads (Invalid data found when processing input)");
+              in("t.mp4") + "ffmpeg cannot read it as a video (Invalid data found when processing input)");
     ASSERT_TRUE(output_of({"ffmpeg", "-v", "error", "-f", "lavfi", "-i", "sine=duration=0.1", "-c:a",
                            "libvorbis", "file:" + in_folder("s.ogg").string()},
                           {1000}, ""));

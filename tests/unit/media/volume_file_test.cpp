@@ -69,13 +69,13 @@ TEST(VolumeFile, every_truncation_and_every_addition_is_refused) {
     ASSERT_EQ(message_of(file), "no error");
     for (size_t length = 0; length < file.size(); ++length)
         EXPECT_THAT(message_of(file.substr(0, length)), testing::StartsWith("cannot read 'v.bin': "));
-    EXPECT_EQ(message_of(file + "x"), "cannot read 'v.bin': 2x3x4 texels of 4 channels are 96 bytes of "
-                                      "samples, and it has 97");
+    EXPECT_EQ(message_of(file + "x"),
+              "cannot read 'v.bin': 2x3x4 texels of 4 channels need 96 bytes of samples, but it has 97");
 }
 
 TEST(VolumeFile, what_is_wrong_is_said) {
     const std::string samples = counting(24);
-    EXPECT_EQ(message_of("PNG"), "cannot read 'v.bin': it is no ShaderToy volume: it does not start with "
+    EXPECT_EQ(message_of("PNG"), "cannot read 'v.bin': it is not a ShaderToy volume: it does not start with "
                                  "\"BIN\" and a zero byte");
     EXPECT_EQ(message_of(std::string("BIN\0\1", 5)),
               "cannot read 'v.bin': the file is cut short: a volume's header has 20 bytes");
@@ -84,7 +84,7 @@ TEST(VolumeFile, what_is_wrong_is_said) {
     EXPECT_EQ(message_of(Header{.width = 513}.bytes() + samples),
               "cannot read 'v.bin': its size is 513x3x4; the limit is 512 on a side");
     EXPECT_EQ(message_of(Header{.channels = 5}.bytes() + samples),
-              "cannot read 'v.bin': it has 5 channels; there may be 1 to 4");
+              "cannot read 'v.bin': it has 5 channels; 1 to 4 are allowed");
     EXPECT_EQ(message_of(Header{.format = 3}.bytes() + samples),
               "cannot read 'v.bin': its sample format is 3; known are 0 (bytes) and 10 (32-bit floats)");
     EXPECT_EQ(message_of(Header{512, 512, 512, 4, 0, 10}.bytes() + samples),

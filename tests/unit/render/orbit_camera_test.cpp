@@ -209,9 +209,8 @@ TEST(ParseCamera, what_is_no_camera) {
         EXPECT_EQ(parsed.error().code, ErrorCode::usage);
         EXPECT_EQ(parsed.error().message,
                   "--camera " + text +
-                      ": give azimuth,elevation,distance as in 30,20,10 (degrees, "
-                      "degrees, a distance above 0), and behind them x,y,z where it is "
-                      "panned to");
+                      ": give azimuth,elevation,distance as in 30,20,10 (degrees, degrees, a distance above "
+                      "0), and after them x,y,z if the view was panned");
     }
 }
 

@@ -120,8 +120,8 @@ TEST_F(BuffersByFile, the_faces_of_a_cubemap_by_a_wildcard) {
     const std::string type = "#iChannel0::Type \"CubeMap\"\n";
     save("a.glsl", type + reads("sky_*.png"));
     save_all({"posx", "negx", "posy", "negy", "posz"});
-    EXPECT_EQ(refusal("a.glsl"), "a.glsl:2: error: there are no six files for 'sky_*.png': they end in e w u "
-                                 "d n s, in east west up down "
+    EXPECT_EQ(refusal("a.glsl"), "a.glsl:2: error: there are no six files for 'sky_*.png': their names end "
+                                 "in e w u d n s, in east west up down "
                                  "north south, in px nx py ny pz nz or in posx negx posy negy posz negz");
     save_all({"negz"});
     const auto faces_of = [&] { return std::get<Cubemap>(input(load("a.glsl"), 0, 0)).files; };

@@ -56,8 +56,9 @@ TEST(ChannelDirectives, names_are_relative_to_the_file_that_says_them) {
 }
 
 TEST(ChannelDirectives, nothing_is_downloaded) {
-    EXPECT_EQ(refusal("\n#iChannel0 \"https://x.org/a.png\""),
-              "dir/a.glsl:2: error: 'https://x.org/a.png' is not a local file: tidemark downloads nothing");
+    EXPECT_EQ(
+        refusal("\n#iChannel0 \"https://x.org/a.png\""),
+        "dir/a.glsl:2: error: 'https://x.org/a.png' is not a local file: tidemark does not download files");
 }
 
 TEST(ChannelDirectives, every_minification_filter) {
@@ -142,8 +143,8 @@ TEST(ChannelDirectives, may_run_over_lines_and_around_comments) {
 
 TEST(ChannelDirectives, values_that_there_are_not) {
     EXPECT_EQ(refusal("#iChannel0::MinFilter \"nearest\""),
-              "dir/a.glsl:1:13: error: MinFilter \"nearest\": give Nearest, Linear, or one of the two with "
-              "MipMapNearest or MipMapLinear behind it");
+              "dir/a.glsl:1:13: error: MinFilter \"nearest\": give Nearest, Linear, or one of the two "
+              "followed by MipMapNearest or MipMapLinear");
     EXPECT_EQ(refusal("#iChannel0::MagFilter \"NearestMipMapLinear\""),
               "dir/a.glsl:1:13: error: MagFilter \"NearestMipMapLinear\": give Nearest or Linear");
     EXPECT_EQ(refusal("#iChannel0::WrapMode \"Border\""),

@@ -39,11 +39,10 @@ TEST(Directives, we_do_not_have_are_said_and_left_out) {
     EXPECT_TRUE(directives->moves_view);
     ASSERT_EQ(directives->warnings.size(), 2u);
     EXPECT_EQ(to_string(directives->warnings[0]),
-              "dir/a.glsl:2: warning: #iVertex is left out: every pass is drawn as one triangle");
-    EXPECT_EQ(
-        to_string(directives->warnings[1]),
-        "dir/a.glsl:3: warning: #iFirstPersonControls: mouse and wheel move iViewMatrix, around what is in "
-        "front; keys do not");
+              "dir/a.glsl:2: warning: #iVertex is ignored: every pass is drawn as one triangle");
+    EXPECT_EQ(to_string(directives->warnings[1]),
+              "dir/a.glsl:3: warning: #iFirstPersonControls: mouse and wheel move iViewMatrix around the "
+              "point in view; keys do not move it");
     EXPECT_EQ(refusal("#iVertex 1"), "dir/a.glsl:1:10: error: expected a name in quotes but found '1'");
 }
 
@@ -70,7 +69,7 @@ TEST(Directives, a_size_that_is_none_is_refused_at_its_place) {
         EXPECT_EQ(
             refusal("a;\n#iSize " + text),
             "dir/a.glsl:2:8: error: '" + text +
-                "' is no size: give WIDTHxHEIGHT in pixels, each from 1 to 32767, as in #iSize 800x450");
+                "' is not a size: give WIDTHxHEIGHT in pixels, each from 1 to 32767, as in #iSize 800x450");
     EXPECT_EQ(
         refusal("#iSize\n800x450"),
         "dir/a.glsl:1:7: error: expected a size in pixels, as in 800x450 but found the end of the line");

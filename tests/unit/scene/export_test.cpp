@@ -94,11 +94,10 @@ TEST_F(Export, what_cannot_be_taken_apart) {
         return to_string(split_project(text, "x.json").error());
     };
     EXPECT_EQ(refused("{}"),
-              "x.json: error: this is no ShaderToy project: there is no list named renderpass");
-    EXPECT_EQ(
-        refused(R"([{"type":"image","code":{"file":"image.glsl"}}])"),
-        "x.json: error: the code of pass 1 stands in the file 'image.glsl': so it may in the scene.json of "
-        "a folder, as `import` makes one; elsewhere it is a string");
+              "x.json: error: this is not a ShaderToy project: it has no list named renderpass");
+    EXPECT_EQ(refused(R"([{"type":"image","code":{"file":"image.glsl"}}])"),
+              "x.json: error: the code of pass 1 is in the file 'image.glsl': this works only in the "
+              "scene.json of a scene folder; elsewhere code must be a string");
 }
 
 TEST_F(Export, what_cannot_be_put_together) {
@@ -109,7 +108,9 @@ TEST_F(Export, what_cannot_be_put_together) {
     save("scene.json", R"([{"type":"image","code":{"file":"image.glsl"}}])");
     EXPECT_EQ(refused(), "tidemark: error: cannot read 'image.glsl': no such file");
     save("image.glsl", "// caf\xE9\n");
-    EXPECT_EQ(refused(), "tidemark: error: 'image.glsl' is not UTF-8: save it as that, for JSON is");
+    EXPECT_EQ(
+        refused(),
+        "tidemark: error: 'image.glsl' is not UTF-8: JSON needs UTF-8, so save the file in that encoding");
     save("scene.json", R"([{"type":"image","code":{"file":"../image.glsl"}}])");
     EXPECT_THAT(refused(), HasSubstr("lies outside the scene's folder"));
 }
@@ -133,7 +134,7 @@ TEST_F(Export, a_file_becomes_a_project) {
     EXPECT_EQ(passes[0]["inputs"][1]["sampler"]["wrap"], "clamp");
     ASSERT_EQ(warnings_.size(), 1u);
     EXPECT_EQ(plain(to_string(warnings_[0])),
-              "a.glsl:5: warning: ShaderToy has no 'own.png': choose something there");
+              "a.glsl:5: warning: ShaderToy has no 'own.png': choose another input there");
 }
 
 TEST_F(Export, a_project_that_we_made_is_the_same_scene) {
@@ -177,7 +178,7 @@ TEST_F(Export, more_buffers_than_shadertoy_has) {
     const auto refused = make_project(load("0.glsl"), warnings_);
     ASSERT_FALSE(refused);
     EXPECT_EQ(plain(to_string(refused.error())),
-              "tidemark: error: '0.glsl' has more than 4 buffers, which is all that ShaderToy has");
+              "tidemark: error: '0.glsl' has more than 4 buffers, the most that ShaderToy allows");
 }
 
 } // namespace tidemark::scene::export_test

@@ -53,8 +53,8 @@ TEST_F(Folder, a_pass_that_no_other_reads_is_told) {
     const Scene scene = load();
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_EQ(plain(to_string(scene.warnings[0])),
-              "Buffer A.glsl: warning: no other pass reads 'Buffer A': the one that does says "
-              "#iChannel0 \"Buffer A.glsl\"");
+              "Buffer A.glsl: warning: no other pass reads 'Buffer A': a pass that should read it needs the "
+              "line #iChannel0 \"Buffer A.glsl\"");
 }
 
 TEST_F(Folder, names_in_the_wild) {
@@ -80,8 +80,8 @@ TEST_F(Folder, two_files_for_one_pass_are_an_error) {
 TEST_F(Folder, a_pass_that_is_not_here_and_one_that_is_empty) {
     save("image.glsl", "\n#iChannel0 \"buffer_b\"\n" + k_main_image);
     EXPECT_EQ(refusal(),
-              "image.glsl:2: error: there is no pass 'Buffer B' here: a scene folder has it in a file "
-              "'buffer_b.glsl', and a single file names another by its path, as in \"blur.glsl\"");
+              "image.glsl:2: error: there is no pass 'Buffer B': in a scene folder it is the file "
+              "'buffer_b.glsl'; a single file names another file by its path, as in \"blur.glsl\"");
     save("buffer_b.glsl", "// nothing yet\n");
     EXPECT_EQ(refusal(), "tidemark: error: 'buffer_b.glsl' is empty: a scene defines mainImage");
 }
@@ -131,7 +131,7 @@ TEST_F(Folder, with_a_project_that_says_what_the_passes_read) {
     EXPECT_EQ(scene.knobs.size(), 1u);
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_EQ(plain(to_string(scene.warnings[0])),
-              "buffer_b.glsl: warning: 'scene.json' has no pass with this file: it is not drawn");
+              "buffer_b.glsl: warning: 'scene.json' has no pass with this file: the file is ignored");
     EXPECT_EQ(load("scene.json").passes.size(), 2u) << "its scene.json means the folder";
 }
 

@@ -167,27 +167,28 @@ TEST_F(Json, samplers_are_texts_and_may_be_missing) {
 }
 
 TEST_F(Json, what_is_no_project_is_told_so) {
-    EXPECT_EQ(error_of("<html>"), "x.json:1:1: error: this is no JSON: invalid literal");
-    EXPECT_EQ(error_of(""), "x.json: error: this is no JSON: there is nothing in it");
+    EXPECT_EQ(error_of("<html>"), "x.json:1:1: error: this is not JSON: invalid literal");
+    EXPECT_EQ(error_of(""), "x.json: error: this is not JSON: it is empty");
     EXPECT_EQ(error_of("{\n \"Shader\": {,}}"),
-              "x.json:2:13: error: this is no JSON: unexpected ','; expected string literal");
+              "x.json:2:13: error: this is not JSON: unexpected ','; expected string literal");
     EXPECT_EQ(error_of(R"({"Error":"Shader not found"})"),
               "x.json: error: ShaderToy answered with an error instead of a project: Shader not found");
-    EXPECT_EQ(error_of("[]"),
-              "x.json: error: this is an empty list: ShaderToy knows no such project, or it is not public");
+    EXPECT_EQ(
+        error_of("[]"),
+        "x.json: error: this is an empty list: the project does not exist on ShaderToy, or it is not public");
     EXPECT_EQ(error_of(R"({"Shaders":2,"Results":["a","b"]})"),
-              "x.json: error: this is no ShaderToy project: there is no list named renderpass");
+              "x.json: error: this is not a ShaderToy project: it has no list named renderpass");
     EXPECT_EQ(error_of("[" + project(k_image) + "," + project(k_image) + "]"),
-              "x.json: error: this holds 2 projects: a scene is one, so save it in a file of its own");
+              "x.json: error: this holds 2 projects: save one of them in a file of its own");
     EXPECT_EQ(error_of(R"({"numShaders":2,"shaders":[)" + project(k_image) + "," + project(k_image) + "]}"),
-              "x.json: error: this holds 2 projects: a scene is one, so save it in a file of its own");
-    EXPECT_EQ(error_of(project("")), "x.json: error: renderpass is no list of passes");
-    EXPECT_EQ(error_of(project("1")), "x.json: error: pass 1 is no object");
+              "x.json: error: this holds 2 projects: save one of them in a file of its own");
+    EXPECT_EQ(error_of(project("")), "x.json: error: renderpass is not a list of passes");
+    EXPECT_EQ(error_of(project("1")), "x.json: error: pass 1 is not an object");
     EXPECT_EQ(error_of(project(R"({"type":"image","name":"Image"})")),
               "x.json: error: the pass 'Image' has no code");
     EXPECT_EQ(
         error_of(project(R"({"type":"vr","code":""})")),
-        "x.json: error: pass 1 is of the unknown type 'vr': ShaderToy has image, buffer, common, cubemap and "
+        "x.json: error: pass 1 has the unknown type 'vr': ShaderToy has image, buffer, common, cubemap and "
         "sound");
     EXPECT_EQ(error_of(project(buffer("A", "257"))),
               "x.json: error: this project has no Image pass: there is nothing to show");
@@ -210,12 +211,12 @@ TEST_F(Json, a_pass_that_defines_nothing_is_told_so) {
 
 TEST_F(Json, hostile_texts_are_refused_in_linear_time) {
     EXPECT_EQ(error_of(std::string(1'000'000, '[')),
-              "x.json:1: error: this JSON is nested more than 64 deep: it is no ShaderToy project");
+              "x.json:1: error: this JSON is nested more than 64 deep: it is not a ShaderToy project");
     std::string deep;
     for (int i = 0; i < 100'000; ++i)
         deep += "{\"a\":\n";
     EXPECT_EQ(error_of(deep),
-              "x.json:65: error: this JSON is nested more than 64 deep: it is no ShaderToy project");
+              "x.json:65: error: this JSON is nested more than 64 deep: it is not a ShaderToy project");
     std::string wide = "{";
     for (int i = 0; i < 100'000; ++i)
         wide += "\"" + std::to_string(i) + "\":0,";
@@ -250,13 +251,12 @@ TEST_F(Json, every_missing_file_is_one_warning) {
     ASSERT_TRUE(scene) << to_string(scene.error());
     EXPECT_THAT(
         warnings_of(*scene),
-        ElementsAre(
-            "x.json: warning: '/media/a/1f7dca9c22.jpg' (Wood) is not here: a generated picture of "
-            "1024x1024 stands in for it (--media DIR says where such files are)",
-            "x.json: warning: 'https://a.example/b' is not here: ShaderToy's signal for silence "
-            "stands in for it (--media DIR says where such files are)",
-            "x.json: warning: 'webcam' is live: a generated picture of 640x480 stands in for it without "
-            "view --webcam"));
+        ElementsAre("x.json: warning: '/media/a/1f7dca9c22.jpg' (Wood) was not found: a generated picture of "
+                    "1024x1024 replaces it (--media DIR names the folder with such files)",
+                    "x.json: warning: 'https://a.example/b' was not found: ShaderToy's signal for silence "
+                    "replaces it (--media DIR names the folder with such files)",
+                    "x.json: warning: 'webcam' is a live input: a generated picture of 640x480 replaces it "
+                    "without view --webcam"));
     EXPECT_EQ(scene->image().channels[2].input, ChannelInput(Music{}));
 }
 

@@ -161,8 +161,8 @@ TEST(KnobValue, a_colour) {
 TEST(KnobValue, what_a_number_takes) {
     for (const std::string text : {"", " ", "x", "1x", "1,2", "nan", "inf", "1e999", "0x10", "1,", ",1",
                                    "--1", "+-1", "float(1", "float()", "vec2(1)", "#ffffff", "1 2"})
-        EXPECT_EQ(parsed(KnobType::float1, text),
-                  "'" + std::string(text == " " ? "" : text) + "' is no value for k (float): give a number");
+        EXPECT_EQ(parsed(KnobType::float1, text), "'" + std::string(text == " " ? "" : text) +
+                                                      "' is not a value for k (float): give a number");
 }
 
 TEST(KnobValue, what_a_whole_number_takes) {
@@ -170,22 +170,24 @@ TEST(KnobValue, what_a_whole_number_takes) {
     EXPECT_EQ(parsed(KnobType::int1, "-2147483648"), "-2147483648");
     for (const std::string text : {"1.5", "2147483648", "-2147483649", "1e10", "x"})
         EXPECT_EQ(parsed(KnobType::int1, text),
-                  "'" + text + "' is no value for k (int): give a whole number");
+                  "'" + text + "' is not a value for k (int): give a whole number");
 }
 
 TEST(KnobValue, what_a_vector_takes) {
-    EXPECT_EQ(parsed(KnobType::vec2, "1,2,3"), "'1,2,3' is no value for k (vec2): give 2 numbers, as in 1,2");
-    EXPECT_EQ(parsed(KnobType::vec3, "1,2"), "'1,2' is no value for k (vec3): give 3 numbers, as in 1,2,3");
+    EXPECT_EQ(parsed(KnobType::vec2, "1,2,3"),
+              "'1,2,3' is not a value for k (vec2): give 2 numbers, as in 1,2");
+    EXPECT_EQ(parsed(KnobType::vec3, "1,2"),
+              "'1,2' is not a value for k (vec3): give 3 numbers, as in 1,2,3");
     EXPECT_EQ(parsed(KnobType::vec4, "1,2,3,4,5"),
-              "'1,2,3,4,5' is no value for k (vec4): give 4 numbers, as in 1,2,3,4");
+              "'1,2,3,4,5' is not a value for k (vec4): give 4 numbers, as in 1,2,3,4");
     EXPECT_EQ(parsed(KnobType::ivec2, "1,2.5"),
-              "'1,2.5' is no value for k (ivec2): give 2 whole numbers, as in 1,2");
+              "'1,2.5' is not a value for k (ivec2): give 2 whole numbers, as in 1,2");
 }
 
 TEST(KnobValue, what_a_colour_takes) {
     for (const std::string text : {"#", "#fff", "#ff80000", "#gg8000", "#-f8000", "1,2"})
         EXPECT_EQ(parsed(KnobType::color3, text),
-                  "'" + text + "' is no value for k (color3): give 3 numbers, as in 1,2,3 or #rrggbb");
+                  "'" + text + "' is not a value for k (color3): give 3 numbers, as in 1,2,3 or #rrggbb");
 }
 
 TEST(KnobType, names_and_back) {

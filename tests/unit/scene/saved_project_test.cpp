@@ -74,7 +74,7 @@ TEST(SavedProject, one_of_several_is_chosen_by_its_id) {
                   "x: error: this holds other1, abCD12, and not nobody");
     }
     EXPECT_EQ(error_of(saved_project("<script>" + other + ";" + k_project + "</script>", "", "x")),
-              "x: error: this holds 2 projects (other1, abCD12): say which with `import ID --via FILE`");
+              "x: error: this holds 2 projects (other1, abCD12): choose one with `import ID --via FILE`");
 }
 
 TEST(SavedProject, one_that_does_not_say_its_id_is_taken_for_it) {

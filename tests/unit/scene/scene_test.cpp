@@ -151,7 +151,7 @@ TEST_F(Overrides, a_knob_gets_its_value_and_keeps_its_default) {
     EXPECT_EQ(scene.knobs[0].initial[0], 1);
     EXPECT_EQ(message(override_knob(scene, "k")), "--set k: give it as NAME=VALUE");
     EXPECT_EQ(message(override_knob(scene, "j=1")), "the scene has no knob 'j': did you mean 'k'?");
-    EXPECT_EQ(message(override_knob(scene, "k=x")), "'x' is no value for k (float): give a number");
+    EXPECT_EQ(message(override_knob(scene, "k=x")), "'x' is not a value for k (float): give a number");
     EXPECT_EQ(scene.knobs[0].value[0], 2.5);
 }
 
@@ -166,7 +166,7 @@ TEST_F(Overrides, a_channel_of_another_pass_is_named_with_it) {
     EXPECT_EQ(message(override_channel(scene, scene.image().name + ":1=none")), "");
     EXPECT_EQ(scene.image().channels[1].input, ChannelInput(Unbound{}));
     EXPECT_EQ(message(override_channel(scene, "Buffer B:0=none")),
-              "--channel Buffer B:0: the scene has Buffer A, Image");
+              "--channel Buffer B:0: no such pass; the scene has Buffer A, Image");
     EXPECT_EQ(message(override_channel(scene, "Buffer A:x=none")),
               "--channel Buffer A:x=none: give it as N=FILE, N=noise or N=none, N from 0 to 9");
 }
@@ -178,7 +178,7 @@ TEST_F(Overrides, a_value_outside_of_the_range_is_taken_with_a_warning) {
     EXPECT_EQ(message(override_knob(scene, "k=-5")), "");
     EXPECT_EQ(scene.knobs[0].value[0], -5);
     ASSERT_EQ(scene.warnings.size(), 1U);
-    EXPECT_EQ(scene.warnings[0].message, "--set k=-5: k has the range 0 to 2; the value is taken as it is");
+    EXPECT_EQ(scene.warnings[0].message, "--set k=-5: k has the range 0 to 2; the value is used anyway");
     EXPECT_EQ(scene.warnings[0].where.line, 1);
 }
 
@@ -197,7 +197,7 @@ TEST_F(Overrides, a_channel_reads_what_it_is_told) {
     EXPECT_EQ(message(override_channel(scene, "0=keyboard")), "");
     EXPECT_EQ(scene.image().channels[0].input, ChannelInput(Keyboard{}));
     EXPECT_EQ(message(override_channel(scene, "0=blur.glsl")),
-              "--channel 0=blur.glsl: 'blur.glsl' is a pass: a scene names it with #iChannel0");
+              "--channel 0=blur.glsl: 'blur.glsl' is a pass: bind it in the scene with #iChannel0");
 }
 
 TEST_F(Overrides, channels_that_there_are_not) {
