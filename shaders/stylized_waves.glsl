@@ -17,7 +17,7 @@
 //     front, tail, rollback  foam_cover          wave front, wave tail, wave rollback
 //     depth gradient, specular, caustic, refraction    shade_water, caustic, refracted
 //
-// iChannel0 is what `tidemark bake island` writes: path distance, wave mask, depth, height; iChannel1 what
+// iChannel0 is what `tidemark_bake` writes: path distance, wave mask, depth, height; iChannel1 what
 // `tidemark bake ramps` writes: height, front, tail, rollback over the phase. Another island of the same size
 // can be given with --channel 0=FILE.
 //

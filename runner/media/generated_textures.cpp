@@ -303,14 +303,14 @@ namespace {
 constexpr int k_octaves = 6;
 constexpr int k_lattice = 4; ///< cells of the coarsest octave across the picture; a power of two
 
-using Colour = std::array<double, 3>;
+using Rgb = std::array<double, 3>;
 
-Colour mixed(const Colour& a, const Colour& b, double part) {
+Rgb mixed(const Rgb& a, const Rgb& b, double part) {
     return {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2] + part * (b[2] - a[2])};
 }
 
 /// Three colours from dark to light: stone, moss, sand, sea, rust, slate.
-constexpr std::array<std::array<Colour, 3>, 6> k_palettes = {{
+constexpr std::array<std::array<Rgb, 3>, 6> k_palettes = {{
     {{{0.24, 0.23, 0.22}, {0.48, 0.46, 0.43}, {0.74, 0.71, 0.66}}},
     {{{0.17, 0.22, 0.13}, {0.37, 0.44, 0.25}, {0.69, 0.71, 0.50}}},
     {{{0.36, 0.27, 0.18}, {0.62, 0.50, 0.35}, {0.83, 0.74, 0.58}}},
@@ -348,7 +348,7 @@ public:
         return std::clamp(0.5 + 1.4 * (sum / total - 0.5), 0.0, 1.0);
     }
 
-    Colour colour(double lightness) const {
+    Rgb colour(double lightness) const {
         const auto& palette = k_palettes[palette_];
         return lightness < 0.5 ? mixed(palette[0], palette[1], 2.0 * lightness)
                                : mixed(palette[1], palette[2], 2.0 * lightness - 1.0);
@@ -398,7 +398,7 @@ void put(const Clouds& clouds, double lightness, int channels, uint8_t* to) {
     if (channels <= 2) {
         to[0] = byte_of(0.2 + 0.6 * lightness);
     } else {
-        const Colour colour = clouds.colour(lightness);
+        const Rgb colour = clouds.colour(lightness);
         for (size_t i = 0; i < 3; ++i)
             to[i] = byte_of(colour[i]);
     }

@@ -49,7 +49,6 @@ class Completion(ProgramTest):
         self.assertEqual(self.completed("bake", "r"), {"ramps"})
         self.assertEqual(self.completed("bake", "--s"), set())
         self.assertEqual(self.completed("bake", "noise", "--s"), {"--seed"})
-        self.assertEqual(self.completed("bake", "island", "--s"), {"--size", "--seed", "--sea", "--study"})
         self.assertEqual(self.completed("capture", "a.glsl", "--fra"), {"--frame", "--frames"})
 
     def test_another_shell(self):

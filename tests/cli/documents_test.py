@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import unittest
 
-from support import option_table, png
+from support import option_table
 from support.program import PROGRAM, ROOT, TIME_LIMIT, ProgramTest, environment, has_context, main
 
 MANUAL = ROOT / "runner" / "cli" / "manual"
@@ -100,13 +100,6 @@ class Commands(ProgramTest):
         project = {"info": {"id": "XxXxXx"}, "renderpass": [{"type": "image", "code": "void mainImage() {}"}]}
         self.write("project.json", json.dumps(project))
         self.write("all.json", json.dumps({"shaders": [project, project]}))
-        self.write("my_map.png", png.encode(64, 64, 3, self.island()))
-
-    @staticmethod
-    def island() -> list[bytes]:
-        """A hill in the middle of a square sea."""
-        return [b"".join(bytes([200 if abs(x - 32) < 8 and abs(y - 32) < 8 else 0] * 3) for x in range(64))
-                for y in range(64)]
 
     @staticmethod
     def small(command: str) -> list[str]:
@@ -170,7 +163,7 @@ class Explained(unittest.TestCase):
     def test_every_option_stands_in_a_table(self) -> None:
         tables = "\n".join(block[3] for page in option_table.PAGES
                            for block in option_table.BLOCK.finditer(page.read_text()))
-        for command in option_table.commands():
+        for command in option_table.commands_and_bake():
             for head, _ in option_table.options_of(command):
                 for name in option_table.names_of(head):
                     with self.subTest(command=command):
@@ -178,7 +171,7 @@ class Explained(unittest.TestCase):
 
     def test_no_page_names_an_option_that_is_not_there(self) -> None:
         self.needs_the_window()
-        there = {name for command in option_table.commands() for head, _ in option_table.options_of(command)
+        there = {name for command in option_table.commands_and_bake() for head, _ in option_table.options_of(command)
                  for name in option_table.names_of(head)} | {"--help", "--version"}
         foreign = {"--long", "--cluster", "--rounds", "--preset", "--build", "--install", "--prefix", "--array"}  # of ./dev, CMake and Slurm
         for page in PAGES:

@@ -134,8 +134,6 @@ class Links(ProgramTest):
     def test_bake(self):
         self.link("noise.png")
         self.refuse(["bake", "noise"], "noise.png")
-        self.link("island.exr")
-        self.refuse(["bake", "island"], "island.exr")
         (self.folder / "empty").mkdir()
         self.succeed("bake", "ramps", "-o", "empty")
         name = sorted(p.name for p in (self.folder / "empty").iterdir())[0]
@@ -210,10 +208,6 @@ class ReadAndWritten(ProgramTest):
         self.write("folder/image.glsl", KNOB)
         self.write("folder/study.json", json.dumps({"series": [{"name": "s", "vary": {"level": [0.2, 0.4]}}]}))
         self.refuse(["study", "folder", "-o", "folder"], "folder/study.json")
-
-    def test_heights_of_an_island(self):
-        self.picture("h.exr")
-        self.refuse(["bake", "island", "--heights", "h.exr", "--extent", "8", "-o", "h.exr"], "h.exr")
 
     def test_sound(self):
         self.write("s/image.glsl", PLAIN)

@@ -6,18 +6,20 @@ import pathlib
 import re
 import subprocess
 
-from support.program import PROGRAM, ROOT, environment
+from support.program import BAKE, PROGRAM, ROOT, environment
 
 MANUAL = ROOT / "runner" / "cli" / "manual"
 PAGES = [*(MANUAL / f"{page}.md" for page in ("options", "check_and_study", "tune", "simplify")),
          ROOT / "shaders" / "README.md"]
 # `<!-- options: check study -->`: those of these commands, less the rows that an earlier page has.
-BLOCK = re.compile(r"(<!-- options: ([a-z ,]+) -->\n)(.*?)(<!-- end of options -->\n)", re.DOTALL)
+BLOCK = re.compile(r"(<!-- options: ([a-z_ ,]+) -->\n)(.*?)(<!-- end of options -->\n)", re.DOTALL)
+BAKE_NAME = "tidemark_bake"  # the program of shaders/bake, which has no commands
 WIDTH = 30  # of the column of names in CLI11's help, in bytes
 
 
 def printed_help(command: str) -> str:
-    return subprocess.run([PROGRAM, *command.split(), "--help"], check=True, capture_output=True, text=True,
+    words = [BAKE] if command == BAKE_NAME else [PROGRAM, *command.split()]
+    return subprocess.run([*words, "--help"], check=True, capture_output=True, text=True,
                           env=environment()).stdout
 
 
@@ -26,6 +28,10 @@ def commands(command: str = "") -> list[str]:
     listed = printed_help(command).partition("\nSubcommands:\n")[2].partition("\n\n")[0]
     names = re.findall(r"^  (\S+)", listed, re.MULTILINE)
     return [inner for name in names for inner in commands(f"{command} {name}".strip())] or [command]
+
+
+def commands_and_bake() -> list[str]:
+    return [*commands(), BAKE_NAME]
 
 
 @functools.cache
@@ -50,7 +56,7 @@ def names_of(head: str) -> list[str]:
 
 def table(users: list[str], known: set[tuple[str, str]]) -> str:
     """Adds its rows to `known`, and leaves out what is there."""
-    options = {command: options_of(command) for command in commands()}
+    options = {command: options_of(command) for command in commands_and_bake()}
     rows = {option for command in users for option in options[command]} - known
     known.update(rows)
     lines = ["| option | of | meaning |", "|---|---|---|"]

@@ -13,6 +13,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PROGRAM = os.environ.get("TIDEMARK", str(ROOT / "build" / "release" / "tidemark"))
+BAKE = os.environ.get("TIDEMARK_BAKE", str(pathlib.Path(PROGRAM).parent / "tidemark_bake"))  # that of shaders/bake
 STATE = tempfile.TemporaryDirectory(prefix="tidemark-state-")  # what windows remember: nothing of the person's own
 SKIPPED = 77  # CTest's SKIP_RETURN_CODE
 
@@ -91,11 +92,11 @@ class ProgramTest(unittest.TestCase):
         """Everything in the folder, hidden temporary files included."""
         return {str(p.relative_to(self.folder)) for p in self.folder.rglob("*") if not p.is_dir()}
 
-    def run_program(self, *arguments: str, env: dict[str, str] | None = None, **options
+    def run_program(self, *arguments: str, program: str = PROGRAM, env: dict[str, str] | None = None, **options
                     ) -> subprocess.CompletedProcess:
         """stdout is bytes, stderr text."""
         options.setdefault("stdout", subprocess.PIPE)
-        done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, stdin=subprocess.DEVNULL,
+        done = subprocess.run([program, *arguments], cwd=self.folder, stdin=subprocess.DEVNULL,
                               stderr=subprocess.PIPE, env=env or environment(), timeout=TIME_LIMIT, **options)
         done.stderr = done.stderr.decode()
         return done

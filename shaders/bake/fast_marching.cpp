@@ -1,4 +1,4 @@
-#include "media/fast_marching.hpp"
+#include "bake/fast_marching.hpp"
 
 #include <algorithm>
 #include <array>

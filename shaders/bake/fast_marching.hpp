@@ -100,11 +100,11 @@ struct Distances {
 /// Where paths fan out or meet (a corner that waves bend round, the edge of a shadow, the centre of a closing
 /// circle), u has no bounded third derivative: O(h log 1/h) is proved for the first-order scheme there (H.
 /// Zhao, "A fast sweeping method for eikonal equations", 2005), and about the first order is measured
-/// (fast_marching_study.hpp). At the shore each polygon of ShoreCells is solved by the Hopf-Lax formula: u(v) = min
-/// over its far edges of (u, linear along the edge, + the distance to v), as on triangles (R. Kimmel and J.
-/// A. Sethian, "Computing geodesic paths on manifolds", 1998). It is monotone, O(h), and adds nothing to a
-/// path along the shore. A polygon may be obtuse at a crossing, so that a vertex can be accepted after one
-/// whose value depends on it: it then corrects that one, until no correction is left.
+/// (fast_marching_study.hpp). At the shore each polygon of ShoreCells is solved by the Hopf-Lax formula: u(v)
+/// = min over its far edges of (u, linear along the edge, + the distance to v), as on triangles (R. Kimmel
+/// and J. A. Sethian, "Computing geodesic paths on manifolds", 1998). It is monotone, O(h), and adds nothing
+/// to a path along the shore. A polygon may be obtuse at a crossing, so that a vertex can be accepted after
+/// one whose value depends on it: it then corrects that one, until no correction is left.
 Distances fast_march(const HeightMap& map, std::span<const double> known,
                      Stencil stencil = Stencil::second_order);
 

@@ -1,7 +1,7 @@
 // Measures the error of the marching against its run time, on maps whose shortest paths are known exactly.
 #pragma once
 
-#include "media/fast_marching.hpp"
+#include "bake/fast_marching.hpp"
 
 #include <array>
 #include <functional>

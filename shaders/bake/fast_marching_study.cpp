@@ -1,4 +1,4 @@
-#include "media/fast_marching_study.hpp"
+#include "bake/fast_marching_study.hpp"
 
 #include <algorithm>
 #include <ctime>

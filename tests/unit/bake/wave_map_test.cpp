@@ -1,5 +1,5 @@
+#include "bake/wave_map.hpp"
 #include "base/encoding.hpp"
-#include "media/baked_textures.hpp"
 #include "media/picture_file.hpp"
 
 #include <fmt/format.h>
@@ -183,7 +183,7 @@ TEST(Island, has_the_same_bits_on_every_machine) {
     EXPECT_EQ(sha256(baked->bytes), "f57f5d8084fc6788eff5058be71edd108ed60fae6aca389b16c4255471a8c536");
 }
 
-// What `bake island` writes, through the codec both ways: the file may be compressed differently elsewhere.
+// The file that `tidemark_bake` writes is read back: it may be compressed differently elsewhere.
 TEST(Island, is_the_file_in_textures) {
     namespace fs = std::filesystem;
     const fs::path file = fs::temp_directory_path() / fmt::format("tidemark-island-{}.exr", ::getpid());

@@ -1,5 +1,5 @@
-#include "media/fast_marching.hpp"
-#include "media/fast_marching_study.hpp"
+#include "bake/fast_marching.hpp"
+#include "bake/fast_marching_study.hpp"
 
 #include <gtest/gtest.h>
 
