@@ -11,7 +11,7 @@ std::span<const std::string_view> help_pages();
 
 // The scenes that `new` writes, as texts: the files of scenes/, embedded in the program
 // (runner/CMakeLists.txt). A new scene needs its files, their names there, and a row in the table of
-// scene_templates.cpp.in.
+// scenes in the .in file beside this one.
 
 struct TemplateFile {
     std::string_view name; ///< in the scene's folder; empty: the scene is this file

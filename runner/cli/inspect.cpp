@@ -240,6 +240,8 @@ Json json_of(const render::Renderer& renderer, const gl::Capabilities& driver, c
     json["renderer"] = driver.renderer;
     json["files"] = files_of(scene);
     json["uniforms"] = facts.uniforms;
+    for (const auto& [name, value] : facts.other_names)
+        json["other_hosts_names"][name] = value;
     json["passes"] = Json::array();
     for (const PassFacts& facts_of_pass : facts.passes) {
         const scene::Pass& pass = scene.passes[facts_of_pass.pass];
@@ -270,6 +272,8 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
     std::string text =
         fmt::format("{}\n  driver    {}, OpenGL {}\n", scene.file.string(), driver.renderer, driver.version);
     text += fmt::format("  uniforms  {}\n", fmt::join(facts.uniforms, ", "));
+    for (const auto& [name, value] : facts.other_names)
+        text += fmt::format("            {}: another host's name for {}\n", name, value);
     for (const PassFacts& facts_of_pass : facts.passes) {
         const scene::Pass& pass = scene.passes[facts_of_pass.pass];
         if (scene.passes.size() > 1)

@@ -164,8 +164,10 @@ public:
     SceneFacts collect() {
         for (const render::PlannedPass& planned : renderer_.plan().passes) {
             for (const gl::Uniform& uniform : renderer_.program(planned.pass).reflection().uniforms)
-                if (!has(uniform.name))
+                if (!has(uniform.name)) {
                     facts_.uniforms.push_back(uniform.name);
+                    note_other_name(uniform.name, renderer_.names_of(planned.pass).other_hosts);
+                }
             facts_.passes.push_back({planned.pass, planned.channels});
         }
         add_list(facts_.left_out, "passes", passes_not_drawn());
@@ -182,6 +184,12 @@ public:
     }
 
 private:
+    void note_other_name(const std::string& name, bool other_hosts) {
+        const auto* const row = scene::find_host_uniform(name, other_hosts);
+        if (row && !scene::find_host_uniform(name))
+            facts_.other_names.emplace_back(name, row->name.empty() ? row->meaning : row->name);
+    }
+
     bool has(std::string_view uniform) const {
         return std::find(facts_.uniforms.begin(), facts_.uniforms.end(), uniform) != facts_.uniforms.end();
     }

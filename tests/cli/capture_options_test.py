@@ -90,7 +90,7 @@ class Beat(Told):
     def test_no_knob_has_its_name(self):
         self.write("a.glsl", "#iUniform float iBeat = 1.0\n" + GOOD)
         self.expect_failure(["capture", "a.glsl", "-o", "-"], 3,
-                            "a.glsl:1: error: 'iBeat' is a uniform of the host's own: give the knob another name")
+                            "a.glsl:1: error: 'iBeat' is a uniform that the host provides: give the knob another name")
 
     def test_errors(self):
         self.refused("--bpm fast", "--bpm: give a number, not 'fast'")

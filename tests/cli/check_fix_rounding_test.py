@@ -132,7 +132,7 @@ class CheckFixRounding(ProgramTest):
     def test_a_threshold_below_rounding_becomes_one_that_floats_come_to(self):
         scene = self.write("march.glsl", MARCH % "1e-7")
         cure, = self.fix("march.glsl", "--write")["cures"]
-        self.assertRegex(cure["cure"], r"^waits for \S+ instead of 1e-07")
+        self.assertRegex(cure["cure"], r"^hit threshold \S+ instead of 1e-07")
         self.assertGreater(cure["fault"]["before"], 1)
         self.assertLess(cure["fault"]["after"], 0.1)
         self.assertRegex(scene.read_text(), r"^const float NEAR = [\d.e-]+;\n")

@@ -152,7 +152,7 @@ class Jumps(CheckTest):
         entry = self.entry(self.CUT, "time_discontinuity")
         self.assertEqual(entry["verdict"], "warn", entry["found"])
         self.assertRegex(entry["found"], r"^the picture jumps at 8 s \(PSNR \d+\.\d dB between neighbouring instants, "
-                                         r'\d+\.\d dB elsewhere\); a scene that cuts may say so: "skip" in its ')
+                                         r'\d+\.\d dB elsewhere\); if the cut is intended, add "skip" to its ')
 
     def test_a_scene_that_promises_none_is_held_to_it(self):
         self.write("scene.check.json", '{"smoothest_jump": 10}')

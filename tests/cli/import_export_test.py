@@ -111,7 +111,7 @@ class Export(ProgramTest):
         self.assertNotIn("{{uniforms}}", page)
         self.succeed("export", "beat.glsl", "--html", "beat.html")
         self.assertIn('"bpm":120.0', (self.folder / "beat.html").read_text())
-        self.expect_failure(["export", "beat.glsl", "--bpm", "90"], 2, "tidemark: error: --bpm goes with --html FILE")
+        self.expect_failure(["export", "beat.glsl", "--bpm", "90"], 2, "tidemark: error: --bpm needs --html FILE")
 
     def test_usage(self):
         self.write("x.json", "[]")

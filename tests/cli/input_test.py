@@ -66,7 +66,7 @@ class Input(ProgramTest):
                             "keyup, set or camera")
         self.write("knob.txt", "0 move 1 2\n1 set height=tall\n")
         self.expect_failure(["capture", "a.glsl", "--input", "knob.txt"], 3,
-                            "knob.txt:2: error: 'tall' is no value for height: give a number, up to four as in 1,2,3, "
+                            "knob.txt:2: error: 'tall' is not a value for height: give a number, up to four as in 1,2,3, "
                             "#rrggbb or default")
         self.expect_failure(["capture", "a.glsl", "--input", "none.txt"], 3,
                             "tidemark: error: cannot read 'none.txt': no such file")

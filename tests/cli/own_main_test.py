@@ -52,6 +52,13 @@ class OwnMain(ProgramTest):
                 self.succeed("capture", name, "--size", "32x16", "--time", "1.25", "-o", "x.png")
                 self.assertEqual(png.read(self.folder / "x.png").pixel(3, 3)[:3], (red, green, 255))
 
+    def test_inspect_names_the_uniforms_of_other_hosts(self):
+        self.write("sandbox.glsl", GLSLSANDBOX)
+        self.assertIn("            time: another host's name for iTime\n",
+                      self.succeed("inspect", "sandbox.glsl").stdout.decode())
+        names = json.loads(self.succeed("inspect", "sandbox.glsl", "--json").stdout)["other_hosts_names"]
+        self.assertEqual((names["time"], names["resolution"]), ("iTime", "iResolution"))
+
     def test_an_error_has_the_authors_line(self):
         for text in (GLSLSANDBOX, GLSLVIEWER):
             line = text.splitlines().index(next(l for l in text.splitlines() if "olor = " in l)) + 1

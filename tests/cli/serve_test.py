@@ -71,9 +71,9 @@ class Pictures(Serve):
         viewer.picture()
         viewer.send("turn", name="blue", value=[0.75])
         head, _ = viewer.picture()
-        self.assertEqual(head["number"], 3)
+        self.assertEqual(head["number"], 2)
         viewer.send("turn", name="blue", value=[0.5])
-        self.assertEqual(viewer.picture()[0]["number"], 5, "none was sent between")
+        self.assertEqual(viewer.picture()[0]["number"], 3, "none was sent between")
 
     def test_that_move_go_on_while_they_are_seen(self):
         service = self.serve("a.glsl", text=MOVING)

@@ -114,11 +114,13 @@ void mainImage(out vec4 c, in vec2 p) { c = 0.9 * texture(iChannel0, p / iResolu
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertIn(words, done.stderr)
 
-    def test_a_project_is_to_be_imported_first(self):
-        self.succeed("export", "dear.glsl", "-o", "dear.json")
-        done = self.run_program("simplify", "dear.json", *QUICK)
-        self.assertEqual(done.returncode, 4)
-        self.assertIn("tidemark import", done.stderr)
+    def test_a_project_is_imported_beside_itself(self):
+        self.succeed("export", "dear.glsl", "-o", "project.json")
+        before = (self.folder / "project.json").read_bytes()
+        done = self.succeed("simplify", "project.json", *QUICK)
+        self.assertIn("wrote project: image.glsl, scene.json\n", done.stderr)
+        self.assertIn("--- project/image.glsl\n", done.stdout.decode())
+        self.assertEqual((self.folder / "project.json").read_bytes(), before)
 
     def test_a_picture_of_nan_cannot_be_held_against(self):
         self.write("dear.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(sqrt(-p.x)); }\n")

@@ -117,15 +117,16 @@ class Tune(ProgramTest):
         self.assertIn("no result: ", done.stderr)
         self.assertNotIn("chosen", done.stderr)
 
-    def test_a_project_s_json_is_not_written(self):
+    def test_a_project_is_imported_beside_itself(self):
         code = SUM.replace("\n", "\\n")
         self.write("sum.json", '{"Shader": {"info": {"name": "sum"}, "renderpass": [{"type": "image", "name": "Image", '
                                f'"inputs": [], "outputs": [], "code": "{code}"}}]}}}}')
-        done = self.run_program("tune", "sum.json", *QUICK, "--max-error", "psnr=50dB", "--write")
-        self.assertEqual(done.returncode, 4, done.stderr)
-        self.assertIn("tidemark import", done.stderr)
-        done = self.succeed("tune", "sum.json", *QUICK, "--max-error", "psnr=50dB")
-        self.assertRegex(done.stderr, re.compile("^chosen: STEPS = ", re.MULTILINE))
+        before = (self.folder / "sum.json").read_bytes()
+        done = self.succeed("tune", "sum.json", *QUICK, "--max-error", "psnr=50dB", "--write")
+        self.assertIn("wrote sum: image.glsl, scene.json\n", done.stderr)
+        chosen = re.search("^chosen: STEPS = (\\d+)", done.stderr, re.MULTILINE)[1]
+        self.assertTrue((self.folder / "sum/image.glsl").read_text().startswith(f"#define STEPS {chosen}\n"))
+        self.assertEqual((self.folder / "sum.json").read_bytes(), before)
 
 
 if __name__ == "__main__":

@@ -58,7 +58,7 @@ TEST(InputScript, says_what_is_wrong_and_where) {
     EXPECT_EQ(refusal("1 set"), "take.txt:1: error: give it as `1 set NAME=VALUE`");
     EXPECT_EQ(
         refusal("0 set deep=1\n1 set deep=blue"),
-        "take.txt:2: error: 'blue' is no value for deep: give a number, up to four as in 1,2,3, #rrggbb or "
+        "take.txt:2: error: 'blue' is not a value for deep: give a number, up to four as in 1,2,3, #rrggbb or "
         "default");
     EXPECT_EQ(refusal("1 press west 1 2"), "take.txt:1: error: give it as `1 press left|middle|right X Y`");
     EXPECT_EQ(refusal("1 keydown 0"), "take.txt:1: error: give it as `1 keydown CODE (1 to 255)`");
@@ -81,7 +81,7 @@ TEST(InputScript, must_suit_the_knobs_of_the_scene) {
         return known ? "" : known.error().message;
     };
     EXPECT_EQ(check("deep", {1, {2}}), "");
-    EXPECT_EQ(check("deep", {2, {1, 2}}), "'1,2' is no value for deep (vec3): give 3 numbers, as in 1,2,3");
+    EXPECT_EQ(check("deep", {2, {1, 2}}), "'1,2' is not a value for deep (vec3): give 3 numbers, as in 1,2,3");
     EXPECT_EQ(check("deeper", {1, {2}}), "the scene has no knob 'deeper': did you mean 'deep'?");
 }
 
@@ -101,7 +101,7 @@ TEST(Controls, release_the_values_that_a_scene_does_not_need_or_accept) {
     const std::vector<scene::Knob> knobs{
         {.name = "other"}, {.name = "same", .initial = {1}, .value = {1}}, {.name = "kept"}};
     EXPECT_THAT(controls.release(knobs),
-                testing::ElementsAre("'1,2' is no value for other (float): give a number"));
+                testing::ElementsAre("'1,2' is not a value for other (float): give a number"));
     EXPECT_THAT(held_by(controls),
                 testing::ElementsAre(scene::KnobSetting{"kept", one}, scene::KnobSetting{"gone", one}));
 }

@@ -204,7 +204,7 @@ TEST(Load, refuses_a_saved_value_that_does_not_suit_its_knob) {
     sequence.state.knobs = {{"k", {2, {1, 2}}}};
     const auto scene = load(request, sequence);
     ASSERT_FALSE(scene);
-    EXPECT_EQ(scene.error().message, "'1,2' is no value for k (float): give a number");
+    EXPECT_EQ(scene.error().message, "'1,2' is not a value for k (float): give a number");
     request.knobs_may_go = true;
     EXPECT_TRUE(load(request, sequence));
 }

@@ -71,7 +71,7 @@ TEST(GivenValue, other_text_is_an_error_with_the_name_of_the_knob) {
     for (const std::string text :
          {"", "blue", "1,2,3,4,5", "nan", "inf", "1e999", "vec5(1)", "vec2(1", "vec2()", "#fff"})
         EXPECT_EQ(printed(text), "'" + text +
-                                     "' is no value for k: give a number, up to four as in 1,2,3, #rrggbb or "
+                                     "' is not a value for k: give a number, up to four as in 1,2,3, #rrggbb or "
                                      "default");
 }
 
@@ -104,16 +104,16 @@ TEST(GivenValue, must_suit_the_knob) {
         return value ? "" : value.error().message;
     };
     EXPECT_EQ(refused(KnobType::vec3, {1, {2}}), "");
-    EXPECT_EQ(refused(KnobType::float1, {2, {1, 2}}), "'1,2' is no value for k (float): give a number");
-    EXPECT_EQ(refused(KnobType::float1, {1, {HUGE_VAL}}), "'inf' is no value for k (float): give a number");
-    EXPECT_EQ(refused(KnobType::int1, {1, {1.5}}), "'1.5' is no value for k (int): give a whole number");
+    EXPECT_EQ(refused(KnobType::float1, {2, {1, 2}}), "'1,2' is not a value for k (float): give a number");
+    EXPECT_EQ(refused(KnobType::float1, {1, {HUGE_VAL}}), "'inf' is not a value for k (float): give a number");
+    EXPECT_EQ(refused(KnobType::int1, {1, {1.5}}), "'1.5' is not a value for k (int): give a whole number");
     EXPECT_EQ(refused(KnobType::int1, {1, {3e9}}),
-              "'3000000000' is no value for k (int): give a whole number");
+              "'3000000000' is not a value for k (int): give a whole number");
     EXPECT_EQ(refused(KnobType::ivec2, {2, {1, 2}, KnobType::vec2}),
-              "'vec2(1, 2)' is no value for k (ivec2): give 2 whole numbers, as in 1,2");
+              "'vec2(1, 2)' is not a value for k (ivec2): give 2 whole numbers, as in 1,2");
     EXPECT_EQ(refused(KnobType::color3, {3, {1, 2, 3}, KnobType::vec3}), "");
     EXPECT_EQ(refused(KnobType::vec3, {3, {1, 2, 3}, KnobType::color3}),
-              "'color3(1, 2, 3)' is no value for k (vec3): give 3 numbers, as in 1,2,3");
+              "'color3(1, 2, 3)' is not a value for k (vec3): give 3 numbers, as in 1,2,3");
 }
 
 TEST(GivenValue, may_lie_outside_a_slider) {
