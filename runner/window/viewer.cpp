@@ -237,7 +237,7 @@ void Viewer::look_for_numbers(double now) {
     if (!stage_ || now < finite_.due() || driver_is_at_work())
         return;
     if (const size_t count = finite_.look(stage_->renderer(), now); count > 0)
-        say(fmt::format("warning: {} not finite; where from: {}",
+        say(fmt::format("warning: {} not finite; find the origin with: {}",
                         pixels_are(count, fmt::format("at {:.3f} s", shown_.seconds())),
                         shell_words(trace_words())));
 }

@@ -121,7 +121,7 @@ class Pictures(Alpha):
         done = self.succeed("capture", "a.glsl", *SIZE, "--alpha", "keep", "-o", "a.png", "--json")
         self.assertIn("warning: alpha is below 0 or above 1 in 48 pixels of frame 0; the file stores them as 0 or "
                       "1\n", done.stderr)
-        self.assertIn("warning: 16 pixels of frame 0 are not finite; where from: tidemark check --trace a.glsl", done.stderr)
+        self.assertIn("warning: 16 pixels of frame 0 are not finite; find the origin with: tidemark check --trace a.glsl", done.stderr)
         frame, = json.loads(done.stdout)["frames"]
         self.assertEqual((frame["no_coverage"], frame["not_finite"]), (48, 16))
         picture = png.read(self.folder / "a.png")

@@ -266,7 +266,7 @@ class Video(ProgramTest):
         program.send_signal(signal.SIGINT)
         words = program.communicate(timeout=60)[1].decode()
         self.assertEqual(program.returncode, 130)
-        self.assertRegex(words, r"interrupted after \d+ of 1000001 frames: no video was written\n\Z")
+        self.assertRegex(words, r"interrupted after \d+ of 1000001 frames; no video was written\n\Z")
         self.assertNotIn("wrote", words)
         self.assertEqual(self.files(), {"a.glsl"})
 

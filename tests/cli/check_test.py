@@ -488,7 +488,7 @@ class Check(ProgramTest):
     def test_an_unknown_probe_names_those_there_are(self):
         result = self.run_program("check", str(self.write("sound.glsl", SOUND)), "--probe", "luck")
         self.assertEqual(result.returncode, 2)
-        self.assertIn("--probe luck: there are times, ", result.stderr)
+        self.assertIn("--probe luck: no such probe; there are times, ", result.stderr)
 
     def test_list_needs_no_scene(self):
         self.assertIn(b"overstep", self.succeed("check", "--list").stdout)

@@ -279,7 +279,7 @@ class Supervised(ProgramTest):
         os.killpg(running.pid, signal.SIGINT)
         _, stderr = running.communicate(timeout=TIME_LIMIT)
         self.assertEqual(running.returncode, 130)
-        self.assertRegex(stderr, r"interrupted after (\d+) of 10000000 frames; \1 frames are whole, and .*\n\Z")
+        self.assertRegex(stderr, r"interrupted after (\d+) of 10000000 frames; \1 frames are complete; .*\n\Z")
 
     def test_ended_by_a_signal_as_before(self):
         running, below = self.start_endless()

@@ -29,7 +29,7 @@ class NotFinite(ProgramTest):
         said = [line for line in done.stderr.splitlines() if "finite" in line]
         self.assertEqual(said, ["warning: 1 pixel of frame 0 is not finite (and of 5 other frames); where from: "
                                 "tidemark check --trace 'a b.glsl' --frame 0 --size 16x4 --fps 30"])
-        command = shlex.split(re.search("where from: tidemark (.*)", done.stderr)[1])
+        command = shlex.split(re.search("find the origin with: tidemark (.*)", done.stderr)[1])
         self.assertIn("a b.glsl:6", self.run_program(*command).stdout.decode())
 
     def test_nothing_is_said_of_numbers(self):

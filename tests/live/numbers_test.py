@@ -42,7 +42,7 @@ class Numbers(LiveTest):
         view = self.view("a.glsl", *SIZE)
         self.assertNotIn("finite", view.stderr())
         view.drag((10, 10), (40, 20))
-        words = view.wait_for_words(r"warning: 36 pixels .* where from: tidemark (check .*)")
+        words = view.wait_for_words(r"warning: 36 pixels .* find the origin with: tidemark (check .*)")
         view.wait_for_title(r"\Aa - tidemark - still, 36 pixels not finite\Z")
         self.assertIn("--mouse 40,16,10,26", words[1])
         self.assertEqual(self.run_program(*shlex.split(words[1])).returncode, 1)

@@ -264,7 +264,7 @@ class Survives(ReloadTest):
             self.write("a.glsl", self.held_scene(mark, level, steps))
             told = view.wait_until_told(self.HELD, lambda told: told["mark"] == mark)
             self.assertEqual((round(told["level"], 6), told["steps"]), (wanted, 7))
-        said = [line for line in view.stderr().splitlines() if " stays " in line or " is over" in line]
+        said = [line for line in view.stderr().splitlines() if " stays " in line or " no longer applies" in line]
         self.assertEqual(said, ["level is now 0.7, from the file; --set level=0.5 no longer applies",
                                 "STEPS stays 7.0 because of --define; the file's definition is now 4.0"])
 
