@@ -27,7 +27,7 @@ class NotFinite(ProgramTest):
         self.write("a b.glsl", SCENE)
         done = self.succeed("capture", "a b.glsl", *SIZE, "--frames", "0-5", "--fps", "30", "-o", "f%d.png")
         said = [line for line in done.stderr.splitlines() if "finite" in line]
-        self.assertEqual(said, ["warning: 1 pixel of frame 0 is not finite (and of 5 other frames); where from: "
+        self.assertEqual(said, ["warning: 1 pixel of frame 0 is not finite (and of 5 other frames); find the origin with: "
                                 "tidemark check --trace 'a b.glsl' --frame 0 --size 16x4 --fps 30"])
         command = shlex.split(re.search("find the origin with: tidemark (.*)", done.stderr)[1])
         self.assertIn("a b.glsl:6", self.run_program(*command).stdout.decode())

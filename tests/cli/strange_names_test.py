@@ -152,7 +152,7 @@ class Terminal(ProgramTest):
         name = "n\x1b[31m'\\\n\x7f"
         self.write(f"{name}.glsl", PLAIN.replace("0.25", "sqrt(-1.0 - p.x)"))
         done = self.succeed("capture", f"{name}.glsl", *SMALL)
-        command = done.stderr.split("where from: ")[1].splitlines()[0].replace("tidemark ", f"{PROGRAM} ", 1)
+        command = done.stderr.split("find the origin with: ")[1].splitlines()[0].replace("tidemark ", f"{PROGRAM} ", 1)
         traced = subprocess.run(["bash", "-c", command], cwd=self.folder, env=environment(), stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT, timeout=TIME_LIMIT)
         self.assertEqual(traced.returncode, 1, traced.stdout)

@@ -15,7 +15,7 @@ void mainImage(out vec4 c, in vec2 p) {
 }
 """
 GOOD = SCENE.replace("sqrt(-level - iTime)", "sqrt(level + iTime)")
-WORDS = r"^warning: 288 pixels at \d+\.\d{3} s are not finite; where from: (tidemark check --trace .*)$"
+WORDS = r"^warning: 288 pixels at \d+\.\d{3} s are not finite; find the origin with: (tidemark check --trace .*)$"
 
 
 class Numbers(LiveTest):
