@@ -10,7 +10,8 @@ namespace tidemark::cli {
 std::span<const std::string_view> help_pages();
 
 // The scenes that `new` writes, as texts: the files of scenes/, embedded in the program
-// (runner/CMakeLists.txt). A new scene needs its files, their names there, and a row in k_templates.
+// (runner/CMakeLists.txt). A new scene needs its files, their names there, and a row in the table of
+// scenes in the .in file beside this one.
 
 struct TemplateFile {
     std::string_view name; ///< in the scene's folder; empty: the scene is this file
