@@ -204,7 +204,8 @@ std::vector<std::string> help_topics() {
 void add_help(Command app, Action& chosen) {
     auto topic = std::make_shared<std::string>();
     Command command = app.add_subcommand("help", "Prints a section of the manual, or lists all sections");
-    command.add_option("TOPIC", *topic, "Name of a section, as in keys, recordings, directives, check");
+    command.add_option("TOPIC", *topic,
+                       "Name of a section, as in keys, record-and-replay, directives, check");
     auto folder = std::make_shared<std::string>();
     command.add_option("--man", *folder, "Writes a man page for every command into that folder")
         .type_name("FOLDER");

@@ -73,7 +73,7 @@ class Completion(ProgramTest):
         self.assertEqual(self.completed("wave.glsl", "--se"), {"--set"})
 
     def test_topics(self):
-        self.assertEqual(self.completed("help", "record"), {"recordings"})
+        self.assertEqual(self.completed("help", "record"), {"record-and-replay"})
 
     def test_on_a_line_that_is_typed(self):
         """In a terminal: what readline makes of a word, its backslashes and blanks, too."""

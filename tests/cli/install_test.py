@@ -75,7 +75,7 @@ class Installed(ProgramTest):
                 for heading in ("NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "EXIT STATUS", "SEE ALSO"):
                     self.assertIn(f"\n.SH {heading}\n", roff)
         capture = gzip.decompress((self.prefix / "share/man/man1/tidemark-capture.1.gz").read_bytes()).decode().replace("\\-", "-")
-        self.assertIn(".TP\n`capture SCENE`\nframes with no display;", capture)
+        self.assertIn(".TP\n`capture SCENE`\ndraws frames without a display;", capture)
         self.assertIn("\ntidemark capture my_shader.glsl -o frame.png --time 2.5\n", capture.partition(".SH EXAMPLES\n")[2])
         self.assertIn(b".SH COMMANDS", gzip.decompress((self.prefix / "share/man/man1/tidemark.1.gz").read_bytes()))
 
