@@ -99,7 +99,7 @@ class CheckRays(ProgramTest):
         knobs = SOUND["knobs"].replace("{ 0.0005,", "{ 0.0,")
         entry = self.verdicts(marcher({"knobs": knobs}), "--probe", "normals")["normals"]
         self.assertEqual(entry["verdict"], "fail", entry["found"])
-        self.assertIn("every slope over the scene's own 0 is NaN or infinite", entry["found"])
+        self.assertIn("every slope over the scene's own step 0 is NaN or infinite", entry["found"])
 
     def test_a_pole_without_a_direction_is_no_number(self):
         text = ("void mainImage(out vec4 c, in vec2 p) {\n"
@@ -131,7 +131,7 @@ class CheckRays(ProgramTest):
         steep = marcher({"field": "p.y - 0.5 * sin(4.0 * p.z)", "step": "0.4 * f"})
         entry = self.verdicts(steep, "--probe", "gradient")["gradient"]
         self.assertEqual(entry["verdict"], "pass")
-        self.assertIn("reaches 2.24; the scene states no bound", entry["found"])
+        self.assertIn("reaches 2.24, where the scene states no bound", entry["found"])
         self.write("marcher.check.json", '{"largest_slope": 2.237}')
         self.assertEqual(self.verdicts(steep, "--probe", "gradient")["gradient"]["verdict"], "pass")
         self.write("marcher.check.json", '{"largest_slope": 2.2}')

@@ -35,7 +35,7 @@ class OfAFile(Via):
         self.imported("abCD12", "--via", "all")
         self.assertNotIn("other1", (self.folder / "abCD12/scene.json").read_text())
         self.expect_failure(["import", "nobody", "--via", "all"], 3,
-                            "all: error: this holds other1, abCD12, and not nobody")
+                            "all: error: this holds other1, abCD12, but not nobody")
 
     def test_a_page_without_a_project(self) -> None:
         self.write("page.html", "<html><script>load('abCD12');</script></html>")
@@ -77,7 +77,7 @@ class OfACommand(Via):
 
     def test_without_end(self) -> None:
         self.program("time.sleep(600)")
-        self.fails("'./fetch abCD12': it took longer than --timeout 0.3", 5, "--timeout", "0.3")
+        self.fails("'./fetch abCD12': it took longer than --timeout 0.3 s", 5, "--timeout", "0.3")
         self.program("while True: print('x' * 99999)")
         self.fails("'./fetch abCD12': './fetch' prints more than 16 MiB")
 

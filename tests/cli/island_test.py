@@ -101,8 +101,8 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {{
 
     def test_writes_behind_no_link_and_over_no_heights(self):
         (self.folder / "island.exr").symlink_to("/nowhere/island.exr")
-        self.refuse([], 4, "tidemark: error: cannot write 'island.exr': it is a link to '/nowhere/island.exr', and a link is "
-                    "followed only where -o names it: remove it, or give another place")
+        self.refuse([], 4, "tidemark: error: cannot write 'island.exr': it is a link to '/nowhere/island.exr', and only links "
+                    "named with -o are followed: remove the link, or give another name")
         self.write("h.exr", b"heights")
         self.refuse(["--heights", "h.exr", "--extent", "8", "-o", "h.exr"], 4, "tidemark: error: cannot write 'h.exr': "
                     "this command reads that file; give another name with -o")

@@ -61,7 +61,7 @@ class Portable(ProgramTest):
         done = self.run_program("check", "--portable", str(scene))
         self.assertEqual(done.returncode, 1)
         self.assertIn(b"a.glsl:1:14: warning: iCamera: the site has no such uniform", done.stdout)
-        self.assertIn("says iCamera", self.succeed("export", str(scene)).stderr)
+        self.assertIn("uses iCamera", self.succeed("export", str(scene)).stderr)
 
 
 if __name__ == "__main__":

@@ -65,7 +65,8 @@ TEST_F(CroppedBands, are_the_file_of_the_cropped_picture) {
                 ASSERT_TRUE(bands.take(image::cropped(picture, {0, bottom, {k_whole.width, height}})));
             }
             ASSERT_TRUE(bands.finish());
-            const Image part = image::cropped(picture, area);
+            Image part = image::cropped(picture, area);
+            image::take_non_finite(part); // the pattern may hold the mark of a pixel that is not finite
             Sha256 hash;
             add_rows(hash, part);
             EXPECT_EQ(bands.sha256(), hash.digits());

@@ -48,7 +48,7 @@ TEST(Fingerprint, names_what_differs) {
     EXPECT_EQ(run.differences(run_of(knob)), "other knobs");
     CapturePlan crop = plan_of("a");
     crop.crop = Rectangle{1, 2, {3, 4}};
-    EXPECT_EQ(run.differences(run_of(crop)), "other options of drawing");
+    EXPECT_EQ(run.differences(run_of(crop)), "other drawing options");
     EXPECT_EQ(run.differences(Fingerprint::parse("what")),
               "another version of Tidemark, another device or driver, another text of the scene, other "
               "inputs, other "

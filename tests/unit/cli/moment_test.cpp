@@ -49,7 +49,7 @@ TEST(Moment, of_a_stranger_is_refused) {
     const auto moment = moment_of(Json{{"scene", "a.glsl"}, {"state", state}});
     ASSERT_FALSE(moment);
     EXPECT_EQ(moment.error().message,
-              "'tall' is no value for height: give a number, up to four as in 1,2,3, #rrggbb or default");
+              "'tall' is not a value for height: give a number, up to four as in 1,2,3, #rrggbb or default");
 }
 
 TEST(Merged, newer_settings_of_a_name_stand_alone) {

@@ -32,8 +32,8 @@ TEST(KnobDefaults, leave_other_knobs_and_comments_alone) {
 
 TEST(KnobDefaults, say_what_is_not_there) {
     EXPECT_EQ(written("#iUniform float other = 1.0", KnobType::float1, {9}),
-              "there is no line '#iUniform … k' is in it");
-    EXPECT_EQ(written("#iUniform float", KnobType::float1, {9}), "there is no line '#iUniform … k' is in it");
+              "there is no line '#iUniform … k' in it");
+    EXPECT_EQ(written("#iUniform float", KnobType::float1, {9}), "there is no line '#iUniform … k' in it");
 }
 
 } // namespace tidemark::scene::knob_defaults_test

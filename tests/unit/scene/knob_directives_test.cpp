@@ -167,7 +167,7 @@ TEST(KnobDirectives, ranges_that_are_none) {
     EXPECT_EQ(refusal("#iUniform float a in [ 1.0, 2.0 }"),
               "dir/a.glsl:1:33: error: expected ']' but found '}'");
     EXPECT_EQ(refusal("#iUniform vec2 a in {\n vec2(0.0, 2.0), 1.0 }"),
-              "dir/a.glsl:1:21: error: the range of 'a' runs backwards");
+              "dir/a.glsl:1:21: error: the range of 'a' is reversed: give the lower value first");
 }
 
 TEST(KnobDirectives, a_bracket_that_is_not_closed_is_said_where_it_stands) {

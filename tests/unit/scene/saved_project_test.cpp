@@ -71,7 +71,7 @@ TEST(SavedProject, one_of_several_is_chosen_by_its_id) {
         EXPECT_NE(chosen->find("brace"), chosen->npos);
         EXPECT_EQ(chosen->find("other1"), chosen->npos);
         EXPECT_EQ(error_of(saved_project(list, "nobody", "x")),
-                  "x: error: this holds other1, abCD12, and not nobody");
+                  "x: error: this holds other1, abCD12, but not nobody");
     }
     EXPECT_EQ(error_of(saved_project("<script>" + other + ";" + k_project + "</script>", "", "x")),
               "x: error: this holds 2 projects (other1, abCD12): choose one with `import ID --via FILE`");
@@ -82,7 +82,7 @@ TEST(SavedProject, one_that_does_not_say_its_id_is_taken_for_it) {
     EXPECT_EQ(parse_json(*saved_project(passes, "abCD12", "x"), "x").value(),
               parse_json(passes, "x").value());
     EXPECT_EQ(error_of(saved_project(k_project, "other1", "x")),
-              "x: error: this holds abCD12, and not other1");
+              "x: error: this holds abCD12, but not other1");
 }
 
 TEST(SavedProject, an_address_has_the_id_at_its_end) {
