@@ -96,7 +96,8 @@ Result<void> put_json(const lab::Simplified& found, const Offer& offer, bool wri
                          {"cuts", std::move(cuts)},
                          {"sentences", found.sentences},
                          {"written", written},
-                         {"study", parse_json(lab::to_json(found.findings.set))}}));
+                         {"study", parse_json(lab::to_json(found.findings.set))}}) +
+               "\n");
 }
 
 Result<void> show(const SimplifyOptions& options, const lab::Simplified& found) {

@@ -111,7 +111,8 @@ Result<void> put_json(const lab::Tuned& tuned, const std::vector<ChangedFile>& f
                          {"chosen", std::move(chosen)},
                          {"sentences", tuned.sentences},
                          {"difference", std::move(diff)},
-                         {"study", parse_json(lab::to_json(tuned.findings.set))}}));
+                         {"study", parse_json(lab::to_json(tuned.findings.set))}}) +
+               "\n");
 }
 
 Result<int> tune(TuneOptions options) {

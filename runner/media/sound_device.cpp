@@ -124,18 +124,25 @@ Result<Microphone> Microphone::open(const std::string& device) {
 }
 
 void Microphone::listen() {
-    std::array<int16_t, k_block> came{};
-    const snd_pcm_sframes_t count = device_->alsa.read(device_->pcm, came.data(), came.size());
-    if (count == -EAGAIN || count == 0)
-        return;
-    if (count < 0) { // more samples came than the buffer holds
-        device_->alsa.prepare(device_->pcm);
-        device_->alsa.start(device_->pcm);
-        return;
+    // Reads all that came, so that the newest samples are used at low frame rates too. The bound is for a
+    // device that never runs out of samples, as a file is.
+    constexpr int k_most_blocks = 64;
+    for (int block = 0; block < k_most_blocks; ++block) {
+        std::array<int16_t, k_block> came{};
+        const snd_pcm_sframes_t count = device_->alsa.read(device_->pcm, came.data(), came.size());
+        if (count == -EAGAIN || count == 0)
+            return;
+        if (count < 0) { // more samples came than the buffer holds
+            device_->alsa.prepare(device_->pcm);
+            device_->alsa.start(device_->pcm);
+            return;
+        }
+        std::shift_left(newest_.begin(), newest_.end(), count);
+        std::transform(came.begin(), came.begin() + count, newest_.end() - count,
+                       [](int16_t sample) { return float(sample) / 32768.0f; });
+        if (size_t(count) < came.size())
+            return;
     }
-    std::shift_left(newest_.begin(), newest_.end(), count);
-    std::transform(came.begin(), came.begin() + count, newest_.end() - count,
-                   [](int16_t sample) { return float(sample) / 32768.0f; });
 }
 
 SignalBytes Microphone::hear() {

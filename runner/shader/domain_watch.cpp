@@ -219,14 +219,15 @@ std::string fetches(std::string_view prefix) {
     for (const auto& [sampler, place, z] :
          {std::array<std::string_view, 3>{"sampler2D", "ivec2", "0"}, {"sampler3D", "ivec3", "p.z"}})
         text += spell(fmt::format("vec4 $texelFetch({0} s,{1} p,int l,int i,inout float m){{{1} n="
-                                  "textureSize(s,max(l,0));ivec2 o=ivec2(p.x<0||p.x>=n.x?p.x:p.y,"
-                                  "p.x<0||p.x>=n.x?n.x:n.y);"
-                                  "$near(m,min(float(min(p.x,p.y)),float(min(n.x-p.x,n.y-p.y))-1.0)+0.5);"
+                                  "textureSize(s,max(l,0));bool x=p.x<0||p.x>=n.x,y=p.y<0||p.y>=n.y;"
+                                  "ivec2 o=x?ivec2(p.x,n.x):y?ivec2(p.y,n.y):ivec2({2},{3});"
+                                  "$near(m,min(float(min(p.x,p.y)),float(min(n.x-p.x,n.y-p.y))-1.0)+0.5);{4}"
                                   "if(l<0){{$whole(i,l,0x10000000u);return vec4(0.0);}}"
-                                  "if(p.x<0||p.y<0||p.x>=n.x||p.y>=n.y||{2}<0||{2}>={3}){{"
+                                  "if(x||y||{2}<0||{2}>={3}){{"
                                   "$whole(i,o.x,uint(max(o.y-1,0)));return vec4(0.0);}}"
                                   "return texelFetch(s,p,l);}}\n",
-                                  sampler, place, z, z == "0" ? "1" : "n.z"),
+                                  sampler, place, z, z == "0" ? "1" : "n.z",
+                                  z == "0" ? "" : "$near(m,min(float(p.z),float(n.z-p.z)-1.0)+0.5);"),
                       prefix, {});
     return text;
 }

@@ -3,6 +3,7 @@ import json
 import os
 import re
 import shlex
+import struct
 
 from support.program import ROOT, ProgramTest, main
 
@@ -316,6 +317,12 @@ class Check(ProgramTest):
         self.assertEqual(entry["verdict"], "warn", entry["found"])
         self.assertEqual(entry["found"].count("quotient"), 1, "1 / 0 is an infinity, which is defined")
         self.assertIn(f"quotient of 0 and 0 (0, first at pixel 0,0) at {scene}:4: 50 % of the pixels", entry["found"])
+
+    def test_a_texel_outside_in_depth_is_named_with_its_depth(self):
+        (self.folder / "v.bin").write_bytes(b"BIN\0" + struct.pack("<IIIBBH", 4, 4, 4, 1, 0, 0) + bytes(64))
+        scene = self.write("v.glsl", '#iChannel0 "v.bin"\nvoid mainImage(out vec4 c, in vec2 p) {\n'
+                                     "    c = texelFetch(iChannel0, ivec3(1, 2, int(p.x) / 10), 0);\n}\n")
+        self.assertIn("texel 5 outside of 0 to 3", self.verdicts(scene, "--probe", "bounds")["bounds"]["found"])
 
     def test_the_argument_farthest_outside_is_told_whatever_its_sign(self):
         scene = self.write("far.glsl", "void mainImage(out vec4 c, in vec2 p) {\n"
