@@ -165,6 +165,13 @@ std::string list_of(const std::vector<Topic>& topics) {
     return list;
 }
 
+std::string list_of(const std::vector<Mention>& mentions) {
+    std::string list;
+    for (const Mention& mention : mentions)
+        list += fmt::format("  {}\n      {}\n", mention.topic, mention.line);
+    return list;
+}
+
 Result<int> help(const std::string& name) {
     const std::vector<Topic> topics = topics_of(help_pages());
     if (name.empty())
@@ -173,6 +180,10 @@ Result<int> help(const std::string& name) {
         std::find_if(topics.begin(), topics.end(), [&](const Topic& t) { return t.name == name; });
     if (topic != topics.end())
         return put(plain_text(topic->markdown)).map([] { return 0; });
+    if (const std::vector<Mention> mentions = mentions_of(name, topics); !mentions.empty())
+        return put(fmt::format("Sections with '{}' (`tidemark help SECTION` prints one):\n{}", name,
+                               list_of(mentions)))
+            .map([] { return 0; });
     const std::string nearest = nearest_name(name, help_topics());
     return fail(ErrorCode::usage, fmt::format("no topic '{}': {}", name,
                                               nearest.empty() ? "`tidemark help` lists them"
@@ -204,8 +215,9 @@ std::vector<std::string> help_topics() {
 void add_help(Command app, Action& chosen) {
     auto topic = std::make_shared<std::string>();
     Command command = app.add_subcommand("help", "Prints a section of the manual, or lists all sections");
-    command.add_option("TOPIC", *topic,
-                       "Name of a section, as in keys, record-and-replay, directives, check");
+    command.add_option(
+        "TOPIC", *topic,
+        "Name of a section, as in keys, record-and-replay, directives, check; or a word to look for");
     auto folder = std::make_shared<std::string>();
     command.add_option("--man", *folder, "Writes a man page for every command into that folder")
         .type_name("FOLDER");

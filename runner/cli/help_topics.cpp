@@ -1,5 +1,7 @@
 #include "cli/help_topics.hpp"
 
+#include "base/encoding.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <numeric>
@@ -162,6 +164,30 @@ std::string plain_text(std::string_view markdown) {
     for (const std::string_view line : lines_of(markdown))
         plain.add(line);
     return std::move(plain).finish();
+}
+
+std::vector<Mention> mentions_of(std::string_view word, const std::vector<Topic>& topics) {
+    constexpr size_t k_most = 10, k_longest_line = 100;
+    const std::string wanted = lower_case(std::string(word));
+    std::vector<std::pair<size_t, Mention>> counted;
+    for (const Topic& topic : topics) {
+        if (topic.whole_page && topic.markdown.find(k_section) != topic.markdown.npos)
+            continue; // its sections are found by themselves
+        size_t count = 0;
+        std::string first;
+        const std::string text = plain_text(topic.markdown);
+        for (const std::string_view line : lines_of(text))
+            if (lower_case(std::string(line)).find(wanted) != std::string::npos && count++ == 0)
+                first = line.substr(std::min(line.find_first_not_of(' '), line.size()));
+        if (count > 0)
+            counted.push_back({count, {topic.name, cut_text(first, k_longest_line)}});
+    }
+    std::ranges::stable_sort(counted, std::ranges::greater(), &std::pair<size_t, Mention>::first);
+    std::vector<Mention> mentions;
+    for (auto& [count, mention] : counted)
+        if (mentions.size() < k_most)
+            mentions.push_back(std::move(mention));
+    return mentions;
 }
 
 std::vector<Row> rows_of(std::string_view markdown) {

@@ -18,6 +18,15 @@ struct Topic {
 /// Returns every page and its sections, in the order of the pages.
 std::vector<Topic> topics_of(std::span<const std::string_view> pages);
 
+/// A section that contains a word, and the first line that does.
+struct Mention {
+    std::string topic;
+    std::string line; ///< plain text, at most 100 bytes
+};
+
+/// Returns the sections that contain `word` in any case, those with the most occurrences first; at most 10.
+std::vector<Mention> mentions_of(std::string_view word, const std::vector<Topic>& topics);
+
 /// Removes pictures, comments and link targets. Tables are set in columns, or, if these are wide, with the
 /// cells of a row below each other.
 std::string plain_text(std::string_view markdown);

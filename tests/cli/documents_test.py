@@ -229,6 +229,13 @@ class Explained(unittest.TestCase):
         self.assertGreater(len(rows), 5)
         self.assertEqual(rows, re.findall(r"^\| (.*?) \| (.*) \|$", table, re.MULTILINE)[1:])
 
+    def test_a_word_is_searched_in_all_sections(self) -> None:
+        done = subprocess.run([PROGRAM, "help", "NaN"], check=True, capture_output=True, text=True)
+        topics = re.findall(r"^  (\S+)$", done.stdout, re.MULTILINE)
+        self.assertIn("find-a-nan", topics)
+        for topic in topics:
+            subprocess.run([PROGRAM, "help", topic], check=True, capture_output=True)
+
     def test_a_topic_that_is_not_there(self) -> None:
         done = subprocess.run([PROGRAM, "help", "keyz"], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stdout, done.stderr),

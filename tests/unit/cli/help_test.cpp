@@ -18,6 +18,18 @@ TEST(HelpTopics, a_page_and_its_sections_by_their_titles) {
     EXPECT_EQ(topics[2].markdown, "## Keys\nS\n");
 }
 
+TEST(HelpTopics, that_contain_a_word_the_most_frequent_first) {
+    constexpr std::string_view pages[] = {
+        "# Check\n\nAll.\n\n## Times\n\nA NaN at 0 s.\n\n## Find a NaN\n\nThe nan's line.\n"};
+    const auto found = mentions_of("nan", topics_of(pages));
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].topic, "find-a-nan"); // in the heading and the text
+    EXPECT_EQ(found[0].line, "Find a NaN");
+    EXPECT_EQ(found[1].topic, "times");
+    EXPECT_EQ(found[1].line, "A NaN at 0 s.");
+    EXPECT_THAT(mentions_of("keyz", topics_of(pages)), testing::IsEmpty());
+}
+
 TEST(HelpText, links_and_emphasis_are_their_words_alone) {
     EXPECT_EQ(plain_text("## Keys\n\n**Press** [S](keys.md), not `[PASS:]N`.\n"),
               "Keys\n\nPress S, not `[PASS:]N`.\n");
