@@ -93,11 +93,13 @@ std::optional<T> number_in(const image::Metadata& metadata, std::string_view nam
     return number;
 }
 
-/// Takes --crop, --samples and --shutter from the metadata if they are not given. A crop is of one size, so
-/// with --size it is not taken.
+/// Takes --crop, --samples and --shutter from the metadata if they are not given. A crop is of one pass and
+/// one size, so with another of them it is not taken.
 void take_options(const image::Metadata& metadata, CaptureOptions& options) {
     const std::string* const crop = image::find(metadata, k_crop);
-    if (crop && !options.crop && !options.frames.size && parse_rectangle(*crop))
+    const std::string* const pass = image::find(metadata, "Pass");
+    const bool same_pass = options.frames.pass.empty() || (pass && *pass == options.frames.pass);
+    if (crop && !options.crop && !options.frames.size && same_pass && parse_rectangle(*crop))
         options.crop = *crop;
     if (!options.samples)
         options.samples = number_in(metadata, "Samples", 1, render::k_most_samples);
@@ -122,9 +124,6 @@ SceneRequest completed(SceneRequest typed, Moment& moment) {
 
 } // namespace
 
-/// Completes the options from the picture's metadata; without --like they are unchanged. Paths outside the
-/// scene's folder are left out with a message, since a file must not cause others to be read. Fails if the
-/// picture holds no moment, or if its scene does not exist.
 Result<CaptureOptions> with_likeness(CaptureOptions options) {
     SceneRequest& scene = options.scene;
     if (options.like.empty())

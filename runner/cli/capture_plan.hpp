@@ -129,6 +129,11 @@ std::string words_on_resuming(const CapturePlan& plan, size_t whole_frames);
 /// Converts options to a plan. Loads the scene, and prints its warnings.
 Result<CapturePlan> plan_capture(const CaptureOptions& options);
 
+/// Completes the options from the picture's metadata; without --like they are unchanged. Paths outside the
+/// scene's folder are left out with a message, since a file must not cause others to be read. Fails if the
+/// picture holds no moment, or if its scene does not exist.
+Result<CaptureOptions> with_likeness(CaptureOptions options);
+
 /// The sound of a scene instead of its pictures.
 struct SoundPlan {
     scene::Scene scene;

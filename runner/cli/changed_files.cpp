@@ -60,8 +60,11 @@ std::vector<glsl::Cure> in_file(std::span<const glsl::Cure> cures, const std::st
 Result<scene::Scene> load_editable(SceneRequest& request) {
     if (request.path.extension() == ".json") {
         const scene::Scene scene = TRY(load_as_written(request));
-        if (scene.file.extension() == ".json") // a folder's scene.json stands for the folder
+        if (scene.file.extension() == ".json") { // a folder's scene.json stands for the folder
             request.path = TRY(import_beside(scene.file));
+            if (request.files.media.empty()) // files that the project names lie beside its JSON
+                request.files.media = scene.file.parent_path().empty() ? "." : scene.file.parent_path();
+        }
     }
     return load(request);
 }

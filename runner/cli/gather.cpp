@@ -194,7 +194,7 @@ Result<CaptureOptions> options_of(const ShardNote& note, const fs::path& file) {
 /// Returns the plan that all shards share.
 Result<CapturePlan> shared_plan(const GatherOptions& options, const ShardNote& note) {
     const fs::path file = options.folder / k_shard_note;
-    const CaptureOptions capture = TRY(options_of(note, file));
+    const CaptureOptions capture = TRY(options_of(note, file).and_then(with_likeness));
     CapturePlan plan = TRY(plan_capture(capture));
     std::error_code ignored;
     const fs::path folder = plan.output.of_frame(0).path().parent_path();

@@ -148,14 +148,15 @@ bool is_as_written(const fs::path& file, const Receipt& receipt) {
 
 /// Checks that the folder may be written into: with `force`, or if import wrote all of its files and none has
 /// changed.
-Result<void> prepare_folder(const fs::path& folder, const Receipt& receipt, bool force) {
+Result<void> prepare_folder(const fs::path& folder, const Receipt& receipt, bool force,
+                            std::string_view advice) {
     std::error_code error;
     for (fs::directory_iterator entry(folder, error), end; !error && !force && entry != end;
          entry.increment(error))
         if (entry->path().filename() != k_receipt && !is_as_written(entry->path(), receipt))
-            return fail(ErrorCode::write, fmt::format("'{}' was not written by import, or was changed since: "
-                                                      "give another folder with -o, or --force to overwrite",
-                                                      entry->path().string()));
+            return fail(ErrorCode::write,
+                        fmt::format("'{}' was not written by import, or was changed since: {}",
+                                    entry->path().string(), advice));
     if (error)
         return fail(ErrorCode::write,
                     fmt::format("cannot read the folder '{}': {}", folder.string(), error.message()));
@@ -164,12 +165,12 @@ Result<void> prepare_folder(const fs::path& folder, const Receipt& receipt, bool
 
 /// Writes the project's files into the folder and returns their names.
 Result<std::vector<std::string>> write_project(const FoundProject& project, const OutputPath& output,
-                                               bool force) {
+                                               bool force, std::string_view advice) {
     const auto files = TRY(scene::split_project(project.json, project.from));
     TRY(make_folder(output));
     const fs::path& folder = output.path();
     const Receipt old = read_receipt(folder);
-    TRY(prepare_folder(folder, old, force));
+    TRY(prepare_folder(folder, old, force, advice));
     for (const scene::ProjectFile& file : files)
         TRY((output / file.name).place());
 
@@ -192,7 +193,8 @@ Result<std::vector<std::string>> write_project(const FoundProject& project, cons
 Result<int> import(const ImportOptions& options) {
     const auto project = TRY(find_project(options.source));
     const OutputPath output = OutputPath::typed_or(options.folder, project.name).sparing(project.read);
-    const auto names = TRY(write_project(project, output, options.force));
+    const auto names = TRY(write_project(project, output, options.force,
+                                         "give another folder with -o, or --force to overwrite"));
     if (!options.json)
         return 0;
     const nlohmann::ordered_json report = {
@@ -205,7 +207,9 @@ Result<int> import(const ImportOptions& options) {
 Result<fs::path> import_beside(const fs::path& json) {
     const auto project = TRY(find_project({json.string(), {}, {}}));
     fs::path folder = json.parent_path() / project.name;
-    TRY(write_project(project, OutputPath::typed(folder).sparing(project.read), false));
+    // The program chose the folder's name, so no link is followed there.
+    TRY(write_project(project, OutputPath(folder).sparing(project.read), false,
+                      fmt::format("to edit these files, give '{}' instead of the JSON", folder.string())));
     return folder;
 }
 

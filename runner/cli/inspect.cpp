@@ -318,7 +318,9 @@ Result<int> inspect_scene(const InspectOptions& options) {
         return put(options.json ? dump(what_files_say(scene), 2) + "\n" : lines_of_files(scene)).map([] {
             return 0;
         });
-    const FreshDriverCache fresh;
+    // Static, so that the folder goes after Mesa's threads, which end with the process and write to it until
+    // then.
+    static const FreshDriverCache fresh;
     const auto context = TRY(platform::HeadlessContext::create(options.device, platform::DebugContext::yes));
     render::RenderOptions target;
     target.pass = options.pass;

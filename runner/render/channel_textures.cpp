@@ -377,7 +377,12 @@ std::vector<std::string> sampler_names(int unit) {
 
 Result<BoundChannel> make_channel(const gl::Program& program, int unit, const scene::Channel& channel,
                                   ChannelTextures& textures) {
-    BoundChannel bound{unit, make_sampler(channel.sampling), {}};
+    // Every sample of the single black texel is the same, and the code of a plain sampler is a tenth of that
+    // of a filtered one with mipmaps, which llvmpipe compiles for each read.
+    constexpr scene::Sampling k_plain{scene::Filter::nearest, scene::Filter::nearest, scene::Mipmaps::none,
+                                      scene::Wrap::repeat, true};
+    const bool unbound = channel.input.index() == scene::k_kind<scene::Unbound>;
+    BoundChannel bound{unit, make_sampler(unbound ? k_plain : channel.sampling), {}};
     if (const size_t* pass = source_pass(channel.input)) {
         bound.source = scene::PassOutput{*pass};
     } else {
