@@ -61,18 +61,34 @@ std::vector<ir::Interval> ranges_over(const ir::Interval& time, const scene::Hos
         const auto low = value_at(row.value, drawn, time.low), high = value_at(row.value, drawn, time.high);
         for (size_t i = 0; i < low.size(); ++i)
             ranges.push_back({std::min(low[i], high[i]), std::max(low[i], high[i])});
+        // A channel without playback stays at 0, a file starts again, and silence is 10 s ahead of iTime.
+        if (row.value == scene::HostValue::channel_time)
+            for (ir::Interval& range : ranges)
+                range = {std::min(0.0, range.low), std::max(0.0, range.high) + 10};
         break;
     }
     case scene::RangeOverTime::Kind::limits:
-        for (size_t i = 0; i < component_count(row); ++i) {
-            const double most = over.per_second > 0 ? time.high * over.per_second : over.high[i];
-            ranges.push_back({over.low[i], std::min(most, over.high[i])});
-        }
+        for (size_t i = 0; i < component_count(row); ++i)
+            ranges.push_back({over.low[i], over.high[i]});
     }
     return ranges;
 }
 
+/// Returns whether a variable is `iCh0` or `iChannel`: sizes and times of channels, which follow their files.
+bool is_channel_struct(const ir::Variable& variable) {
+    const auto names = std::span(scene::k_channel_structs);
+    return variable.kind == ir::Variable::Kind::uniform &&
+           (variable.name == "iChannel" || std::ranges::find(names, variable.name) != names.end());
+}
+
 } // namespace
+
+void InputRanges::set_to_anything(const ir::Variable& variable) {
+    const auto& cells = drawn_->function.function().cells;
+    for (size_t i = variable.first; i < size_t(variable.first) + variable.size; ++i)
+        if (cells[i] == ir::Scalar::real)
+            memory_[i] = ir::everything(false);
+}
 
 void InputRanges::set_time(const ir::Interval& time) {
     const auto names = drawn_->renderer.names_of(drawn_->pass);
@@ -80,6 +96,8 @@ void InputRanges::set_time(const ir::Interval& time) {
         const scene::HostUniform* row = variable.kind == ir::Variable::Kind::uniform
                                             ? scene::find_host_uniform(variable.name, names.other_hosts)
                                             : nullptr;
+        if (is_channel_struct(variable))
+            set_to_anything(variable);
         if (row && std::ranges::find(names.knobs, variable.name, &scene::Knob::name) == names.knobs.end())
             set(variable.name, ranges_over(time, *row, *drawn_));
     }

@@ -32,6 +32,8 @@ public:
     const std::vector<ir::Interval>& memory() const { return memory_; }
 
 private:
+    /// Widens all floats of the variable to every finite number.
+    void set_to_anything(const ir::Variable& variable);
     const DrawnPass* drawn_;
     std::vector<ir::Interval> memory_;
 };

@@ -41,6 +41,11 @@ std::vector<scene::KnobSetting> ends_and_multiples(const scene::Knob& knob, cons
         range.emplace();
         range->low.fill(promised->second.first);
         range->high.fill(promised->second.second);
+        if (scene::info(knob.type).whole)
+            for (size_t i = 0; i < range->low.size(); ++i) {
+                range->low[i] = std::ceil(range->low[i]);
+                range->high[i] = std::floor(range->high[i]);
+            }
     }
     std::map<std::string, scene::KnobValue> values;
     for (const double factor : k_multiples) {
@@ -50,7 +55,7 @@ std::vector<scene::KnobSetting> ends_and_multiples(const scene::Knob& knob, cons
             if (range)
                 value[i] = std::clamp(value[i], range->low[i], range->high[i]);
             if (scene::info(knob.type).whole)
-                value[i] = std::floor(value[i]);
+                value[i] = std::clamp(std::floor(value[i]), -2147483648.0, 2147483647.0);
         }
         values.emplace(scene::to_string(knob, value), value);
     }

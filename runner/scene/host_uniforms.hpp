@@ -54,12 +54,13 @@ struct RangeOverTime {
     Kind kind = Kind::constant;
     std::array<double, 4> low{};
     std::array<double, 4> high{};
-    double per_second = 0; ///< above 0: `high` is at most this times the interval's end
 };
 inline constexpr RangeOverTime k_between_ends{.kind = RangeOverTime::Kind::between_ends};
-constexpr RangeOverTime limits(double low, double high, double per_second = 0) {
-    return {RangeOverTime::Kind::limits, {low}, {high}, per_second};
+constexpr RangeOverTime limits(double low, double high) {
+    return {RangeOverTime::Kind::limits, {low}, {high}};
 }
+/// From 0 to any finite float, for values that options and slow frames set.
+inline constexpr RangeOverTime k_any_from_0 = limits(0, 3.4028234663852886e38);
 
 struct HostUniform {
     HostValue value{};
@@ -108,14 +109,14 @@ inline constexpr std::array k_host_uniforms{
                 .type = "float",
                 .other_names = {"u_delta"},
                 .follows = Follows::clock,
-                .over_time = limits(0, 1),
+                .over_time = k_any_from_0,
                 .meaning = "seconds since the previous frame",
                 .script = "[moment.delta]"},
     HostUniform{.value = HostValue::frame_rate,
                 .name = "iFrameRate",
                 .type = "float",
                 .follows = Follows::clock,
-                .over_time = limits(0, 1000),
+                .over_time = k_any_from_0,
                 .meaning = "frames per second",
                 .script = "[moment.rate]"},
     HostUniform{.value = HostValue::frame,
@@ -123,7 +124,7 @@ inline constexpr std::array k_host_uniforms{
                 .type = "int",
                 .other_names = {"u_frame"},
                 .follows = Follows::clock,
-                .over_time = limits(0, 2147483647, 1000),
+                .over_time = limits(0, 2147483647),
                 .meaning = "number of the frame, from 0",
                 .script = "[moment.frame]"},
     HostUniform{.value = HostValue::mouse,
@@ -217,7 +218,7 @@ inline constexpr std::array k_host_uniforms{
                 .type = "float",
                 .declared = Declared::by_author,
                 .follows = Follows::clock,
-                .over_time = k_between_ends,
+                .over_time = k_any_from_0,
                 .breaks_as_zero = true,
                 .meaning = "beats since the start, at the tempo of --bpm",
                 .script = "[moment.time * moment.bpm / 60]"},

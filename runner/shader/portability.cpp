@@ -200,11 +200,20 @@ private:
                                    digits.substr(0, digits.size() - 2)));
     }
 
+    /// Reports the declaration of a uniform that only this host sets.
+    void host_uniform() {
+        const scene::HostUniform* row = scene::find_host_uniform(peek(0).text);
+        if (!row || !row->breaks_as_zero)
+            return;
+        long i = -1;
+        while (!peek(i).text.empty() && !peek(i).is(";") && !peek(i).is("}") && !peek(i).is("uniform"))
+            --i;
+        if (peek(i).is("uniform") && reported_.insert(row->name).second)
+            say(peek(0),
+                fmt::format("{}: the site has no such uniform, and it is all zeros there", row->name));
+    }
+
     void word(const Token& token) {
-        const scene::HostUniform* row = scene::find_host_uniform(token.text);
-        if (row && row->breaks_as_zero && reported_.insert(token.text).second)
-            say(token,
-                fmt::format("{}: the site has no such uniform, and it is all zeros there", token.text));
         if (const std::string_view single = float_type_of(token.text); !single.empty())
             say(token, fmt::format("{}: GLSL ES has no double precision; write {}", token.text, single));
     }
@@ -229,6 +238,7 @@ private:
         everywhere(token);
         if (token.kind != TokenKind::identifier)
             return;
+        host_uniform();
         if (!peek(-1).is(".")) {
             reserved();
             calls();

@@ -76,7 +76,7 @@ class Installed(ProgramTest):
                     self.assertIn(f"\n.SH {heading}\n", roff)
         capture = gzip.decompress((self.prefix / "share/man/man1/tidemark-capture.1.gz").read_bytes()).decode().replace("\\-", "-")
         self.assertIn(".TP\n`capture SCENE`\ndraws frames without a display;", capture)
-        self.assertIn("\ntidemark capture my_shader.glsl -o frame.png --time 2.5\n", capture.partition(".SH EXAMPLES\n")[2])
+        self.assertIn("\ntidemark capture my_shader.glsl -o frame.png --time 2.5 ", capture.partition(".SH EXAMPLES\n")[2])
         self.assertIn(b".SH COMMANDS", gzip.decompress((self.prefix / "share/man/man1/tidemark.1.gz").read_bytes()))
 
     @unittest.skipUnless(has_context(), "no OpenGL context")
