@@ -352,6 +352,12 @@ class Behaviour(Page):
                   "Sound does not compile in this browser:\ns/sound.glsl:1: error: 'none' : undeclared identifier")
         self.wait_for_pixel((0, 255, 127))
 
+    def test_a_moment_beyond_all_frame_numbers_does_not_hang(self):
+        self.write("late.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(iTime > 1e6 ? 1.0 : 0.0, 0.5, 0.0, 1.0); }\n")
+        self.export("late.glsl")
+        self.open("size=64x36&time=1e15&paused")
+        self.wait_for_pixel((255, 128, 0))
+
     def test_asks_the_network_for_nothing(self):
         self.write("noise.glsl", "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p / 64.0); }\n")
         self.export("noise.glsl")
