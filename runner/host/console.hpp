@@ -66,8 +66,8 @@ private:
     std::chrono::steady_clock::time_point first_done_;
 };
 
-/// Says what a long call does, for calls that report no progress: prints `message` once, if it still exists after
-/// `delay`.
+/// Says what a long call does, for calls that report no progress: prints `message` once, if it still exists
+/// after `delay`.
 class SlowNotice {
 public:
     explicit SlowNotice(std::string message, std::chrono::milliseconds delay = std::chrono::seconds(2));

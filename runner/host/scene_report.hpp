@@ -47,8 +47,8 @@ struct SceneFacts {
     std::vector<PassFacts> passes;     ///< in drawing order
     std::vector<std::string> uniforms; ///< active in any pass, knobs and channels included
     std::vector<std::string> left_out; ///< texts for users, one per kind
-    /// Active uniforms that have a value because other hosts know their names: the name, and ours for the value or
-    /// its meaning.
+    /// Active uniforms that have a value because other hosts know their names: the name, and ours for the
+    /// value or its meaning.
     std::vector<std::pair<std::string, std::string>> other_names;
 };
 

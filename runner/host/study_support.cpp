@@ -114,7 +114,8 @@ void add_search_options(Command command, SearchOptions& options) {
         .type_name("LIST")
         .default_str(options.usual_views);
     command.add_option("--size", options.size, "Resolution in pixels [320x180]").type_name("WxH");
-    command.add_option("--budget", options.seconds, "Seconds for searching and timing, not counting compilation")
+    command
+        .add_option("--budget", options.seconds, "Seconds for searching and timing, not counting compilation")
         .type_name("S")
         .capture_default_str();
     command.add_option("--for", options.seconds, "The name of --budget in version 0.1").group("");

@@ -1,6 +1,5 @@
 #include "lab/probes.hpp"
 
-
 namespace tidemark::lab {
 
 std::string_view to_string(Verdict verdict) {

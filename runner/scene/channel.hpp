@@ -62,8 +62,8 @@ struct Unbound {
     bool operator==(const Unbound&) const = default;
 };
 
-/// Noise textures that the program generates (media/generated_textures.hpp) in place of ShaderToy's, with the same
-/// size, number of channels and structure.
+/// Noise textures that the program generates (media/generated_textures.hpp) in place of ShaderToy's, with the
+/// same size, number of channels and structure.
 enum class NoiseKind {
     rgba_256,
     rgba_64,

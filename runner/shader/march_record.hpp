@@ -52,8 +52,8 @@ NodeId body_of(const SyntaxTree& tree, NodeId loop);
 NodeId head_of(const SyntaxTree& tree, NodeId loop);
 
 // Instruments a text so that it records, while mainImage runs, the first marching loop that a pixel enters,
-// and returns the record through a generated mainHit (shader/survey.hpp). Text in, text out; the picture stays the
-// original's, bit by bit.
+// and returns the record through a generated mainHit (shader/survey.hpp). Text in, text out; the picture
+// stays the original's, bit by bit.
 
 /// Name of the float knob that selects the answer of the generated mainHit.
 inline constexpr std::string_view k_record_knob = "tidemark_record";

@@ -70,8 +70,8 @@ private:
         if (!difference || facts_.surely_whole[id])
             return std::nullopt;
         const NodeId left = bare(tree_.child(id, 0)), right = bare(tree_.child(id, 1));
-        for (const auto rule : {&PreciseForms::discriminant, &PreciseForms::one_less_cosine, &PreciseForms::of_squares,
-                                &PreciseForms::of_two_calls})
+        for (const auto rule : {&PreciseForms::discriminant, &PreciseForms::one_less_cosine,
+                                &PreciseForms::of_squares, &PreciseForms::of_two_calls})
             if (auto found = (this->*rule)(left, right))
                 return found;
         return std::nullopt;

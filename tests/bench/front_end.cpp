@@ -1,8 +1,8 @@
 // What a scene's text costs before the driver sees it: reading the file, directives, rewriting. By its size,
 // so that a cost that grows faster than the text shows.
-#include "shader/pass_reading.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/scene.hpp"
+#include "shader/pass_reading.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -1,9 +1,9 @@
 // Cures and cuts that are proposed for any text: each is put into it, or says that it cannot be, and what
 // comes of it is a text that is read again.
 #include "fuzz.hpp"
-#include "shader/undefined_behaviour.hpp"
 #include "shader/fixes.hpp"
 #include "shader/pass_cuts.hpp"
+#include "shader/undefined_behaviour.hpp"
 
 #include <iterator>
 #include <vector>

@@ -1,7 +1,7 @@
 // Recorded mouse and keyboard events (--input).
+#include "fuzz.hpp"
 #include "host/input_script.hpp"
 #include "host/requests.hpp"
-#include "fuzz.hpp"
 
 using namespace tidemark;
 

@@ -1,7 +1,7 @@
 // What an editor sends: the frames of messages, the messages, and the texts that they bring.
-#include "fuzz.hpp"
-#include "editor/workspace.hpp"
 #include "editor/session.hpp"
+#include "editor/workspace.hpp"
+#include "fuzz.hpp"
 
 #include <string>
 

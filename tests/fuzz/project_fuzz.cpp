@@ -1,8 +1,8 @@
 // ShaderToy's JSON in all its dialects, and pages that hold it: read, or refused with words; every pass gets
 // a name of its own.
 #include "fuzz.hpp"
-#include "scene/project_exchange.hpp"
 #include "scene/project.hpp"
+#include "scene/project_exchange.hpp"
 
 #include <set>
 

@@ -1,8 +1,8 @@
 // What is typed for frames, date, mouse, camera, size and output: the first byte chooses, the rest is the
 // text.
+#include "fuzz.hpp"
 #include "host/frame_files.hpp"
 #include "host/requests.hpp"
-#include "fuzz.hpp"
 
 #include <algorithm>
 #include <cmath>

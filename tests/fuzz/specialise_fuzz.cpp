@@ -1,7 +1,7 @@
 // Specialising: no line moves, and what could be followed still can be.
 #include "fuzz.hpp"
-#include "shader/specialise.hpp"
 #include "shader/parsed_text.hpp"
+#include "shader/specialise.hpp"
 
 #include <algorithm>
 

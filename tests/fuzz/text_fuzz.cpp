@@ -1,8 +1,8 @@
 // Tokens, line ends and includes. A text is cut at form feeds into the files `a`, `b`, `c` …, of which the
 // first is expanded.
-#include "fuzz.hpp"
 #include "base/mapped_text.hpp"
 #include "base/tokens.hpp"
+#include "fuzz.hpp"
 
 #include <algorithm>
 #include <map>

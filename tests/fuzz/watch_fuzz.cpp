@@ -4,7 +4,6 @@
 #include "shader/undefined_behaviour.hpp"
 #include "shader/watch.hpp"
 
-
 using namespace tidemark;
 
 namespace {

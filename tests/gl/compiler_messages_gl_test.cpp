@@ -1,6 +1,6 @@
+#include "gl_test.hpp"
 #include "render/gl_context.hpp"
 #include "render/gl_program.hpp"
-#include "gl_test.hpp"
 
 #include <gmock/gmock.h>
 

@@ -2,13 +2,13 @@
 // `//: pixel R G B [A]` says so, draw that colour. `//: buffer`, `cubemap`, `sound` name the kind of pass;
 // `//: keyboard` asks for the keyboard helpers. Every text stands for a class of real ShaderToy texts.
 #include "base/file.hpp"
+#include "base/mapped_text.hpp"
+#include "host/gl_context.hpp"
 #include "render/gl_program.hpp"
-#include "shader/shader_source.hpp"
 #include "shader/driver_log.hpp"
 #include "shader/pass_reading.hpp"
-#include "host/gl_context.hpp"
+#include "shader/shader_source.hpp"
 #include "support/cases.hpp"
-#include "base/mapped_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // The functions for doubles, run on the device at thousands of points and held against MPFR: the error stated
 // beside each function is the largest that may occur.
-#include "render/gl_program.hpp"
 #include "gl_test.hpp"
-#include "shader/shader_source.hpp"
-#include "shader/double_functions.hpp"
+#include "render/gl_program.hpp"
 #include "shader/builtin_functions.hpp"
+#include "shader/double_functions.hpp"
+#include "shader/shader_source.hpp"
 #include "support/mpfr_number.hpp"
 
 #include <cmath>

@@ -1,10 +1,10 @@
 // Lines and columns of the driver at hand: a word that is not declared, put anywhere in texts of blanks,
 // comments, joined lines, macros and edits, is found where it stands, or without a column.
+#include "base/mapped_text.hpp"
+#include "gl_test.hpp"
 #include "render/gl_context.hpp"
 #include "render/gl_program.hpp"
-#include "gl_test.hpp"
 #include "shader/driver_log.hpp"
-#include "base/mapped_text.hpp"
 
 #include <random>
 

@@ -2,8 +2,8 @@
 // a test, and questions put to a shader.
 #pragma once
 
-#include "media/image.hpp"
 #include "host/gl_context.hpp"
+#include "media/image.hpp"
 #include "render/renderer.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/scene.hpp"

@@ -1,8 +1,8 @@
 // A pass evaluated on the CPU gives the colours that the device draws, to a rounding; and what is proved of
 // its rays is what is known of them.
 #include "gl_test.hpp"
-#include "lab/pass_function.hpp"
 #include "lab/march_hits.hpp"
+#include "lab/pass_function.hpp"
 #include "support/scene_of.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Pixels that come back behind the drawing.
-#include "render/gl_sync.hpp"
 #include "gl_test.hpp"
+#include "render/gl_sync.hpp"
 
 namespace tidemark::gl::pixel_ring_gl_test {
 

@@ -1,9 +1,9 @@
 // Scenes in double precision: the picture is that of floats where floats suffice, and better where they do
 // not.
 #include "gl_test.hpp"
-#include "shader/survey.hpp"
 #include "render/sound_renderer.hpp"
 #include "scene/load_scene.hpp"
+#include "shader/survey.hpp"
 #include "support/largest_difference.hpp"
 
 #include <gmock/gmock.h>

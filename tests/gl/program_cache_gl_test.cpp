@@ -1,7 +1,7 @@
 // Programs from an earlier run: used where they are whole and the driver's own, made anew where not.
 #include "base/folders.hpp"
-#include "render/gl_program.hpp"
 #include "gl_test.hpp"
+#include "render/gl_program.hpp"
 
 #include <cstdlib>
 

@@ -5,7 +5,6 @@
 
 #include <gmock/gmock.h>
 
-
 namespace tidemark::render::renderer_gl_test {
 
 using image::Image;

@@ -1,10 +1,10 @@
 // What every scene of shaders/ owes its user: knobs that do something and break nothing, no jumps as time
 // goes on, features whose code is gone when they are off.
-#include "shader/token_reading.hpp"
+#include "base/tokens.hpp"
 #include "media/image.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/scene.hpp"
-#include "base/tokens.hpp"
+#include "shader/token_reading.hpp"
 #include "waters.hpp"
 
 #include <cmath>

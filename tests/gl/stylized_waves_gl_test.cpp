@@ -1,8 +1,8 @@
 #include "gl_test.hpp"
-#include "shader/definitions.hpp"
 #include "media/image.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/scene.hpp"
+#include "shader/definitions.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 #include "gl_test.hpp"
-#include "media/picture_file.hpp"
 #include "media/generated_textures.hpp"
+#include "media/picture_file.hpp"
 #include "scene/scene.hpp"
 
 #include <gmock/gmock.h>

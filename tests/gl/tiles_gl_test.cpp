@@ -1,8 +1,8 @@
 // A picture drawn in tiles is the picture drawn whole, byte for byte.
 #include "gl_test.hpp"
-#include "shader/shader_source.hpp"
 #include "render/exposure.hpp"
 #include "scene/load_scene.hpp"
+#include "shader/shader_source.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // Sums with one rounding, and from the other end: the numbers that a driver makes of the rewritten text.
 #include "gl_test.hpp"
-#include "shader/variation.hpp"
 #include "lab/instrumented_pass.hpp"
+#include "shader/variation.hpp"
 
 #include <cmath>
 

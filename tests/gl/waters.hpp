@@ -7,8 +7,8 @@
 #include "fields/procedural_ocean_field.hpp"
 #include "fields/water_surface_field.hpp"
 #include "gl_test.hpp"
-#include "shader/definitions.hpp"
 #include "scene/load_scene.hpp"
+#include "shader/definitions.hpp"
 
 #include <algorithm>
 #include <string>

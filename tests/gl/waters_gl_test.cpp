@@ -1,9 +1,9 @@
 // The scenes of shaders/ against their mathematics in double: fields, hits of every solver, Newton's steps.
+#include "base/measurement.hpp"
 #include "fields/certified_march.hpp"
 #include "fields/knob_reader.hpp"
 #include "fields/value_noise.hpp"
 #include "media/picture_file.hpp"
-#include "base/measurement.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/scene.hpp"
 #include "waters.hpp"

@@ -1,9 +1,9 @@
 // What happens to a project before a driver sees it: read, rewritten in every way that the program has, and
 // compiled by glslang. A project's path a line on standard input, a line of JSON about it on standard output;
 // load_projects.py looks after it.
+#include "scene/load_scene.hpp"
 #include "shader/pass_reading.hpp"
 #include "shader/specialise.hpp"
-#include "scene/load_scene.hpp"
 
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>

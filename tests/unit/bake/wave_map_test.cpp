@@ -120,9 +120,9 @@ TEST(WaveMap, refuses_what_has_no_water_or_no_open_circle) {
     for (double& height : dry.heights)
         height = 0.25;
     EXPECT_EQ(refusal(dry), "there is no water: the lowest height is 0.25 m above the sea; raise --sea");
-    EXPECT_THAT(
-        refusal(round_island(64, {29.0, 0.0}, 3.0)),
-        testing::StartsWith("the circle where the waves start, 30 m round the middle, meets land at column "));
+    EXPECT_THAT(refusal(round_island(64, {29.0, 0.0}, 3.0)),
+                testing::StartsWith(
+                    "the circle where the waves start, 30 m round the middle, meets land at column "));
     EXPECT_EQ(refusal(round_island(64, {0.0, 0.0}, 20.0)), "");
     EXPECT_EQ(refusal(round_island(64, {-40.0, 0.0}, 4.0)), ""); // land outside
 }

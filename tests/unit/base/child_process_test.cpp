@@ -1,5 +1,5 @@
-#include "base/process.hpp"
 #include "base/file.hpp"
+#include "base/process.hpp"
 
 #include <gmock/gmock.h>
 #include <poll.h>

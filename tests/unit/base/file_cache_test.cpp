@@ -1,5 +1,5 @@
-#include "base/folders.hpp"
 #include "base/encoding.hpp"
+#include "base/folders.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>

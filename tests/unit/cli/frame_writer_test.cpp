@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-
 namespace tidemark::cli::frame_writer_test {
 
 namespace fs = std::filesystem;

@@ -56,10 +56,9 @@ TEST(InputScript, says_what_is_wrong_and_where) {
     EXPECT_EQ(refusal("1 move 1 2 3"), "take.txt:1: error: give it as `1 move X Y`");
     EXPECT_EQ(refusal("1 set deep"), "take.txt:1: error: give it as `1 set NAME=VALUE`");
     EXPECT_EQ(refusal("1 set"), "take.txt:1: error: give it as `1 set NAME=VALUE`");
-    EXPECT_EQ(
-        refusal("0 set deep=1\n1 set deep=blue"),
-        "take.txt:2: error: 'blue' is not a value for deep: give a number, up to four as in 1,2,3, #rrggbb or "
-        "default");
+    EXPECT_EQ(refusal("0 set deep=1\n1 set deep=blue"), "take.txt:2: error: 'blue' is not a value for deep: "
+                                                        "give a number, up to four as in 1,2,3, #rrggbb or "
+                                                        "default");
     EXPECT_EQ(refusal("1 press west 1 2"), "take.txt:1: error: give it as `1 press left|middle|right X Y`");
     EXPECT_EQ(refusal("1 keydown 0"), "take.txt:1: error: give it as `1 keydown CODE (1 to 255)`");
     EXPECT_EQ(refusal("1 camera"), "take.txt:1: error: give it as `1 camera reset`");
@@ -81,7 +80,8 @@ TEST(InputScript, must_suit_the_knobs_of_the_scene) {
         return known ? "" : known.error().message;
     };
     EXPECT_EQ(check("deep", {1, {2}}), "");
-    EXPECT_EQ(check("deep", {2, {1, 2}}), "'1,2' is not a value for deep (vec3): give 3 numbers, as in 1,2,3");
+    EXPECT_EQ(check("deep", {2, {1, 2}}),
+              "'1,2' is not a value for deep (vec3): give 3 numbers, as in 1,2,3");
     EXPECT_EQ(check("deeper", {1, {2}}), "the scene has no knob 'deeper': did you mean 'deep'?");
 }
 

@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-
 namespace tidemark::cli::requests_test {
 
 using testing::Contains;

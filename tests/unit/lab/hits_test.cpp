@@ -1,5 +1,5 @@
-#include "shader/survey.hpp"
 #include "lab/hits.hpp"
+#include "shader/survey.hpp"
 
 #include <gmock/gmock.h>
 

@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-
 namespace tidemark::lab::tune_test {
 
 using testing::ElementsAre;

@@ -1,5 +1,5 @@
-#include "media/baked_textures.hpp"
 #include "base/encoding.hpp"
+#include "media/baked_textures.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // By hand and as the function: intervals see the same.
-#include "proof/function_builder.hpp"
 #include "ir_support.hpp"
+#include "proof/function_builder.hpp"
 
 namespace tidemark::ir::real_identities_test {
 

@@ -1,6 +1,6 @@
 // Fields whose longest safe step is known by hand.
-#include "proof/ray_proofs.hpp"
 #include "ir_support.hpp"
+#include "proof/ray_proofs.hpp"
 
 #include <cmath>
 

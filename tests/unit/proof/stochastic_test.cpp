@@ -1,5 +1,5 @@
-#include "proof/number_systems.hpp"
 #include "ir_support.hpp"
+#include "proof/number_systems.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 // Bounds of the turns of a march: never below what a march really needs, and not far above it.
-#include "proof/ray_proofs.hpp"
 #include "ir_support.hpp"
+#include "proof/ray_proofs.hpp"
 
 #include <gmock/gmock.h>
 

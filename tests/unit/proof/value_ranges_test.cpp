@@ -1,6 +1,6 @@
 // Ranges that are known by hand, and doubts that must or must not remain.
-#include "proof/value_ranges.hpp"
 #include "ir_support.hpp"
+#include "proof/value_ranges.hpp"
 
 namespace tidemark::ir::value_ranges_test {
 

@@ -70,9 +70,10 @@ TEST(GivenValue, is_printed_in_its_shortest_form) {
 TEST(GivenValue, other_text_is_an_error_with_the_name_of_the_knob) {
     for (const std::string text :
          {"", "blue", "1,2,3,4,5", "nan", "inf", "1e999", "vec5(1)", "vec2(1", "vec2()", "#fff"})
-        EXPECT_EQ(printed(text), "'" + text +
-                                     "' is not a value for k: give a number, up to four as in 1,2,3, #rrggbb or "
-                                     "default");
+        EXPECT_EQ(printed(text),
+                  "'" + text +
+                      "' is not a value for k: give a number, up to four as in 1,2,3, #rrggbb or "
+                      "default");
 }
 
 TEST(GivenValue, of_a_knob_is_printed_as_its_value_is) {
@@ -105,7 +106,8 @@ TEST(GivenValue, must_suit_the_knob) {
     };
     EXPECT_EQ(refused(KnobType::vec3, {1, {2}}), "");
     EXPECT_EQ(refused(KnobType::float1, {2, {1, 2}}), "'1,2' is not a value for k (float): give a number");
-    EXPECT_EQ(refused(KnobType::float1, {1, {HUGE_VAL}}), "'inf' is not a value for k (float): give a number");
+    EXPECT_EQ(refused(KnobType::float1, {1, {HUGE_VAL}}),
+              "'inf' is not a value for k (float): give a number");
     EXPECT_EQ(refused(KnobType::int1, {1, {1.5}}), "'1.5' is not a value for k (int): give a whole number");
     EXPECT_EQ(refused(KnobType::int1, {1, {3e9}}),
               "'3000000000' is not a value for k (int): give a whole number");

@@ -4,10 +4,10 @@
 // With `//: --precision double` (and `//: --double-hashes`) the text is promoted, and the functions that it
 // calls of ours and the hashes that stay in floats are listed first.
 #include "base/file.hpp"
-#include "shader/definitions.hpp"
-#include "shader/pass_reading.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/scene.hpp"
+#include "shader/definitions.hpp"
+#include "shader/pass_reading.hpp"
 #include "support/cases.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Cures: what is proposed for an operation, and where it comes to stand in its author's text.
-#include "shader/undefined_behaviour.hpp"
-#include "shader/fixes.hpp"
 #include "glsl_support.hpp"
+#include "shader/fixes.hpp"
+#include "shader/undefined_behaviour.hpp"
 
 #include <gtest/gtest.h>
 

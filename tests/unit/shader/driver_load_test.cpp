@@ -1,6 +1,6 @@
 // What a text may ask of a driver: small ones pass, and whatever grows without bound is seen to.
-#include "shader/driver_load.hpp"
 #include "glsl_support.hpp"
+#include "shader/driver_load.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

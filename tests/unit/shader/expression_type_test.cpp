@@ -1,5 +1,5 @@
-#include "shader/tree_facts.hpp"
 #include "glsl_support.hpp"
+#include "shader/tree_facts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // What the tests of GLSL text share: scenes that are nowhere but here.
 #pragma once
 
-#include "shader/shader_source.hpp"
 #include "shader/parsed_text.hpp"
+#include "shader/shader_source.hpp"
 #include "support/scene_of.hpp"
 
 #include <memory>

@@ -1,5 +1,5 @@
-#include "shader/survey.hpp"
 #include "glsl_support.hpp"
+#include "shader/survey.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Zeros in a text: where it counts on them, and nowhere else.
-#include "shader/initialise.hpp"
 #include "glsl_support.hpp"
+#include "shader/initialise.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

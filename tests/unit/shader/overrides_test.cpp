@@ -1,6 +1,6 @@
 // --define: the value of a #define or a const, replaced.
-#include "shader/definitions.hpp"
 #include "glsl_support.hpp"
+#include "shader/definitions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // A text without macros, its tree, and what the watch makes of it.
-#include "shader/watch.hpp"
 #include "glsl_support.hpp"
+#include "shader/watch.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

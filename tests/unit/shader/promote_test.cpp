@@ -1,8 +1,8 @@
 // What cases of text in and text out (tests/cases/glsl/promote_*) do not show: which functions come along,
 // and that no text takes more than linear time.
+#include "glsl_support.hpp"
 #include "shader/double_functions.hpp"
 #include "shader/promote.hpp"
-#include "glsl_support.hpp"
 
 #include <gmock/gmock.h>
 

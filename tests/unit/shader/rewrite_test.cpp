@@ -1,5 +1,5 @@
-#include "shader/rewrite.hpp"
 #include "glsl_support.hpp"
+#include "shader/rewrite.hpp"
 
 #include <gtest/gtest.h>
 

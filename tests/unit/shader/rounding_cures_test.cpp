@@ -1,8 +1,8 @@
 // Cures of what rounding, counting in floats and divergent neighbours do: which texts get one, and which
 // none.
+#include "glsl_support.hpp"
 #include "shader/fixes.hpp"
 #include "shader/tree_facts.hpp"
-#include "glsl_support.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // What specialising leaves of a text, class by class, and what it must not touch.
-#include "shader/uniform_expressions.hpp"
-#include "shader/specialise.hpp"
 #include "glsl_support.hpp"
 #include "scene/knob.hpp"
+#include "shader/specialise.hpp"
+#include "shader/uniform_expressions.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

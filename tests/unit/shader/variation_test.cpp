@@ -1,8 +1,8 @@
 // A text as other GPUs would compute it, and with its domains watched: what is led through us and what is
 // not. What that draws is tested through the program, tests/cli/check_test.py.
+#include "glsl_support.hpp"
 #include "shader/domain_watch.hpp"
 #include "shader/variation.hpp"
-#include "glsl_support.hpp"
 
 #include <gtest/gtest.h>
 

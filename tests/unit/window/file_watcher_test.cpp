@@ -1,5 +1,5 @@
-#include "window/file_watcher.hpp"
 #include "support/temporary_folder.hpp"
+#include "window/file_watcher.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
