@@ -4,7 +4,6 @@
 #include "base/file.hpp"
 #include "base/mapped_text.hpp"
 #include "base/tokens.hpp"
-#include "cli/import.hpp"
 #include "lab/scene_numbers.hpp"
 #include "scene/knob.hpp"
 #include "scene/scene.hpp"
@@ -56,18 +55,6 @@ std::vector<glsl::Cure> in_file(std::span<const glsl::Cure> cures, const std::st
 }
 
 } // namespace
-
-Result<scene::Scene> load_editable(SceneRequest& request) {
-    if (request.path.extension() == ".json") {
-        const scene::Scene scene = TRY(load_as_written(request));
-        if (scene.file.extension() == ".json") { // a folder's scene.json stands for the folder
-            request.path = TRY(import_beside(scene.file));
-            if (request.files.media.empty()) // files that the project names lie beside its JSON
-                request.files.media = scene.file.parent_path().empty() ? "." : scene.file.parent_path();
-        }
-    }
-    return load(request);
-}
 
 Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
                                                const std::vector<scene::Setting>& settings) {

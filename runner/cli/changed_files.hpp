@@ -20,11 +20,6 @@ struct ChangedFile {
     std::string before, after;
 };
 
-/// Loads a scene whose files are to be edited. A project's JSON is first imported into the folder beside it
-/// that is named like it, and `request` then names that folder; fails (ErrorCode::write) if the folder holds
-/// other files, or files that were edited since an import.
-Result<scene::Scene> load_editable(SceneRequest& request);
-
 /// Returns every file in which a knob or a definition gets another value.
 Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
                                                const std::vector<scene::Setting>& settings);

@@ -4,6 +4,7 @@
 #include "base/file.hpp"
 #include "cli/changed_files.hpp"
 #include "cli/check.hpp"
+#include "cli/import.hpp"
 #include "host/console.hpp"
 #include "host/forked.hpp"
 #include "host/frame_files.hpp"

@@ -10,6 +10,7 @@
 #include "host/frame_files.hpp"
 #include "host/json.hpp"
 #include "host/version.hpp"
+#include "scene/load_scene.hpp"
 #include "scene/project_exchange.hpp"
 
 #include <fmt/format.h>
@@ -27,6 +28,19 @@
 namespace tidemark::cli {
 namespace fs = std::filesystem;
 namespace {
+
+struct ProjectSource {
+    std::string project;   ///< a file; with `via` a project's ID or URL
+    std::string via;       ///< a file that holds it, or a command line that prints it
+    double timeout = 60.0; ///< timeout of the command in seconds
+};
+
+struct FoundProject {
+    std::string json;
+    std::string from;                        ///< for messages
+    std::filesystem::path name;              ///< default name of the output folder
+    std::vector<std::filesystem::path> read; ///< files that must not be overwritten
+};
 
 constexpr std::string_view k_advice = ": give --via a file that holds the project, or a program that takes "
                                       "the project's ID as its last argument and prints the JSON";
@@ -85,8 +99,6 @@ Result<FoundProject> found_via(const ProjectSource& source) {
     return found;
 }
 
-} // namespace
-
 Result<FoundProject> find_project(const ProjectSource& source) {
     if (!source.via.empty())
         return found_via(source);
@@ -101,8 +113,6 @@ Result<FoundProject> find_project(const ProjectSource& source) {
     return FoundProject{
         std::move(json), source.project, name_after_scene(source.project, ""), {source.project}};
 }
-
-namespace {
 
 /// The list of files that import wrote, in the format of `sha256sum -c`: every other file in the folder
 /// belongs to the user.
@@ -202,8 +212,9 @@ Result<int> import(const ImportOptions& options) {
     return put(dump(report, 2) + "\n").map([] { return 0; });
 }
 
-} // namespace
-
+/// Imports the project of a JSON file into the folder beside it that is named like it, and returns the
+/// folder. Prints what it writes. Fails (ErrorCode::write) if that folder holds other files, or files edited
+/// since an import.
 Result<fs::path> import_beside(const fs::path& json) {
     const auto project = TRY(find_project({json.string(), {}, {}}));
     fs::path folder = json.parent_path() / project.name;
@@ -211,6 +222,21 @@ Result<fs::path> import_beside(const fs::path& json) {
     TRY(write_project(project, OutputPath(folder).sparing(project.read), false,
                       fmt::format("to edit these files, give '{}' instead of the JSON", folder.string())));
     return folder;
+}
+
+} // namespace
+
+Result<scene::Scene> load_editable(SceneRequest& request) {
+    if (request.path.extension() == ".json") {
+        const scene::Scene scene =
+            TRY(scene::load_scene(request.path, request.files)); // `load` says its warnings
+        if (scene.file.extension() == ".json") { // a folder's scene.json stands for the folder
+            request.path = TRY(import_beside(scene.file));
+            if (request.files.media.empty()) // files that the project names lie beside its JSON
+                request.files.media = scene.file.parent_path().empty() ? "." : scene.file.parent_path();
+        }
+    }
+    return load(request);
 }
 
 void add_import(Command app, Action& chosen) {

@@ -4,6 +4,7 @@
 #include "base/file.hpp"
 #include "cli/changed_files.hpp"
 #include "cli/commands.hpp"
+#include "cli/import.hpp"
 #include "host/console.hpp"
 #include "host/frame_files.hpp"
 #include "host/gl_context.hpp"
