@@ -61,8 +61,9 @@ class Video(ProgramTest):
                 self.assertIn(f"--codec {codec}: this ffmpeg lacks the encoder ", done.stderr)
                 continue
             for name in names:
-                # The second is too small for SVT-AV1; x265 4.1 (Debian 13) crashes on pictures narrower than 64.
-                for size in ((64, 36), (33, 17) if codec == "av1" else (65, 17)):
+                # The first is too small for SVT-AV1; x265 4.1 (Debian 13) crashes on pictures narrower than 64.
+                odd = [(33, 17) if codec == "av1" else (65, 17)] if name == "a.mp4" else []
+                for size in (*odd, (64, 36)):
                     self.succeed("capture", "a.glsl", "--size", f"{size[0]}x{size[1]}", "--fps", "25", "--frames", "3-12",
                                  "--codec", codec, "-o", name)
                     video = self.facts(name)["video"]
@@ -71,7 +72,6 @@ class Video(ProgramTest):
                     self.assertEqual([video[key] for key in ("color_primaries", "color_transfer", "color_space", "color_range")],
                                      ["bt709", "iec61966-2-1", "bt709", "tv"], name)
                     self.assertIn(video["pix_fmt"], ("yuv420p10le", "yuv444p10le"))
-                self.succeed("capture", "a.glsl", *SIZE, "--fps", "25", "--frames", "3-12", "--codec", codec, "-o", name)
                 self.expect_frames(name, 64, 36, 3, 10, 12)
         self.succeed("capture", "a.glsl", *SIZE, "--fps", "25", "--frames", "3-12", "-o", "a.mkv")
         self.assertEqual(self.facts("a.mkv")["video"]["codec_name"], "h264")

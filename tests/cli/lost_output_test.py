@@ -57,7 +57,7 @@ class Failures(Resume):
 
     def start_slow(self, env: dict[str, str] | None = None, **options) -> subprocess.Popen:
         """Until its third frame is there."""
-        self.write("a.glsl", SCENE.replace("400", "10000"))
+        self.write("a.glsl", SCENE.replace("400", "5000"))
         process = subprocess.Popen([PROGRAM, *SEQUENCE], cwd=self.folder, env=env or environment(), text=True,
                                    stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, **options)
         while not (self.folder / "out/f_0002.png").exists():

@@ -20,8 +20,8 @@ class Sequences(Resume):
     def test_keeps_what_is_there(self):
         for extension in ("png", "jpg", "tif", "exr"):
             sequence = (*SEQUENCE[:-1], f"out/f_%04d.{extension}")
-            whole = self.whole(*sequence)
             self.succeed(*sequence)
+            whole = self.contents()
             before = os.stat(self.folder / f"out/f_0002.{extension}").st_mtime_ns
             for number in (3, 12):
                 (self.folder / f"out/f_{number:04}.{extension}").unlink()
@@ -60,8 +60,8 @@ class Sequences(Resume):
         self.expect_redrawn("other inputs")
 
     def test_damaged_and_foreign_files(self):
-        whole = self.whole(*SEQUENCE)
         self.succeed(*SEQUENCE)
+        whole = self.contents()
         self.write("out/f_0001.png", whole["f_0001.png"][:200])
         damaged = bytearray(whole["f_0005.png"])
         damaged[-40] ^= 1
@@ -90,9 +90,9 @@ class Sequences(Resume):
         self.write("cube/cube_a.glsl", "void mainCubemap(out vec4 c, in vec2 p, in vec3 o, in vec3 d) "
                                        "{ c = vec4(abs(d), 1); }\n")
         faces = ("capture", "cube", "--pass", "Cube A", "--frames", "0-1", "-o", "out/f_%d_{}.png")
-        whole = self.whole(*faces)
-        self.assertEqual(len(whole), 12)
         self.succeed(*faces)
+        whole = self.contents()
+        self.assertEqual(len(whole), 12)
         (self.folder / "out/f_1_ny.png").unlink()
         self.assertEqual(self.resume(*faces)[0], "kept 1 of 2 frames")
         self.assertEqual(self.contents(), whole)
@@ -171,7 +171,7 @@ class Videos(Resume):
 
     def test_goes_on_from_whole_segments(self):
         self.write_feedback()
-        for extension, scene in ((".mp4", "a.glsl"), (".webm", "a.glsl"), (".gif", "a.glsl"), (".mov", "a.glsl"), (".mp4", "fb")):
+        for extension, scene in ((".webm", "a.glsl"), (".gif", "a.glsl"), (".mov", "a.glsl"), (".mp4", "fb")):
             arguments = self.video(extension, scene)
             whole = self.whole(*arguments)
             self.assertEqual(set(whole), {f"a{extension}"})
@@ -204,11 +204,11 @@ class Videos(Resume):
         for extension in (".mp4", ".webm"):
             times = []
             for every in ("7", "1000"):
-                self.succeed("capture", "a.glsl", "--size", "64x36", "--fps", "29.97", "--frames", "0-49", "--state-every",
+                self.succeed("capture", "a.glsl", "--size", "64x36", "--fps", "29.97", "--frames", "0-29", "--state-every",
                              every, "-o", f"out/{every}{extension}")
                 lines = self.decoded(f"{every}{extension}").decode().splitlines()
                 times.append([line.split(",")[:5] for line in lines if not line.startswith("#")])
-            self.assertEqual(len(times[0]), 50)
+            self.assertEqual(len(times[0]), 30)
             self.assertEqual(times[0], times[1])
 
     def test_a_dead_encoder_costs_a_segment(self):
@@ -265,11 +265,11 @@ class Killed(Resume):
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_video(self):
-        self.kill_and_resume(["capture", "a.glsl", "--size", "64x36", "--frames", "0-199", "--state-every", "20", "-o",
+        self.kill_and_resume(["capture", "a.glsl", "--size", "64x36", "--frames", "0-79", "--state-every", "20", "-o",
                               "out/a.mp4"], KILLS)
 
     def test_pictures(self):
-        self.kill_and_resume(["capture", "a.glsl", "--size", "96x54", "--frames", "0-199", "-o", "out/f_%04d.png"],
+        self.kill_and_resume(["capture", "a.glsl", "--size", "64x36", "--frames", "0-79", "-o", "out/f_%04d.png"],
                              KILLS)
 
 

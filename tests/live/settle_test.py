@@ -66,8 +66,8 @@ class Settle(LiveTest):
         view.drag((40, 66), (190, 66))
         wait_for(lambda: png.read(view.save()).pixel(190, 190)[:3] == (255, 255, 255), "what the knob asks for")
 
-    def test_bytes_stay(self):
-        self.write("a.glsl", marching())
+    def test_bytes_stay_and_another_size_is_drawn_by_the_same_program(self):
+        self.write("a.glsl", marching("vec3(fract(march(at)), iResolution.xy / 1000.0)"))
         view = self.view("a.glsl", *SIZE)
         before = self.at_three_tenths(view)
         self.assertNotIn("background optimisation", view.stderr())
@@ -75,6 +75,10 @@ class Settle(LiveTest):
         after = self.at_three_tenths(view)
         self.assertGreater(len(set(before[0])), 1)
         self.assertTrue(after == before)
+        self.screen.xdotool("windowsize", str(view.window), "240", "120")
+        told = (round(0.240 * 255), round(0.120 * 255))
+        wait_for(lambda: png.read(view.save()).pixel(230, 50)[1:] == told, "a picture of the other size")
+        self.assertEqual(view.stderr().count("background optimisation: "), 1)
 
     def test_buffers_time_and_mouse_stay(self):
         told = {"count": "texelFetch(iChannel0, ivec2(0), 0).r", "iFrame": "float(iFrame)", "iTime": "iTime",
@@ -93,15 +97,6 @@ class Settle(LiveTest):
         for each in (before, after):
             self.assertEqual(each["count"], each["iFrame"] + 1)
         self.assertEqual(after["iMouse.x"], 60)
-
-    def test_a_window_of_another_size_stays_settled(self):
-        self.write("a.glsl", marching("vec3(march(at) > 0.0 ? iResolution.xy / 1000.0 : vec2(0), 1.0)"))
-        view = self.view("a.glsl", *SIZE)
-        self.settled(view)
-        self.screen.xdotool("windowsize", str(view.window), "240", "120")
-        told = (round(0.240 * 255), round(0.120 * 255), 255)
-        wait_for(lambda: png.read(view.save()).pixel(230, 50) == told, "a picture of the other size")
-        self.assertEqual(view.stderr().count("background optimisation: "), 1)
 
     def test_a_save_is_told_of_by_the_whole_text(self):
         self.write("a.glsl", marching())

@@ -42,6 +42,10 @@ def wait_for(condition: Callable[[], T], what: str, patience: float = PATIENCE) 
         time.sleep(0.02)
 
 
+# A window may be gone when it is asked for its name; Xlib would end this process.
+IGNORE_ERRORS = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)(lambda _display, _error: 0)
+
+
 class Screen:
     """An X server that shows nothing to anybody. Its frame buffer is a file in XWD format."""
 
@@ -56,8 +60,15 @@ class Screen:
             self.display = f":{answer.readline().strip()}"
         if self.display == ":":
             raise AssertionError("Xvfb does not start")
+        self.x11, self.connection = self.open_display()
+        self.x11.XGetWindowProperty.argtypes = [
+            ctypes.c_void_p, ctypes.c_ulong, ctypes.c_ulong, ctypes.c_long, ctypes.c_long, ctypes.c_int, ctypes.c_ulong,
+            *[ctypes.c_void_p] * 5]
+        self.x11.XFree.argtypes = [ctypes.c_void_p]
 
     def close(self) -> None:
+        if self.connection:
+            self.x11.XCloseDisplay(self.connection)
         self.server.terminate()
         self.server.wait()
         shutil.rmtree(self.folder, ignore_errors=True)
@@ -71,6 +82,33 @@ class Screen:
         done = subprocess.run(["xdotool", *arguments], env=environment(DISPLAY=self.display), timeout=PATIENCE,
                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         return done.stdout.strip() if done.returncode == 0 else ""
+
+    def title(self, window: int) -> str:
+        """The name of a window; empty if it is not there. It is read without a process, because tests wait for names."""
+        for name in (b"_NET_WM_NAME", b"WM_NAME"):
+            kind, size, count, rest = ctypes.c_ulong(), ctypes.c_int(), ctypes.c_ulong(), ctypes.c_ulong()
+            data = ctypes.c_void_p()
+            failed = self.x11.XGetWindowProperty(
+                self.connection, window, self.x11.XInternAtom(self.connection, name, 0), 0, 4096, 0, 0, ctypes.byref(kind),
+                ctypes.byref(size), ctypes.byref(count), ctypes.byref(rest), ctypes.byref(data))
+            if failed or not data.value:
+                continue
+            text = ctypes.string_at(data.value, count.value)
+            self.x11.XFree(data)
+            if text:
+                return text.decode(errors="replace").strip()
+        return ""
+
+    def place(self, window: int) -> dict[str, int]:
+        """X, Y, WIDTH and HEIGHT of a window on the screen."""
+        root, child = ctypes.c_ulong(), ctypes.c_ulong()
+        x, y = ctypes.c_int(), ctypes.c_int()
+        width, height, border, depth = (ctypes.c_uint() for _ in range(4))
+        self.x11.XGetGeometry(self.connection, ctypes.c_ulong(window), *map(ctypes.byref, (root, x, y, width, height, border,
+                                                                                          depth)))
+        self.x11.XTranslateCoordinates(self.connection, ctypes.c_ulong(window), root, 0, 0,
+                                       *map(ctypes.byref, (x, y, child)))
+        return {"X": x.value, "Y": y.value, "WIDTH": width.value, "HEIGHT": height.value}
 
     def rows(self, left: int, top: int, width: int, height: int) -> list[bytes]:
         """RGB of a part of the screen, from the top row down."""
@@ -89,6 +127,9 @@ class Screen:
 
     def open_display(self) -> tuple[ctypes.CDLL, ctypes.c_void_p]:
         x11 = ctypes.CDLL("libX11.so.6")
+        x11.XOpenDisplay.argtypes = [ctypes.c_char_p]
+        x11.XSetErrorHandler.argtypes = [ctypes.c_void_p]
+        x11.XSetErrorHandler(IGNORE_ERRORS)
         x11.XOpenDisplay.restype = ctypes.c_void_p
         x11.XInternAtom.restype = x11.XDefaultRootWindow.restype = ctypes.c_ulong
         return x11, ctypes.c_void_p(x11.XOpenDisplay(self.display.encode()))
@@ -165,15 +206,14 @@ class View:
         return self.program.returncode
 
     def title(self) -> str:
-        return self.screen.xdotool("getwindowname", str(self.window))
+        return self.screen.title(self.window)
 
     def wait_for_title(self, pattern: str) -> re.Match:
         return wait_for(lambda: self.running() and re.search(pattern, self.title()), f"the title {pattern}")
 
     def place(self) -> dict[str, int]:
         """X, Y, WIDTH and HEIGHT of the window on the screen."""
-        lines = self.screen.xdotool("getwindowgeometry", "--shell", str(self.window)).splitlines()
-        return {name: int(value) for name, _, value in (line.partition("=") for line in lines)}
+        return self.screen.place(self.window)
 
     # What a person does
 

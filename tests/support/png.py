@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
+import itertools
 import pathlib
 import struct
 import zlib
@@ -65,15 +66,16 @@ def chunks(file: bytes):
 
 def unfiltered(filter_type: int, row: bytearray, above: bytes, step: int) -> bytes:
     """PNG 1.2, section 6."""
-    if filter_type == 2:
+    if filter_type == 1:  # the one that we write
+        for channel in range(step):
+            row[channel::step] = bytes(map((255).__and__, itertools.accumulate(row[channel::step])))
+    elif filter_type == 2:
         return bytes((a + b) & 255 for a, b in zip(row, above))
-    if filter_type != 0:
+    elif filter_type != 0:
         for i, value in enumerate(row):
             left = row[i - step] if i >= step else 0
             corner = above[i - step] if i >= step else 0
-            if filter_type == 1:
-                guess = left
-            elif filter_type == 3:
+            if filter_type == 3:
                 guess = (left + above[i]) // 2
             else:
                 estimate = left + above[i] - corner

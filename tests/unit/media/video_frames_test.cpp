@@ -195,12 +195,10 @@ TEST_F(Video, the_frame_is_that_of_the_time_in_every_format_forwards_backwards_a
         ASSERT_NEAR(video.duration(), 2.0, 0.04) << codec.file;
         for (int frame = 0; frame < 60; ++frame)
             ASSERT_EQ(frame_at(video, frame / 30.0), frame) << codec.file;
-        for (int frame = 59; frame >= 0; frame -= 26)
+        for (int frame = 59; frame >= 0; frame -= 40)
             ASSERT_EQ(frame_at(video, (frame + 0.5) / 30.0), frame) << codec.file;
-        for (int i = 0; i < 3; ++i) {
-            const int frame = int(random() % 60);
-            ASSERT_EQ(frame_at(video, (frame + 0.9) / 30.0), frame) << codec.file;
-        }
+        const int frame = int(random() % 60);
+        ASSERT_EQ(frame_at(video, (frame + 0.9) / 30.0), frame) << codec.file;
         VideoFrames alone = opened(in_folder(codec.file));
         ASSERT_EQ(frame_at(alone, 37.0 / 30.0), 37) << codec.file;
     }
@@ -226,7 +224,7 @@ TEST_F(Video, frames_of_uneven_length_are_shown_as_long_as_the_file_says) {
 TEST_F(Video, a_long_jump_is_exact) {
     VideoFrames video = opened(
         make("l.mp4", {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-bf", "2", "-g", "30", "-qp", "4"}, 400));
-    for (const int frame : {300, 10, 399, 150, 149, 0})
+    for (const int frame : {300, 10, 399, 149})
         EXPECT_EQ(frame_at(video, frame / 30.0), frame % 64) << frame;
 }
 
@@ -275,10 +273,10 @@ TEST_F(Video, what_is_wrong_is_said) {
 TEST_F(Video, a_damaged_or_shortened_file_gives_frames_or_a_message) {
     const std::string whole = bytes_of(make("a.mkv", k_lossless, 20));
     std::mt19937 random(4);
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < 6; ++i) {
         std::string damaged = whole;
-        if (i < 6)
-            damaged.resize(whole.size() * size_t(i) / 6);
+        if (i < 3)
+            damaged.resize(whole.size() * size_t(i) / 3);
         else
             for (int changes = 0; changes < 20; ++changes)
                 damaged[random() % damaged.size()] = char(random());
@@ -311,8 +309,8 @@ TEST_F(Video, a_file_that_was_cut_is_no_video) {
     for (const auto& [name, encoder] : kinds) {
         const std::string whole = bytes_of(make(name, encoder, 20));
         EXPECT_TRUE(VideoFrames::open(put(name, whole))) << name;
-        for (size_t i = 0; i < 10; ++i) {
-            const size_t length = i < 9 ? whole.size() * (i + 1) / 10 : whole.size() - 1;
+        for (const size_t length :
+             {whole.size() / 10, whole.size() / 2, whole.size() * 9 / 10, whole.size() - 1}) {
             EXPECT_FALSE(VideoFrames::open(put(name, whole.substr(0, length))))
                 << name << " cut to " << length;
         }
