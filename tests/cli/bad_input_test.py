@@ -10,23 +10,21 @@ READS_CHANNEL = "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, 
 class BadScene(ProgramTest):
     """What every command that takes a scene says about one that does not load."""
 
-    def expect_refusal(self, scene: str, stderr: str) -> None:
+    def expect_refusal(self, scene: str, *named: str) -> None:
         for command in (["capture", "-o", "-"], ["inspect"], ["inspect", "--json"]):  # `view` waits for a better one
             with self.subTest(command=command):
-                self.expect_failure([*command, scene], 3, stderr)
+                self.expect_error([*command, scene], 3, *named)
 
     def test_missing(self):
-        self.expect_refusal("none.glsl", "tidemark: error: cannot read 'none.glsl': no such file")
+        self.expect_refusal("none.glsl", "'none.glsl'", "no such file")
 
     def test_directory(self):
         (self.folder / "folder.glsl").mkdir()
-        self.expect_refusal("folder.glsl", "tidemark: error: 'folder.glsl' has no image.glsl: a scene folder holds "
-                                           "image.glsl and, as needed, buffer_a.glsl to buffer_d.glsl, common.glsl, "
-                                           "cube_a.glsl and sound.glsl")
+        self.expect_refusal("folder.glsl", "'folder.glsl'", "image.glsl", "buffer_a.glsl", "buffer_d.glsl")
 
     def test_neither_file_nor_directory(self):
         os.mkfifo(self.folder / "pipe.glsl")
-        self.expect_refusal("pipe.glsl", "tidemark: error: cannot read 'pipe.glsl': it is not a regular file")
+        self.expect_refusal("pipe.glsl", "'pipe.glsl'", "not a regular file")
 
     def test_below_a_file(self):
         self.write("a.glsl", GOOD)
@@ -35,26 +33,24 @@ class BadScene(ProgramTest):
 
     def test_binary_junk(self):
         self.write("junk.glsl", bytes(range(256)) * 40)
-        self.expect_refusal("junk.glsl", "tidemark: error: 'junk.glsl' is a binary file, not shader text")
+        self.expect_refusal("junk.glsl", "'junk.glsl'", "binary file")
 
     def test_bytes_that_are_no_text_but_have_no_zero(self):
         self.write("junk.glsl", bytes(range(128, 256)) * 40)
-        self.expect_refusal("junk.glsl", "tidemark: error: 'junk.glsl' has no mainImage: a scene defines "
-                                         "void mainImage(out vec4 fragColor, in vec2 fragCoord)")
+        self.expect_refusal("junk.glsl", "'junk.glsl'", "mainImage")
 
     def test_empty(self):
         self.write("empty.glsl", "")
-        self.expect_refusal("empty.glsl", "tidemark: error: 'empty.glsl' is empty: a scene defines mainImage")
+        self.expect_refusal("empty.glsl", "'empty.glsl'", "is empty", "mainImage")
 
     def test_nothing_but_comments(self):
         self.write("blank.glsl", "// mainImage\n/* mainImage */\n")
-        self.expect_refusal("blank.glsl", "tidemark: error: 'blank.glsl' is empty: a scene defines mainImage")
+        self.expect_refusal("blank.glsl", "'blank.glsl'", "is empty", "mainImage")
 
     def test_no_main_image(self):
         self.write("helpers.glsl", "float twice(float x) { return 2.0 * x; }\n")
         self.expect_refusal("helpers.glsl",
-                            "tidemark: error: 'helpers.glsl' has no mainImage: a scene defines "
-                            "void mainImage(out vec4 fragColor, in vec2 fragCoord)")
+                            "'helpers.glsl'", "mainImage")
 
     def test_include_missing_names_the_chain(self):
         self.write("a.glsl", f'\n#include "lib/b.glsl"\n{GOOD}')
@@ -83,8 +79,7 @@ class BadScene(ProgramTest):
 
     def test_picture_from_the_net(self):
         self.write("a.glsl", f'#iChannel0 "https://example.org/a.png"\n{READS_CHANNEL}')
-        self.expect_refusal("a.glsl", "a.glsl:1: error: 'https://example.org/a.png' is not a local file: tidemark does not "
-                                      "download files")
+        self.expect_refusal("a.glsl", "a.glsl:1: error:", "'https://example.org/a.png'")
 
 
 class DoesNotCompile(ProgramTest):

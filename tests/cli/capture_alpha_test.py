@@ -141,16 +141,14 @@ class Pictures(Alpha):
 
     def test_refused(self):
         def refused(words: str, *options: str) -> None:
-            self.expect_failure(["capture", "a.glsl", "--alpha", *options], 2, f"tidemark: error: --alpha {options[0]}: {words}")
+            self.expect_error(["capture", "a.glsl", "--alpha", *options], 2, f"--alpha {options[0]}:", words)
 
         for name in ("a.jpg", "a.hdr", "a.mp4", "a.gif", "-"):
-            refused("this output has no alpha: give a .png, .tif, .exr, .mov, .webm or .webp", "keep", "-o", name)
-        refused("this output has no alpha: give a .png, .tif, .exr, .mov, .webm or .webp", "keep", "-o", "a.webm", "--codec", "av1")
+            refused("no alpha", "keep", "-o", name)
+        refused("no alpha", "keep", "-o", "a.webm", "--codec", "av1")
         for name in ("a.png", "a.webp", "a.webm"):
-            refused(f"{name[1:]} stores straight alpha: give --alpha keep, or write .tif, .exr or "
-                    f".mov", "premultiplied", "-o", name)
-        refused("only Image has an alpha to convert; the file of another pass has all four channels "
-                "unchanged", "keep", "-o", "a.png", "--pass", "Buffer A")
+            refused(f"{name[1:]} stores straight alpha", "premultiplied", "-o", name)
+        refused("only Image ", "keep", "-o", "a.png", "--pass", "Buffer A")
         refused("give opaque, keep or premultiplied", "straight", "-o", "a.png")
 
 

@@ -53,8 +53,7 @@ class Crop(ProgramTest):
     def test_size_that_the_scene_states(self):
         self.write("s.glsl", "#iSize 40x24\n" + SCENE)
         self.expect_part(scene="s.glsl", size=())
-        self.expect_failure(["capture", "s.glsl", "--crop", "0,0,41,24"], 2, "tidemark: error: --crop 0,0,41,24: the rectangle is "
-                            "not inside the picture of 40x24 pixels")
+        self.expect_error(["capture", "s.glsl", "--crop", "0,0,41,24"], 2, "--crop 0,0,41,24", "40x24 pixels")
 
     def test_a_buffer(self):
         self.write("s/image.glsl", '#iChannel0 "Buffer A"\nvoid mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }\n')
@@ -89,8 +88,8 @@ class Crop(ProgramTest):
         area = (4000, 2000, 96, 48)
         cropped = self.picture("crop.png", "--pass", "Cube A", "--crop", "4000,2000,96,48", scene="s")
         self.assertEqual(cropped.rows, self.part(whole, area))
-        self.expect_failure(["capture", "s", "--pass", "Cube A", "--crop", "0,0,16,16", "-o", "sky_{}.png"], 2,
-                            "tidemark: error: --crop 0,0,16,16: the faces of a cube are written whole: leave {} out of the name")
+        self.expect_error(["capture", "s", "--pass", "Cube A", "--crop", "0,0,16,16", "-o", "sky_{}.png"], 2,
+                          "--crop 0,0,16,16", "faces of a cube")
 
     def test_raw_frames_and_sheets(self):
         whole = self.picture("whole.png", *SIZE, "--frame", "5")
@@ -176,13 +175,12 @@ class Crop(ProgramTest):
     def test_errors(self):
         def refused(crop: str, words: str, *options: str) -> None:
             with self.subTest(crop=crop):
-                self.expect_failure(["capture", "a.glsl", *SIZE, f"--crop={crop}", *options], 2,
-                                    f"tidemark: error: --crop {crop}: {words}")
+                self.expect_error(["capture", "a.glsl", *SIZE, f"--crop={crop}", *options], 2, f"--crop {crop}:", words)
 
         for wrong in ("x", "1,2", "1,2,3", "1,2,3,4,5", "1,2,0,4", "1,2,3,-4", "1.5,2,3,4", "0,0,99999999999,1"):
-            refused(wrong, "give X,Y,WIDTH,HEIGHT in pixels from the bottom left, as in 100,50,320,180")
+            refused(wrong, "X,Y,WIDTH,HEIGHT")
         for outside in ("-1,0,4,4", "0,-1,4,4", "0,0,41,1", "0,0,1,25", "37,0,4,4", "0,24,1,1", "2147483647,0,2147483647,1"):
-            refused(outside, "the rectangle is not inside the picture of 40x24 pixels")
+            refused(outside, "40x24")
 
 
 if __name__ == "__main__":

@@ -107,16 +107,15 @@ class Layers(ProgramTest):
 
     def test_refused(self):
         def refused(words: str, *options: str) -> None:
-            self.expect_failure(["capture", "s", "--layers", *options], 2, f"tidemark: error: --layers: {words}")
+            self.expect_error(["capture", "s", "--layers", *options], 2, "--layers:", words)
 
         for name in ("a.png", "a.tif", "a.mp4", "-"):
-            refused("only an .exr can hold several pictures", "-o", name)
-        refused("the faces of a cube become layers: remove {} from the name", "-o", "a_{}.exr")
-        refused("the file holds all passes: remove --pass", "-o", "a.exr", "--pass", "Buffer A")
-        refused("passes are not drawn in tiles: remove --tile", "-o", "a.exr", "--tile", "64")
-        refused("not with --shutter: a frame then has several moments, and buffers cannot be "
-                "averaged", "-o", "a.exr", "--shutter", "0.5")
-        refused("a side has at most 16384 pixels", "-o", "a.exr", "--size", "16385x4")
+            refused(".exr", "-o", name)
+        refused("{}", "-o", "a_{}.exr")
+        refused("--pass", "-o", "a.exr", "--pass", "Buffer A")
+        refused("--tile", "-o", "a.exr", "--tile", "64")
+        refused("--shutter", "-o", "a.exr", "--shutter", "0.5")
+        refused("16384", "-o", "a.exr", "--size", "16385x4")
 
 
 if __name__ == "__main__":

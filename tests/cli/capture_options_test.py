@@ -28,7 +28,7 @@ class Told(ProgramTest):
     def refused(self, option: str, words: str, scene: str = GOOD) -> None:
         self.write("a.glsl", scene)
         with self.subTest(option=option):
-            self.expect_failure(["capture", "a.glsl", "-o", "-", *option.split(" ")], 2, f"tidemark: error: {words}")
+            self.expect_error(["capture", "a.glsl", "-o", "-", *option.split(" ")], 2, words)
 
 
 class Clock(Told):
@@ -89,8 +89,7 @@ class Beat(Told):
 
     def test_no_knob_has_its_name(self):
         self.write("a.glsl", "#iUniform float iBeat = 1.0\n" + GOOD)
-        self.expect_failure(["capture", "a.glsl", "-o", "-"], 3,
-                            "a.glsl:1: error: 'iBeat' is a uniform that the host provides: give the knob another name")
+        self.expect_error(["capture", "a.glsl", "-o", "-"], 3, "a.glsl:1: error:", "'iBeat'", "the host provides")
 
     def test_errors(self):
         self.refused("--bpm fast", "--bpm: give a number, not 'fast'")
@@ -119,8 +118,7 @@ class Size(Told):
     def test_errors(self):
         for wrong in ("0x5", "5x0", "-5x5", "5", "5x", "x5", "5x5x5", "5X5", "axb", "1e3x5",
                       "99999999999x5"):
-            self.refused(f"--size={wrong}", f"--size {wrong}: give WIDTHxHEIGHT in pixels, both at least 1, as in "
-                                            "640x360")
+            self.refused(f"--size={wrong}", f"--size {wrong}: give WIDTHxHEIGHT")
 
     def test_beyond_the_drivers_limit(self):
         self.write("a.glsl", GOOD)
@@ -155,8 +153,7 @@ class Mouse(Told):
 
     def test_errors(self):
         for wrong in ("x", "1", "1,", "1,2,up", "1,2,", "1;2", "nan,1", "1,inf"):
-            self.refused(f"--mouse {wrong}", f"--mouse {wrong}: give x,y for a click or x,y,from_x,from_y for a drag, in "
-                                             f"pixels from the bottom left, and ,down while the button is pressed")
+            self.refused(f"--mouse {wrong}", f"--mouse {wrong}: give x,y")
 
 
 class Date(Told):
@@ -210,9 +207,7 @@ class Camera(Told):
 
     def test_errors(self):
         for wrong in ("x", "1,2", "1,2,3,4", "1,2,0", "1,2,-3", "1,,2", "nan,0,1"):
-            self.refused(f"--camera {wrong}",
-                         f"--camera {wrong}: give azimuth,elevation,distance as in 30,20,10 (degrees, degrees, a distance "
-                         f"above 0), and after them x,y,z if the view was panned")
+            self.refused(f"--camera {wrong}", f"--camera {wrong}: give azimuth,elevation,distance")
 
 
 class Knobs(Told):

@@ -238,9 +238,7 @@ class Json(CaptureTest):
         alone = json.loads(self.capture("--frame", "1", "-o", "alone.png", "--json").stdout)["frames"]
         self.assertEqual(alone[0]["sha256"], sequence[1]["sha256"])
         self.assertEqual(self.picture("alone.png").pixel(0, 0)[:3], (255, 0, 0))
-        self.expect_failure(["capture", "wave.glsl", *SIZE, "--tile", "2"], 2,
-                            "tidemark: error: --tile: Image cannot be drawn in tiles: it is a cube, another pass reads it, or "
-                            "it discards pixels")
+        self.expect_error(["capture", "wave.glsl", *SIZE, "--tile", "2"], 2, "--tile", "Image")
 
     def test_hash_of_a_float_picture_is_of_its_floats(self):
         self.write("wave.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p.x, -p.y, 1000.25, 0.0); }\n")
@@ -279,8 +277,7 @@ class SixFaces(ProgramTest):
 
     def test_are_of_a_cube_only(self):
         self.write("wave.glsl", SHADER)
-        self.expect_failure(["capture", "wave.glsl", *SIZE, "-o", "a{}.png"], 2,
-                            'tidemark: error: -o a{}.png: {} in the name stands for a face of a cube: give --pass "Cube A"')
+        self.expect_error(["capture", "wave.glsl", *SIZE, "-o", "a{}.png"], 2, "-o a{}.png", "--pass", "Cube A")
 
 
 class CannotWrite(CaptureTest):
@@ -295,8 +292,8 @@ class CannotWrite(CaptureTest):
         self.assertEqual(self.files(), {"wave.glsl", "broken.glsl"})
 
     def test_folder_that_does_not_exist(self):
-        self.expect_failure(["capture", "wave.glsl", *SIZE, "-o", "none/a.png"], 4,
-                            "tidemark: error: cannot write 'none/a.png': No such file or directory")
+        self.expect_error(["capture", "wave.glsl", *SIZE, "-o", "none/a.png"], 4,
+                          "'none/a.png'", "No such file or directory")
 
     def test_folder_that_is_a_file(self):
         self.expect_failure(["capture", "wave.glsl", *SIZE, "-o", "wave.glsl/a.png"], 4,

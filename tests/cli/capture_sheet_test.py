@@ -83,9 +83,8 @@ class Sheet(ProgramTest):
         self.assertEqual([(frame["frame"], frame["file"]) for frame in report["frames"]], [(0, "s.png"), (9, "s.png")])
         done = self.succeed("capture", "a.glsl", *SIZE, "--sheet", "2x1", "--frames", "0-9", "-o", "s.png")
         self.assertEqual(done.stderr, "wrote s.png: 2 moments, frames 0 to 9\n")
-        self.expect_failure(["capture", "--like", "s.png", "-o", "t.png"], 2,
-                            "tidemark: error: --like s.png: the file has no record of how it was drawn; give a picture from "
-                            "`tidemark capture` or from the window's S key, not .hdr and not saved again by another program")
+        self.expect_error(["capture", "--like", "s.png", "-o", "t.png"], 2,
+                          "--like s.png", "no record", "`tidemark capture`")
 
     def test_interrupted_leaves_nothing(self):
         self.write("s/image.glsl", '#iChannel0 "Buffer A"\nvoid mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }\n')
@@ -102,16 +101,16 @@ class Sheet(ProgramTest):
 
     def test_refused(self):
         def refused(words: str, *options: str) -> None:
-            self.expect_failure(["capture", "a.glsl", *options], 2, f"tidemark: error: --sheet{words}")
+            self.expect_error(["capture", "a.glsl", *options], 2, f"--sheet{words}")
 
         for text in ("5", "5x", "0x4", "5x4x3", "-1x2", "99999x99999"):
-            refused(f" {text}: give columns and rows, as in 5x4, at most 1000 cells", f"--sheet={text}")
+            refused(f" {text}: give columns and rows", f"--sheet={text}")
         refused(": --frame and --time name one moment: give --frames or --duration", "--sheet", "2x2", "--frame", "3")
         refused(": 2x2 cells need 4 frames, but --frames names 3", "--sheet", "2x2", "--frames", "0-2")
         refused(": give either --frames or --duration", "--sheet", "2x2", "--frames", "0-9", "--duration", "3")
         refused(": 0.05 s at 60 frames per second cannot give 4 moments", "--sheet", "2x2", "--duration", "0.05")
         for name in ("a.mp4", "-", "a_{}.png"):
-            refused(": the sheet is one picture: give a .png, .jpg, .tif, .exr or .hdr", "--sheet", "2x2", "-o", name)
+            refused(": the sheet is one picture", "--sheet", "2x2", "-o", name)
         refused(": the sheet would have 19232x2168 pixels: give a smaller --size, or fewer cells", "--sheet", "5x2", "--size", "3840x1080")
 
 

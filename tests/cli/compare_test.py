@@ -19,9 +19,9 @@ class Compare(ProgramTest):
         self.assertEqual(done.returncode, code, done.stderr)
         return json.loads(done.stdout)
 
-    def refuse(self, arguments: str, code: int, words: str) -> None:
+    def refuse(self, arguments: str, code: int, *named: str) -> None:
         with self.subTest(arguments=arguments):
-            self.expect_failure(["compare", *arguments.split()], code, f"tidemark: error: {words}")
+            self.expect_error(["compare", *arguments.split()], code, *named)
 
 
 class Pictures(Compare):
@@ -132,13 +132,12 @@ class Pictures(Compare):
 
     def test_errors(self):
         self.picture("a.png", 1), self.picture("small.png", 1, (8, 8))
-        self.refuse("a.png small.png", 1, "'a.png' and 'small.png': the pictures cannot be compared: one is 16x12 with "
-                                          "3 channels, the other 8x8 with 3 channels")
+        self.refuse("a.png small.png", 1, "'a.png' and 'small.png': ", "16x12", "8x8")
         self.refuse("a.png none.png", 3, "cannot read 'none.png': no such file")
-        self.refuse("a.png a.png -o no/d.png", 4, "cannot write 'no/d.png': No such file or directory")
-        self.refuse("a.png a.png -o -", 2, "-o: the difference picture cannot go to standard output; give a file")
+        self.refuse("a.png a.png -o no/d.png", 4, "'no/d.png': No such file or directory")
+        self.refuse("a.png a.png -o -", 2, "-o: ")
         self.refuse("a.png a.png --gain 0", 2, "--gain: give a number above 0")
-        self.refuse("a.png a.png --tolerance -1", 2, "--tolerance: give a number from 0 up, as a part of the peak")
+        self.refuse("a.png a.png --tolerance -1", 2, "--tolerance: give a number from 0")
         self.refuse("a.png a.png --max-rmse nan", 2, "--max-rmse: give a number, not 'nan'")
 
 
@@ -169,15 +168,12 @@ class Sequences(Compare):
         self.picture("a_0005.png", 0)
         self.refuse("a_%04d.png b%d.png", 1, "frame 5 is missing: 'a_0005.png' has no counterpart in 'b%d.png'")
         self.refuse("b%d.png a_%04d.png", 1, "frame 5 is missing: 'a_0005.png' has no counterpart in 'b%d.png'")
-        self.refuse("a_%04d.png b3.png", 2,
-                    "'a_%04d.png' is a sequence and 'b3.png' is one picture: give two of the same kind")
+        self.refuse("a_%04d.png b3.png", 2, "'a_%04d.png' is a sequence", "'b3.png'")
         self.refuse("x_%04d.png b%d.png", 3, "there is no file 'x_%04d.png'")
-        self.refuse("a_%04x.png b%d.png", 2, "a_%04x.png: write the frame number as %04d or ####")
-        self.refuse("b%d.png b%d.png -o d.png", 2,
-                    "-o d.png: 3 frames need a frame number in the name, as in wave.%04d.png")
+        self.refuse("a_%04x.png b%d.png", 2, "a_%04x.png: ", "%04d or ####")
+        self.refuse("b%d.png b%d.png -o d.png", 2, "-o d.png: 3 frames ", "frame number")
         self.picture("b4.png", 0, (4, 4)), self.picture("b5.png", 0)
-        self.refuse("a_%04d.png b%d.png", 1, "frame 4: 'a_0004.png' and 'b4.png': the pictures cannot be compared: one "
-                                             "is 16x12 with 3 channels, the other 4x4 with 3 channels")
+        self.refuse("a_%04d.png b%d.png", 1, "frame 4: 'a_0004.png' and 'b4.png': ", "16x12", "4x4")
 
 
 if __name__ == "__main__":

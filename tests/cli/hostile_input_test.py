@@ -18,7 +18,7 @@ class Names(ProgramTest):
         for command in (["capture", "-o", "-"], ["inspect"], ["inspect", "--device", "none"], ["check", "--portable"],
                         ["export", "-o", "-"]):
             with self.subTest(command=command, directive=directive):
-                self.expect_failure([*command, "a.glsl"], 3, f"a.glsl:2: error: {why}")
+                self.expect_error([*command, "a.glsl"], 3, "a.glsl:2: error: ", why)
 
     def test_include_of_nothing(self):
         self.refused('#include ""', '#include "" names no file')
@@ -43,17 +43,15 @@ class Names(ProgramTest):
     def test_links_that_go_round(self):
         os.symlink("y.glsl", self.folder / "x.glsl")
         os.symlink("x.glsl", self.folder / "y.glsl")
-        self.refused('#include "x.glsl"', "cannot read 'x.glsl': Too many levels of symbolic links")
+        self.refused('#include "x.glsl"', "'x.glsl': Too many levels of symbolic links")
         os.symlink("round", self.folder / "round")
-        self.refused('#iChannel0 "round/a.png"', "cannot read 'round/a.png': Too many levels of symbolic links")
-        self.expect_failure(["capture", "x.glsl"], 3,
-                            "tidemark: error: cannot read 'x.glsl': Too many levels of symbolic links")
+        self.refused('#iChannel0 "round/a.png"', "'round/a.png': Too many levels of symbolic links")
+        self.expect_error(["capture", "x.glsl"], 3, "'x.glsl'", "symbolic links")
 
     def test_a_link_to_nothing_says_where_it_leads(self):
         os.symlink("none.glsl", self.folder / "x.glsl")
-        self.refused('#include "x.glsl"', "cannot read 'x.glsl': it is a link to 'none.glsl', which does not exist")
-        self.expect_failure(["capture", "x.glsl"], 3, "tidemark: error: cannot read 'x.glsl': it is a link to "
-                                                      "'none.glsl', which does not exist")
+        self.refused('#include "x.glsl"', "'x.glsl': it is a link to 'none.glsl'")
+        self.expect_error(["capture", "x.glsl"], 3, "'x.glsl'", "is a link", "'none.glsl'")
 
     def test_bytes_that_are_no_utf_8(self):
         self.write("a.glsl", b'#include "\xff\xfe"\n' + GOOD.encode())
@@ -110,9 +108,7 @@ class OtherFiles(ProgramTest):
             self.write("a.json", self.project({"file": name}))
             for command in (["capture", "-o", "-"], ["inspect"], ["import", "-o", "folder"]):
                 with self.subTest(name=name, command=command):
-                    self.expect_failure([*command, "a.json"], 3,
-                                        f"a.json: error: the code of the pass 'Image' is in the file '{name}': this works only "
-                                        f"in the scene.json of a scene folder; elsewhere code must be a string")
+                    self.expect_error([*command, "a.json"], 3, "a.json: error:", "'Image'", f"'{name}'", "scene.json")
         for code in (5, None, [], {}, {"file": 5}, {"file": ["a"]}, True):
             self.write("a.json", self.project(code))
             with self.subTest(code=code):

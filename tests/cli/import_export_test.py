@@ -77,8 +77,7 @@ class Import(ProgramTest):
         self.write("a.json", "{\n  nothing\n")
         self.expect_failure_like(["import", "a.json"], 3, r"a\.json:2:4: error: this is not JSON: .*")
         self.write("b.json", '{"Error": "Shader not found"}')
-        self.expect_failure(["import", "b.json"], 3, "b.json: error: ShaderToy answered with an error instead of a "
-                                                     "project: Shader not found")
+        self.expect_error(["import", "b.json"], 3, "b.json: error:", "Shader not found")
         self.expect_failure(["import"], 2, "tidemark: error: import: FILE is required")
 
     def test_into_a_file(self):
@@ -116,8 +115,7 @@ class Export(ProgramTest):
     def test_usage(self):
         self.write("x.json", "[]")
         self.expect_failure(["export", "x.json"], 2, "tidemark: error: 'x.json' is already ShaderToy's JSON")
-        self.expect_failure(["export", "a.glsl", "--json"], 2,
-                            "tidemark: error: --json and -o - both write to standard output: give one of them")
+        self.expect_error(["export", "a.glsl", "--json"], 2, "--json")
         self.expect_failure(["export", "none.glsl"], 3, "tidemark: error: cannot read 'none.glsl': no such file")
 
 
@@ -125,9 +123,7 @@ class Outside(ProgramTest):
     def test_needs_leave(self):
         self.write("s/a.glsl", '#include "../b.glsl"\n' + SHADER)
         self.write("b.glsl", "int b;\n")
-        self.expect_failure(["export", "s/a.glsl"], 3,
-                            "s/a.glsl:1: error: 'b.glsl' lies outside the scene's folder 's': move it there, into a "
-                            "folder 'textures' or 'lib' beside it, or give --allow-outside")
+        self.expect_error(["export", "s/a.glsl"], 3, "s/a.glsl:1: error:", "'b.glsl'", "lies outside", "'s'")
         self.succeed("export", "s/a.glsl", "--allow-outside")
 
 

@@ -39,15 +39,12 @@ class OfAFile(Via):
 
     def test_a_page_without_a_project(self) -> None:
         self.write("page.html", "<html><script>load('abCD12');</script></html>")
-        self.expect_failure(["import", ADDRESS, "--via", "page.html"], 3,
-                            "page.html: error: there is no project in this page: ShaderToy's pages load it later. Save the "
-                            "content of https://www.shadertoy.com/api/v1/shaders/ID?key=KEY, or the export of a browser "
-                            "extension")
+        self.expect_error(["import", ADDRESS, "--via", "page.html"], 3, "page.html: error:")
 
 
 class OfACommand(Via):
     def fails(self, words: str, code: int = 3, *options: str) -> None:
-        self.expect_failure(["import", "abCD12", "--via", "./fetch", *options], code, f"tidemark: error: {words}")
+        self.expect_error(["import", "abCD12", "--via", "./fetch", *options], code, words)
 
     def test_command_gets_the_id_as_last_argument_without_a_shell(self) -> None:
         self.program(f"assert sys.argv[1:] == ['-q', '$HOME;', 'abCD12'], sys.argv\nprint({json.dumps(PROJECT)!r})")
@@ -73,7 +70,7 @@ class OfACommand(Via):
         self.program("sys.exit(3)")
         self.fails("'./fetch abCD12': it failed without a message")
         self.program("pass")
-        self.fails("'./fetch abCD12' printed nothing; it should print the project's JSON")
+        self.fails("'./fetch abCD12' printed nothing")
 
     def test_without_end(self) -> None:
         self.program("time.sleep(600)")
@@ -82,22 +79,16 @@ class OfACommand(Via):
         self.fails("'./fetch abCD12': './fetch' prints more than 16 MiB")
 
     def test_that_is_not_there(self) -> None:
-        self.expect_failure(["import", "abCD12", "--via", "no-such-program"], 3,
-                            "tidemark: error: 'no-such-program abCD12': there is no program 'no-such-program' in PATH: "
-                            "give --via a file that holds the project, or a program that takes the project's ID as its last "
-                            "argument and prints the JSON")
+        self.expect_error(["import", "abCD12", "--via", "no-such-program"], 3,
+                          "'no-such-program abCD12'", "'no-such-program'", "PATH", "--via")
 
 
 class Usage(Via):
     def test_makes_no_network_request(self) -> None:
-        self.expect_failure(["import", ADDRESS], 2,
-                            f"tidemark: error: '{ADDRESS}': Tidemark makes no network requests. Save the project and give "
-                            f"--via FILE, or a program of yours that fetches it: --via COMMAND")
+        self.expect_error(["import", ADDRESS], 2, f"'{ADDRESS}'", "--via", "FILE", "COMMAND")
 
     def test_refuses_other_addresses(self) -> None:
-        self.expect_failure(["import", "--via", "x.json", "--", "--help"], 2,
-                            "tidemark: error: '--help' is not the address of a ShaderToy project: give one as in "
-                            "https://www.shadertoy.com/view/XxXxXx, or its last six characters")
+        self.expect_error(["import", "--via", "x.json", "--", "--help"], 2, "'--help'")
 
 
 if __name__ == "__main__":

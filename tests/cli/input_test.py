@@ -61,13 +61,9 @@ class Input(ProgramTest):
 
     def test_errors(self):
         self.write("bad.txt", "0 move 1 2\n1 mvoe 1 2\n")
-        self.expect_failure(["capture", "a.glsl", "--input", "bad.txt"], 3,
-                            "bad.txt:2: error: unknown event 'mvoe': give press, release, move, wheel, keydown, "
-                            "keyup, set or camera")
+        self.expect_error(["capture", "a.glsl", "--input", "bad.txt"], 3, "bad.txt:2: error:", "'mvoe'")
         self.write("knob.txt", "0 move 1 2\n1 set height=tall\n")
-        self.expect_failure(["capture", "a.glsl", "--input", "knob.txt"], 3,
-                            "knob.txt:2: error: 'tall' is not a value for height: give a number, up to four as in 1,2,3, "
-                            "#rrggbb or default")
+        self.expect_error(["capture", "a.glsl", "--input", "knob.txt"], 3, "knob.txt:2: error:", "'tall'")
         self.expect_failure(["capture", "a.glsl", "--input", "none.txt"], 3,
                             "tidemark: error: cannot read 'none.txt': no such file")
 

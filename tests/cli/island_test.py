@@ -12,8 +12,8 @@ class Island(ProgramTest):
     def bake(self, *arguments: str):
         return self.succeed(*arguments, program=BAKE)
 
-    def refuse(self, arguments: list[str], code: int, stderr: str) -> None:
-        self.expect_failure(arguments, code, stderr, program=BAKE)
+    def refuse(self, arguments: list[str], code: int, *named: str) -> None:
+        self.expect_error(arguments, code, *named, program=BAKE)
 
     def heights(self, name: str, height) -> str:
         """A PNG of 64x64 whose value 128 is the sea; `height(column, row)`, the row from the top."""
@@ -75,21 +75,18 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {{
 
     def test_heights_that_cannot_be_used(self):
         def refused(name: str, why: str, *options: str) -> None:
-            self.refuse(["--heights", name, *options], 3,
-                                f"tidemark: error: cannot use '{name}': {why}")
+            self.refuse(["--heights", name, *options], 3, f"cannot use '{name}': ", why)
             self.assertNotIn("island.exr", self.files())
 
         sand = self.heights("sand.png", lambda x, y: 128)
-        refused(sand, "there is no water: the lowest height is 0.502 m above the sea; raise --sea")
+        refused(sand, "0.502 m above the sea")
         edge = self.heights("edge.png", lambda x, y: 200 if x > 60 else 0)
-        refused(edge, "the circle where the waves start, 30 m round the middle, meets land at column 61, row 47: "
-                      "leave open water there, or raise --sea", "--sea", "0.5")
+        refused(edge, "land at column 61, row 47", "--sea", "0.5")
         self.write("wide.png", png.encode(80, 64, 1, [bytes(80)] * 64))
-        refused("wide.png", "a height map is square; this picture is 80x64")
+        refused("wide.png", "80x64")
         self.write("small.png", png.encode(16, 16, 1, [bytes(16)] * 16))
-        refused("small.png", "a height map has 64 to 4096 pixels a side; this one has 16")
-        self.refuse(["--heights", "none.exr"], 3,
-                            "tidemark: error: cannot read 'none.exr': no such file")
+        refused("small.png", "64 to 4096 pixels")
+        self.refuse(["--heights", "none.exr"], 3, "tidemark: error: cannot read 'none.exr': no such file")
 
     def test_heights_that_are_no_numbers(self):
         self.need_context()
@@ -101,20 +98,16 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {{
 
     def test_writes_behind_no_link_and_over_no_heights(self):
         (self.folder / "island.exr").symlink_to("/nowhere/island.exr")
-        self.refuse([], 4, "tidemark: error: cannot write 'island.exr': it is a link to '/nowhere/island.exr', and only links "
-                    "named with -o are followed: remove the link, or give another name")
+        self.refuse([], 4, "'island.exr': it is a link to '/nowhere/island.exr'")
         self.write("h.exr", b"heights")
-        self.refuse(["--heights", "h.exr", "--extent", "8", "-o", "h.exr"], 4, "tidemark: error: cannot write 'h.exr': "
-                    "this command reads that file; give another name with -o")
+        self.refuse(["--heights", "h.exr", "--extent", "8", "-o", "h.exr"], 4, "cannot write 'h.exr': ")
         self.assertEqual((self.folder / "h.exr").read_bytes(), b"heights")
 
     def test_usage(self):
         self.refuse(["-o", "island.png"], 2,
-                            "tidemark: error: 'island.png' cannot hold half samples: .png holds 8-bit, 16-bit")
-        self.refuse(["--size", "20"], 2,
-                            "tidemark: error: --size: give a whole number from 64 to 4096, not '20'")
-        self.refuse(["--heights", "a.png", "--size", "64"], 2,
-                            "tidemark: error: --size excludes --heights")
+                    "tidemark: error: 'island.png' cannot hold half samples: .png holds 8-bit, 16-bit")
+        self.refuse(["--size", "20"], 2, "--size: ", "from 64 to 4096", "'20'")
+        self.refuse(["--heights", "a.png", "--size", "64"], 2, "tidemark: error: --size excludes --heights")
         self.refuse(["--sea", "1"], 2, "tidemark: error: --sea requires --heights")
 
     def test_study(self):

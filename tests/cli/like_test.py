@@ -67,13 +67,13 @@ class Like(ProgramTest):
         self.succeed("capture", "a.glsl", *ASKED, "-o", "first.png")
         self.write("a.glsl", SCENE.replace("* 0.1);", "* 0.2);"))
         done = self.succeed("capture", "--like", "first.png", "-o", "again.png")
-        self.assertIn("the picture may differ from first.png: another text of the scene\n", done.stderr)
+        self.assertIn(" first.png: another text of the scene\n", done.stderr)
 
     def test_the_scene_that_is_typed_counts(self):
         self.succeed("capture", "a.glsl", *ASKED, "-o", "first.png")
         self.write("b/b.glsl", SCENE.replace('#iChannel0 "count.glsl"', '#iChannel0 "noise"'))
         done = self.succeed("capture", "b/b.glsl", "--like", "first.png", "-o", "b.png")
-        self.assertIn("the picture may differ from first.png: another text of the scene, other inputs\n", done.stderr)
+        self.assertIn(" first.png: another text of the scene, other inputs\n", done.stderr)
         asked = self.bytes_of("b/b.glsl", *ASKED, "-o", "asked.png")
         self.assertEqual(png.read(self.folder / "b.png").sha256(), asked)
 
@@ -84,8 +84,7 @@ class Like(ProgramTest):
         self.succeed("capture", "in/white.glsl", "--size", "48x32", "-o", "white.png")
         first = self.bytes_of("in/a.glsl", "--size", "48x32", "--channel", "0=white.png", "-o", str(picture))
         done = self.succeed("capture", "--like", str(picture), "-o", "again.png")
-        self.assertIn(f"--like {picture}: ignored --channel 0=white.png: it is outside the scene's folder "
-                      "(--allow-outside permits it)\n", done.stderr)
+        self.assertIn(f"--like {picture}: ignored --channel 0=white.png: ", done.stderr)
         self.assertNotEqual(png.read(self.folder / "again.png").sha256(), first)
         self.assertEqual(self.bytes_of("--like", str(picture), "--allow-outside", "-o", "again.png"), first)
 
@@ -99,8 +98,7 @@ class Like(ProgramTest):
             data = data.replace(b"[48,32]", b"[1000000,1000000]")
             written += struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
         self.write("forged.png", signature + written)
-        self.expect_failure(["capture", "--like", "forged.png"], 2, "tidemark: error: --like forged.png: its recorded size is "
-                            "1000000x1000000; the limit for a recorded size is 32767 pixels on a side: give --size")
+        self.expect_error(["capture", "--like", "forged.png"], 2, "--like forged.png", "1000000x1000000", "32767 pixels", "--size")
         self.succeed("capture", "--like", "forged.png", "--size", "48x32")
 
     def test_what_is_wrong(self):
@@ -108,14 +106,9 @@ class Like(ProgramTest):
         self.succeed("capture", "a.glsl", *ASKED, "-o", "first.png")
         self.expect_failure(["capture", "--like", "no.png"], 2, "tidemark: error: --like no.png: cannot read 'no.png': no such file")
         self.write("plain.png", png.encode(1, 1, 3, [b"abc"]))
-        self.expect_failure(["capture", "--like", "plain.png"], 2,
-                            "tidemark: error: --like plain.png: the file has no record of how it was drawn; give a picture "
-                            "from `tidemark capture` or from the window's S key, not .hdr and not saved again by another "
-                            "program")
+        self.expect_error(["capture", "--like", "plain.png"], 2, "--like plain.png", "no record", "`tidemark capture`")
         (self.folder / "a.glsl").rename(self.folder / "c.glsl")
-        self.expect_failure(["capture", "--like", "first.png"], 2,
-                            "tidemark: error: --like first.png: its scene 'a.glsl' was not found: name the scene, as in "
-                            "`tidemark capture SCENE --like first.png`")
+        self.expect_error(["capture", "--like", "first.png"], 2, "--like first.png", "'a.glsl'")
         self.succeed("capture", "c.glsl", "--like", "first.png")
 
 

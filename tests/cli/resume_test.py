@@ -35,8 +35,8 @@ class Sequences(Resume):
 
     def expect_redrawn(self, reason: str, *changes: str) -> None:
         lines = self.resume(*SEQUENCE, *changes)
-        self.assertEqual(lines[:2], [f"drawing 20 frames again, from out/f_0000.png: it was drawn with {reason}",
-                                     "kept 0 of 20 frames"])
+        self.assertRegex(lines[0], f"drawing 20 frames again, from out/f_0000.png: .* {reason}$")
+        self.assertEqual(lines[1], "kept 0 of 20 frames")
         self.assertEqual(self.resume(*SEQUENCE, *changes), ["kept 20 of 20 frames"])
 
     def test_draws_again_what_was_drawn_otherwise(self):
@@ -120,7 +120,7 @@ class Feedback(Resume):
             if "f_003" in name and name > "f_0033.png":
                 (self.folder / "out" / name).unlink()
         done = self.succeed(*self.RUN, "--resume", "--json")
-        self.assertIn("continuing from the saved state before frame 30", done.stderr)
+        self.assertIn("state before frame 30", done.stderr)
         frames = {f["frame"]: f for f in json.loads(done.stdout)["frames"]}
         self.assertEqual(frames[min(frames)]["passes_drawn"], (min(frames) - 30) * 2 + 2)
         self.assertEqual(self.contents(), whole)
@@ -181,7 +181,7 @@ class Videos(Resume):
             self.assertRegex(lines[0], r"kept [2345]0 of 50 frames")
             self.assertEqual(lines[-1], f"wrote out/a{extension}: 50 frames")
             self.assertEqual(scene == "fb" and lines[0] != "kept 50 of 50 frames",
-                             any(line.startswith("continuing from the saved state before frame") for line in lines))
+                             any(line.startswith("continuing from ") for line in lines))
             self.assertEqual(self.contents(), whole)
             (self.folder / f"out/a{extension}").unlink()
 
@@ -196,7 +196,7 @@ class Videos(Resume):
         self.assertNotIn("kept 50", self.resume(*arguments)[0])
         self.assertEqual(self.contents(), whole)
         self.cut(arguments, 2)
-        self.assertIn("drawing frames 0 to 9 again: they were drawn with other knobs",
+        self.assertIn("drawing frames 0 to 9 again: ",
                       self.resume(*arguments, "--set", "speed=0.75"))
 
     def test_segments_change_no_time(self):
@@ -221,8 +221,7 @@ class Videos(Resume):
         whole = self.whole(*arguments)
         done = self.run_program(*arguments, env=environment(PATH=f"{tools}:{os.environ['PATH']}"))
         self.assertEqual(done.returncode, 4)
-        self.assertRegex(done.stderr, r"error: cannot write 'out/a.mp4': ffmpeg ended without a message \(in frame 2\d\); "
-                                      r"20 frames are complete; to continue, run the same command with --resume\n\Z")
+        self.assertRegex(done.stderr, r"error: cannot write 'out/a.mp4': .* \(in frame 2\d\); 20 frames are complete; .* --resume\n\Z")
         self.assertEqual(self.resume(*arguments)[0], "kept 20 of 50 frames")
         self.assertEqual(self.contents(), whole)
 

@@ -378,11 +378,8 @@ class Access(Serve):
         self.assertEqual(service.address.split("/")[2].split(":")[0], "127.0.0.1")
         self.expect_failure(["serve", "a.glsl", "--port", port], 2, f"tidemark: error: cannot listen at --host 127.0.0.1 --port {port}: "
                             "Address already in use")
-        self.expect_failure(["serve", "a.glsl", "--port", "65536"], 2, "tidemark: error: --port: give a whole number from 0 to 65535, "
-                            "not '65536'")
-        self.expect_failure(["serve", "a.glsl", "--host", ""], 2, "tidemark: error: --host '': give an address or a name of "
-                                                                  "this machine, as in --host 127.0.0.1; 0.0.0.0 stands for "
-                                                                  "all its addresses")
+        self.expect_error(["serve", "a.glsl", "--port", "65536"], 2, "--port", "65535", "'65536'")
+        self.expect_error(["serve", "a.glsl", "--host", ""], 2, "--host ''", "0.0.0.0")
         self.expect_failure_like(["serve", "a.glsl", "--size", "65500x1"], 2, r"tidemark: error: --size 65500x1: this driver draws at most "
                                  r"\d+ pixels on a side")
         everywhere = self.serve("a.glsl", "--host", "0.0.0.0")

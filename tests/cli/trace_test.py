@@ -49,9 +49,11 @@ class Trace(ProgramTest):
         report = self.report(text, "--line", str(line), *options)
         return [value for call in report["calls"] for value in call["values"]]
 
-    def fails(self, code, message, text, *options, pixel="8,8"):
+    def fails(self, code, pattern, text, *options, pixel="8,8"):
         run = self.trace(text, *options, pixel=pixel)
-        self.assertEqual((run.returncode, run.stderr), (code, message), run.stdout)
+        self.assertEqual(run.returncode, code, run.stdout)
+        self.assertRegex(run.stderr, r"\A[^\n]+\n\Z")
+        self.assertRegex(run.stderr, pattern)
 
     def test_the_colour_stands_beside_that_of_the_device(self):
         colour = self.report(MARCH)["colour"]
@@ -150,16 +152,13 @@ class Trace(ProgramTest):
         self.assertEqual(json.loads(run.stdout)["colour"]["float"], [3.5] * 4)
 
     def test_errors_say_what_to_do(self):
-        self.fails(2, "tidemark: error: --pixel 16,3: give x,y from the bottom left, within 16x16\n", MARCH,
-                   pixel="16,3")
-        self.fails(2, "tidemark: error: --line 9: that line of scene.glsl computes nothing; the nearest line that does: 8, 10\n", MARCH, "--line", "9")
-        self.fails(2, "tidemark: error: --line none: give a line from 1, or FILE:LINE\n", MARCH, "--line", "none")
-        self.fails(2, "tidemark: error: --line other.glsl:3: the pass has no code from that file; it has code from scene.glsl\n", MARCH, "--line", "other.glsl:3")
-        self.fails(2, "tidemark: error: --turns 5-2: give an iteration of the loop, from 1, or a range, as in 4-20\n", MARCH,
-                   "--line", "11", "--turns", "5-2")
-        self.fails(2, "tidemark: error: trace works on one frame: give --frame N or --time T\n", MARCH, "--frames",
-                   "0-3")
-        self.fails(3, "scene.glsl:2: error: cannot evaluate this texture read: the texture is of the previous frame or too large, or the read is textureGather or textureQueryLod\n",
+        self.fails(2, r"error: --pixel 16,3: .* 16x16$", MARCH, pixel="16,3")
+        self.fails(2, r"error: --line 9: .* scene\.glsl .*: 8, 10$", MARCH, "--line", "9")
+        self.fails(2, r"error: --line none: .* FILE:LINE$", MARCH, "--line", "none")
+        self.fails(2, r"error: --line other\.glsl:3: .* from scene\.glsl$", MARCH, "--line", "other.glsl:3")
+        self.fails(2, r"error: --turns 5-2: ", MARCH, "--line", "11", "--turns", "5-2")
+        self.fails(2, r"error: .* one frame: .* --frame N or --time T$", MARCH, "--frames", "0-3")
+        self.fails(3, r"\Ascene\.glsl:2: error: .* texture read: .* textureGather",
                    "void mainImage(out vec4 c, in vec2 p) {\n    c = textureGather(iChannel0, p);\n}\n")
         run = self.trace(MARCH, "--pass", "Buffer Z")
         self.assertEqual(run.returncode, 2)

@@ -115,6 +115,18 @@ class ProgramTest(unittest.TestCase):
         self.assertFalse(done.stdout)
         self.assertEqual(self.files(), before)
 
+    def expect_error(self, arguments: list[str], code: int, *named: str, **options) -> None:
+        """Fails with one error that names all this: options, files, places, values. Its wording is for tests/transcripts.
+        Nothing is printed on standard output, and no file made."""
+        before = self.files()
+        done = self.run_program(*arguments, **options)
+        for each in named:
+            self.assertIn(each, done.stderr)
+        self.assertRegex(done.stderr, r"\A.+\n(.+: note: .+\n)*\Z")
+        self.assertEqual(done.returncode, code)
+        self.assertFalse(done.stdout)
+        self.assertEqual(self.files(), before)
+
     def expect_failure_like(self, arguments: list[str], code: int, pattern: str, **options) -> None:
         """As expect_failure, where the driver or the machine chooses some of the words."""
         before = self.files()
