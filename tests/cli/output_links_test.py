@@ -3,7 +3,6 @@ command reads, into a device and never in its place."""
 import json
 import os
 import pathlib
-import re
 import shutil
 import stat
 import subprocess

@@ -1,5 +1,6 @@
 // Files that name each other in their channels, as the VS Code extension has it.
 #include "scene_support.hpp"
+#include "support/naming.hpp"
 
 #include <gmock/gmock.h>
 
@@ -59,9 +60,8 @@ TEST_F(BuffersByFile, a_cycle_is_named) {
     save("a.glsl", reads("b.glsl"));
     save("b.glsl", "\n" + reads("c.glsl"));
     save("c.glsl", "\n\n" + reads("b.glsl"));
-    EXPECT_EQ(refusal("a.glsl"),
-              "c.glsl:3: error: 'b.glsl' reads 'c.glsl' reads 'b.glsl': files that read each other "
-              "cannot be put in an order; a file may read its own last frame as \"self\"");
+    EXPECT_THAT(refusal("a.glsl"),
+                naming("c.glsl:3: error:", "'b.glsl'", "'c.glsl'", "cannot be put in an order"));
     save("c.glsl", reads("a.glsl"));
     EXPECT_THAT(refusal("a.glsl"),
                 testing::StartsWith("c.glsl:1: error: 'a.glsl' reads 'b.glsl' reads 'c.glsl' reads "
@@ -89,7 +89,7 @@ TEST_F(BuffersByFile, that_cannot_be_read_are_placed_where_they_are_named) {
     save("a.glsl", "\n" + reads("b.glsl"));
     EXPECT_EQ(refusal("a.glsl"), "a.glsl:2: error: cannot read 'b.glsl': no such file");
     save("b.glsl", "// empty");
-    EXPECT_EQ(refusal("a.glsl"), "tidemark: error: 'b.glsl' is empty: a scene defines mainImage");
+    EXPECT_THAT(refusal("a.glsl"), naming("'b.glsl'", "is empty"));
     save("b.glsl", "#iUniform float");
     EXPECT_THAT(refusal("a.glsl"),
                 testing::StartsWith("b.glsl:1:16: error: expected the name of the uniform"));
@@ -102,14 +102,13 @@ TEST_F(BuffersByFile, knobs_of_the_same_name_are_one_knob) {
     ASSERT_THAT(scene.knobs, SizeIs(1));
     EXPECT_EQ(scene.knobs[0].value[0], 1.0);
     save("b.glsl", "#iUniform int k = 2\n" + k_main_image);
-    EXPECT_EQ(refusal("a.glsl"), "b.glsl:1: error: the knob 'k' is a int here and a float in another pass\n"
-                                 "a.glsl:1: note: first declared here");
+    EXPECT_THAT(refusal("a.glsl"), naming("b.glsl:1: error:", "knob", "'k'", "a.glsl:1: note:"));
 }
 
 TEST_F(BuffersByFile, a_chain_has_an_end) {
     for (int i = 0; i < 100; ++i)
         save(std::to_string(i) + ".glsl", reads(std::to_string(i + 1) + ".glsl"));
-    EXPECT_EQ(refusal("0.glsl"), "63.glsl:1: error: the scene has more than 64 passes");
+    EXPECT_THAT(refusal("0.glsl"), naming("63.glsl:1: error:", "more than 64"));
 }
 
 TEST_F(BuffersByFile, the_faces_of_a_cubemap_by_a_wildcard) {
@@ -120,9 +119,7 @@ TEST_F(BuffersByFile, the_faces_of_a_cubemap_by_a_wildcard) {
     const std::string type = "#iChannel0::Type \"CubeMap\"\n";
     save("a.glsl", type + reads("sky_*.png"));
     save_all({"posx", "negx", "posy", "negy", "posz"});
-    EXPECT_EQ(refusal("a.glsl"), "a.glsl:2: error: there are no six files for 'sky_*.png': their names end "
-                                 "in e w u d n s, in east west up down "
-                                 "north south, in px nx py ny pz nz or in posx negx posy negy posz negz");
+    EXPECT_THAT(refusal("a.glsl"), naming("a.glsl:2: error:", "six files", "'sky_*.png'"));
     save_all({"negz"});
     const auto faces_of = [&] { return std::get<Cubemap>(input(load("a.glsl"), 0, 0)).files; };
     EXPECT_THAT(faces_of(),

@@ -1,5 +1,6 @@
 // #iChannelN: what a channel reads and how it is sampled.
 #include "directives_support.hpp"
+#include "support/naming.hpp"
 
 #include <gtest/gtest.h>
 
@@ -56,9 +57,8 @@ TEST(ChannelDirectives, names_are_relative_to_the_file_that_says_them) {
 }
 
 TEST(ChannelDirectives, nothing_is_downloaded) {
-    EXPECT_EQ(
-        refusal("\n#iChannel0 \"https://x.org/a.png\""),
-        "dir/a.glsl:2: error: 'https://x.org/a.png' is not a local file: tidemark does not download files");
+    EXPECT_THAT(refusal("\n#iChannel0 \"https://x.org/a.png\""),
+                naming("dir/a.glsl:2: error:", "'https://x.org/a.png'"));
 }
 
 TEST(ChannelDirectives, every_minification_filter) {
@@ -142,16 +142,14 @@ TEST(ChannelDirectives, may_run_over_lines_and_around_comments) {
 }
 
 TEST(ChannelDirectives, values_that_there_are_not) {
-    EXPECT_EQ(refusal("#iChannel0::MinFilter \"nearest\""),
-              "dir/a.glsl:1:13: error: MinFilter \"nearest\": give Nearest, Linear, or one of the two "
-              "followed by MipMapNearest or MipMapLinear");
+    EXPECT_THAT(refusal("#iChannel0::MinFilter \"nearest\""),
+                naming("dir/a.glsl:1:13: error: MinFilter \"nearest\":", "MipMapNearest"));
     EXPECT_EQ(refusal("#iChannel0::MagFilter \"NearestMipMapLinear\""),
               "dir/a.glsl:1:13: error: MagFilter \"NearestMipMapLinear\": give Nearest or Linear");
     EXPECT_EQ(refusal("#iChannel0::WrapMode \"Border\""),
               "dir/a.glsl:1:13: error: WrapMode \"Border\": give Repeat, Clamp or Mirror");
-    EXPECT_EQ(
-        refusal("\n#iChannel0::Filter \"Linear\""),
-        "dir/a.glsl:2:13: error: unknown parameter 'Filter': give MinFilter, MagFilter, WrapMode or Type");
+    EXPECT_THAT(refusal("\n#iChannel0::Filter \"Linear\""),
+                naming("dir/a.glsl:2:13: error:", "'Filter'", "MinFilter"));
 }
 
 TEST(ChannelDirectives, channels_that_there_are_not) {
@@ -161,19 +159,19 @@ TEST(ChannelDirectives, channels_that_there_are_not) {
 }
 
 TEST(ChannelDirectives, what_is_missing_is_said) {
-    EXPECT_EQ(refusal("#iChannel0 noise\n"),
-              "dir/a.glsl:1:12: error: expected a name in quotes but found 'noise'");
-    EXPECT_EQ(refusal("#iChannel0"),
-              "dir/a.glsl:1:11: error: expected a name in quotes but found the end of the file");
-    EXPECT_EQ(refusal("#iChannel0 \"a.png\nfloat x;"),
-              "dir/a.glsl:1:12: error: expected a name in quotes but found '\"'");
+    EXPECT_THAT(refusal("#iChannel0 noise\n"),
+                naming("dir/a.glsl:1:12: error:", "name in quotes", "'noise'"));
+    EXPECT_THAT(refusal("#iChannel0"),
+                naming("dir/a.glsl:1:11: error:", "name in quotes", "the end of the file"));
+    EXPECT_THAT(refusal("#iChannel0 \"a.png\nfloat x;"),
+                naming("dir/a.glsl:1:12: error:", "name in quotes", "'\"'"));
     EXPECT_EQ(refusal("#iChannel0:WrapMode \"Clamp\""),
               "dir/a.glsl:1:12: error: expected ':' but found 'WrapMode'");
-    EXPECT_EQ(refusal("#iChannel0::WrapMode Clamp"),
-              "dir/a.glsl:1:22: error: expected a name in quotes but found 'Clamp'");
-    EXPECT_EQ(refusal("#iChannel0::"), "dir/a.glsl:1:13: error: expected MinFilter, MagFilter, WrapMode or "
-                                       "Type but found the end of the file");
-    EXPECT_EQ(refusal("#iChannel0 \"\""), "dir/a.glsl:1: error: the name of the picture is empty");
+    EXPECT_THAT(refusal("#iChannel0::WrapMode Clamp"),
+                naming("dir/a.glsl:1:22: error:", "name in quotes", "'Clamp'"));
+    EXPECT_THAT(refusal("#iChannel0::"),
+                naming("dir/a.glsl:1:13: error:", "MinFilter", "the end of the file"));
+    EXPECT_THAT(refusal("#iChannel0 \"\""), naming("dir/a.glsl:1: error:", "is empty"));
 }
 
 } // namespace tidemark::scene::channel_directives_test

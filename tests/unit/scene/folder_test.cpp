@@ -1,6 +1,7 @@
 // Scene folders by the names of their files, and the bounds of what a scene may read.
 #include "scene/load_scene.hpp"
 #include "scene_support.hpp"
+#include "support/naming.hpp"
 
 #include <gmock/gmock.h>
 
@@ -52,9 +53,8 @@ TEST_F(Folder, a_pass_that_no_other_reads_is_told) {
     save("image.glsl", k_main_image);
     const Scene scene = load();
     ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_EQ(plain(to_string(scene.warnings[0])),
-              "Buffer A.glsl: warning: no other pass reads 'Buffer A': a pass that should read it needs the "
-              "line #iChannel0 \"Buffer A.glsl\"");
+    EXPECT_THAT(plain(to_string(scene.warnings[0])),
+                naming("Buffer A.glsl: warning:", "'Buffer A'", "#iChannel0"));
 }
 
 TEST_F(Folder, names_in_the_wild) {
@@ -79,11 +79,9 @@ TEST_F(Folder, two_files_for_one_pass_are_an_error) {
 
 TEST_F(Folder, a_pass_that_is_not_here_and_one_that_is_empty) {
     save("image.glsl", "\n#iChannel0 \"buffer_b\"\n" + k_main_image);
-    EXPECT_EQ(refusal(),
-              "image.glsl:2: error: there is no pass 'Buffer B': in a scene folder it is the file "
-              "'buffer_b.glsl'; a single file names another file by its path, as in \"blur.glsl\"");
+    EXPECT_THAT(refusal(), naming("image.glsl:2: error:", "'Buffer B'", "'buffer_b.glsl'", "blur.glsl"));
     save("buffer_b.glsl", "// nothing yet\n");
-    EXPECT_EQ(refusal(), "tidemark: error: 'buffer_b.glsl' is empty: a scene defines mainImage");
+    EXPECT_THAT(refusal(), naming("'buffer_b.glsl'", "is empty"));
 }
 
 TEST_F(Folder, common_that_a_pass_includes_stands_there_once) {
@@ -130,8 +128,8 @@ TEST_F(Folder, with_a_project_that_says_what_the_passes_read) {
     EXPECT_EQ(scene.passes[1].channels[1].sampling.magnify, Filter::nearest);
     EXPECT_EQ(scene.knobs.size(), 1u);
     ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_EQ(plain(to_string(scene.warnings[0])),
-              "buffer_b.glsl: warning: 'scene.json' has no pass with this file: the file is ignored");
+    EXPECT_THAT(plain(to_string(scene.warnings[0])),
+                naming("buffer_b.glsl: warning:", "'scene.json'", "is ignored"));
     EXPECT_EQ(load("scene.json").passes.size(), 2u) << "its scene.json means the folder";
 }
 
@@ -142,9 +140,7 @@ TEST_F(Folder, a_project_whose_code_is_missing) {
 
 TEST_F(Folder, what_lies_outside_is_refused) {
     save("s/image.glsl", "\n#iChannel0 \"../secret.png\"\n" + k_main_image);
-    EXPECT_EQ(refusal("s"),
-              "s/image.glsl:2: error: 'secret.png' lies outside the scene's folder 's': move it there, "
-              "into a folder 'textures' or 'lib' beside it, or give --allow-outside");
+    EXPECT_THAT(refusal("s"), naming("s/image.glsl:2: error:", "'secret.png'", "lies outside", "'s'"));
     save("s/image.glsl", "\n\n#include \"../secret.glsl\"\n" + k_main_image);
     save("secret.glsl", "");
     EXPECT_THAT(refusal("s"), testing::StartsWith("s/image.glsl:3: error: 'secret.glsl' lies outside"));

@@ -1,5 +1,6 @@
 // Values of knobs as text and as numbers, and knobs by name.
 #include "scene/knob.hpp"
+#include "support/naming.hpp"
 
 #include <gtest/gtest.h>
 
@@ -105,17 +106,15 @@ TEST(GivenValue, must_suit_the_knob) {
         return value ? "" : value.error().message;
     };
     EXPECT_EQ(refused(KnobType::vec3, {1, {2}}), "");
-    EXPECT_EQ(refused(KnobType::float1, {2, {1, 2}}), "'1,2' is not a value for k (float): give a number");
-    EXPECT_EQ(refused(KnobType::float1, {1, {HUGE_VAL}}),
-              "'inf' is not a value for k (float): give a number");
-    EXPECT_EQ(refused(KnobType::int1, {1, {1.5}}), "'1.5' is not a value for k (int): give a whole number");
-    EXPECT_EQ(refused(KnobType::int1, {1, {3e9}}),
-              "'3000000000' is not a value for k (int): give a whole number");
-    EXPECT_EQ(refused(KnobType::ivec2, {2, {1, 2}, KnobType::vec2}),
-              "'vec2(1, 2)' is not a value for k (ivec2): give 2 whole numbers, as in 1,2");
+    EXPECT_THAT(refused(KnobType::float1, {2, {1, 2}}), naming("'1,2'", "(float)", "a number"));
+    EXPECT_THAT(refused(KnobType::float1, {1, {HUGE_VAL}}), naming("'inf'", "(float)", "a number"));
+    EXPECT_THAT(refused(KnobType::int1, {1, {1.5}}), naming("'1.5'", "(int)", "whole number"));
+    EXPECT_THAT(refused(KnobType::int1, {1, {3e9}}), naming("'3000000000'", "(int)", "whole number"));
+    EXPECT_THAT(refused(KnobType::ivec2, {2, {1, 2}, KnobType::vec2}),
+                naming("'vec2(1, 2)'", "(ivec2)", "2 whole numbers"));
     EXPECT_EQ(refused(KnobType::color3, {3, {1, 2, 3}, KnobType::vec3}), "");
-    EXPECT_EQ(refused(KnobType::vec3, {3, {1, 2, 3}, KnobType::color3}),
-              "'color3(1, 2, 3)' is not a value for k (vec3): give 3 numbers, as in 1,2,3");
+    EXPECT_THAT(refused(KnobType::vec3, {3, {1, 2, 3}, KnobType::color3}),
+                naming("'color3(1, 2, 3)'", "(vec3)", "3 numbers"));
 }
 
 TEST(GivenValue, may_lie_outside_a_slider) {
@@ -176,14 +175,10 @@ TEST(KnobValue, what_a_whole_number_takes) {
 }
 
 TEST(KnobValue, what_a_vector_takes) {
-    EXPECT_EQ(parsed(KnobType::vec2, "1,2,3"),
-              "'1,2,3' is not a value for k (vec2): give 2 numbers, as in 1,2");
-    EXPECT_EQ(parsed(KnobType::vec3, "1,2"),
-              "'1,2' is not a value for k (vec3): give 3 numbers, as in 1,2,3");
-    EXPECT_EQ(parsed(KnobType::vec4, "1,2,3,4,5"),
-              "'1,2,3,4,5' is not a value for k (vec4): give 4 numbers, as in 1,2,3,4");
-    EXPECT_EQ(parsed(KnobType::ivec2, "1,2.5"),
-              "'1,2.5' is not a value for k (ivec2): give 2 whole numbers, as in 1,2");
+    EXPECT_THAT(parsed(KnobType::vec2, "1,2,3"), naming("'1,2,3'", "(vec2)", "2 numbers"));
+    EXPECT_THAT(parsed(KnobType::vec3, "1,2"), naming("'1,2'", "(vec3)", "3 numbers"));
+    EXPECT_THAT(parsed(KnobType::vec4, "1,2,3,4,5"), naming("'1,2,3,4,5'", "(vec4)", "4 numbers"));
+    EXPECT_THAT(parsed(KnobType::ivec2, "1,2.5"), naming("'1,2.5'", "(ivec2)", "2 whole numbers"));
 }
 
 TEST(KnobValue, what_a_colour_takes) {
