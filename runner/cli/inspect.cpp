@@ -208,9 +208,7 @@ struct InspectOptions {
 };
 
 Json json_of(const glsl::LeftOut& left_out) {
-    Json json = {{"lines", left_out.lines},
-                 {"branches", left_out.branches},
-                 {"out_of_loops", left_out.loop_invariants}};
+    Json json = {{"lines", left_out.lines}, {"out_of_loops", left_out.loop_invariants}};
     if (!left_out.anything())
         json["none_because"] = left_out.kept_whole;
     return json;
@@ -221,9 +219,8 @@ std::string to_line(const glsl::LeftOut& left_out) {
         return fmt::format("  code removed: none, because {}\n", left_out.kept_whole);
     std::string text = fmt::format("  code removed: {} lines", left_out.lines);
     if (left_out.in_doubt())
-        text +=
-            fmt::format("; in a long sequence also {} dead branches and {} expressions moved out of loops",
-                        left_out.branches, left_out.loop_invariants);
+        text += fmt::format("; in a long sequence also {} expressions moved out of loops",
+                            left_out.loop_invariants);
     return text + '\n';
 }
 

@@ -4,7 +4,7 @@
 #include "lab/text_findings.hpp"
 #include "render/frame_stepper.hpp"
 #include "scene/host_uniforms.hpp"
-#include "shader/pass_cuts.hpp"
+#include "shader/cuts.hpp"
 #include "shader/rewrite.hpp"
 #include "shader/watch.hpp"
 

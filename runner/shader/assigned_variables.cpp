@@ -14,10 +14,43 @@ constexpr int k_deepest_call = 16;
 /// Limit for the number of global variables times the number of functions; real texts stay far below.
 constexpr size_t k_most_followed = 2'000'000;
 
-class Follower : private VariableStates {
+/// Parts that a path has assigned, by index in the stack of live variables.
+struct State {
+    std::vector<Slots> set;
+    bool reached = true;
+
+    /// Returns the state of unreachable code; meeting it leaves the other state unchanged.
+    static State nowhere(size_t depth) { return {std::vector<Slots>(depth, ~Slots(0)), false}; }
+
+    void meet(const State& other) {
+        const size_t size = std::min(set.size(), other.set.size());
+        if (!reached && other.reached) {
+            *this = other;
+            set.resize(size);
+        }
+        for (size_t i = 0; i < size && other.reached; ++i)
+            set[i] &= other.set[i];
+    }
+    /// Meets a state of deeper nesting, whose inner variables end here.
+    void meet_inner(State inner) {
+        inner.set.resize(set.size());
+        meet(inner);
+    }
+};
+
+/// Effect of a call on global variables, by their index.
+struct Summary {
+    std::vector<Slots> reads;   ///< read before the function assigns them
+    std::vector<NodeId> places; ///< first such read of each
+    std::vector<Slots> assigns; ///< on every path
+};
+
+/// Follows the paths through a text.
+class Follower {
 public:
     Follower(const ParsedText& text, const TreeFacts& facts, Shapes& shapes)
-        : VariableStates(text, shapes), facts_(facts), reached_(functions_of_main(text, facts)) {}
+        : text_(text), tree_(text.tree()), facts_(facts), shapes_(shapes),
+          reached_(functions_of_main(text, facts)) {}
 
     Assignment run() {
         for (NodeId part = tree_[0].first_child; part != k_no_node; part = tree_[part].next)
@@ -26,9 +59,9 @@ public:
         size_t functions = 0;
         for (const auto& [name, overloads] : facts_.functions)
             functions += overloads.definitions.size();
-        if (live_.size() * functions > k_most_followed)
+        if (here_.live.size() * functions > k_most_followed)
             doubt_globals();
-        globals_ = live_.size();
+        globals_ = here_.live.size();
         const FunctionFacts* const main = facts_.function("main");
         whole_ = !main || main->definitions.empty();
         // last: main often precedes the functions that it calls, which would make the call depth large
@@ -44,11 +77,117 @@ public:
     }
 
 private:
+    struct Scope {
+        size_t depth = 0; ///< live variables outside of it
+        std::unordered_map<std::string_view, size_t> places;
+    };
     struct Loop {
         State breaks;
         State continues;
         bool is_switch = false;
     };
+    /// Everything that is known inside one function.
+    struct Inside {
+        std::vector<size_t> live{}; ///< indices of the variables that are visible here, globals first
+        std::vector<Scope> scopes{};
+        State state{};
+        Summary summary{};
+        std::vector<Loop> loops{};
+        State exits{};         ///< merged state of all returns so far
+        size_t parameters = 0; ///< first parameter in live
+        bool returns = false;  ///< the function has a return statement
+    };
+    /// Returns the start of a function, where only globals are visible.
+    Inside entered() const {
+        Inside inside{.state = {std::vector<Slots>(globals_), true},
+                      .summary = empty_summary(),
+                      .parameters = globals_};
+        for (size_t i = 0; i < globals_; ++i)
+            inside.live.push_back(i);
+        return inside;
+    }
+    /// Returns the summary of a function that reads and assigns nothing.
+    Summary empty_summary() const {
+        return {std::vector<Slots>(globals_), std::vector<NodeId>(globals_, k_no_node),
+                std::vector<Slots>(globals_)};
+    }
+    State nowhere() const { return State::nowhere(here_.live.size()); }
+
+    static constexpr size_t k_untracked = size_t(-1);
+
+    /// Declares a variable. Only those that are `unset` (declared without a value) are tracked.
+    void declare(NodeId type, NodeId declared, bool unset) {
+        size_t place = k_untracked;
+        const Shape* const shape = unset ? &shapes_.of(type, declared) : nullptr;
+        if (shape && shape->can_be_zero()) {
+            place = here_.live.size();
+            here_.live.push_back(variables_.size());
+            variables_.push_back({.type = type, .declared = declared, .shape = shape, .runs = runs_});
+            here_.state.set.push_back(here_.state.reached ? 0 : ~Slots(0));
+        }
+        (here_.scopes.empty() ? outermost_ : here_.scopes.back()).places[text_.word_of(declared)] = place;
+    }
+    bool has_value(NodeId declared) const {
+        const auto parts = tree_.children(declared);
+        return std::ranges::any_of(parts, [&](NodeId part) { return !is_bracket(text_, part); });
+    }
+
+    struct Found {
+        size_t place = k_untracked;
+        Part part;
+    };
+    Found find(NodeId id) {
+        const NodeId base = base_of(tree_, id);
+        Found found;
+        if (tree_[base].kind == NodeKind::name)
+            found.place = place_of(text_.word_of(base));
+        if (found.place != k_untracked)
+            found.part = shapes_.part_of(*variable(found.place).shape, id);
+        return found;
+    }
+    size_t place_of(std::string_view name) const {
+        for (auto scope = here_.scopes.rbegin(); scope != here_.scopes.rend(); ++scope)
+            if (const auto found = scope->places.find(name); found != scope->places.end())
+                return found->second;
+        const auto found = outermost_.places.find(name);
+        return found == outermost_.places.end() ? k_untracked : found->second;
+    }
+    UnsetVariable& variable(size_t place) { return variables_[here_.live[place]]; }
+
+    void read(NodeId id) {
+        const Found found = find(id);
+        if (found.place != k_untracked)
+            need(found.place, found.part.slots, id);
+    }
+    /// Records a read of some `slots` of the variable at `place`.
+    void need(size_t place, Slots slots, NodeId at) {
+        const Slots missing = slots & ~here_.state.set[place];
+        if (!here_.state.reached || missing == 0)
+            return;
+        if (place < globals_)
+            here_.summary.reads[place] |= missing;
+        NodeId& first = place < globals_ ? here_.summary.places[place] : variable(place).read;
+        first = first == k_no_node ? at : first;
+    }
+    /// Records a write; `doubtful` if it may not happen.
+    void write(NodeId id, bool doubtful = false) {
+        const Found found = find(id);
+        if (found.place == k_untracked)
+            return;
+        variable(found.place).written = true;
+        if (doubtful)
+            variable(found.place).doubtful = true;
+        else if (found.part.exact)
+            here_.state.set[found.place] |= found.part.slots;
+    }
+
+    void open() { here_.scopes.push_back({here_.live.size(), {}}); }
+    void close() {
+        here_.live.resize(here_.scopes.back().depth);
+        here_.state.set.resize(here_.scopes.back().depth);
+        here_.scopes.pop_back();
+    }
+
     bool is_definition(NodeId id) const {
         return tree_[id].kind == NodeKind::function && text_.word(tree_[id].end - 1) == "}";
     }
@@ -59,15 +198,16 @@ private:
             variable.read = variable.declared;
             variable.doubtful = true;
         }
-        forget();
+        outermost_.places.clear(); // follows none of them
+        here_ = {};
     }
 
     void global(NodeId id) {
         const NodeId type = tree_.child(id, 0);
         for (NodeId part = tree_[type].next; part != k_no_node; part = tree_[part].next) {
-            const size_t before = live_.size();
+            const size_t before = here_.live.size();
             declare(type, part, !is_given(text_, type) && !has_value(part));
-            if (live_.size() > before)
+            if (here_.live.size() > before)
                 variables_.back().global = true;
         }
     }
@@ -91,23 +231,14 @@ private:
             return unfollowed_;
         }
         summaries_.emplace(function, empty_summary());
-        Sight outer = enter();
-        const auto [loops, exits] = std::pair(std::move(loops_), std::move(exits_));
-        const auto [parameters, returns] = std::pair(parameters_, returns_);
-        loops_.clear();
-        parameters_ = globals_;
-        returns_ = false;
+        Inside outer = std::exchange(here_, entered());
         ++calls_;
         follow(function);
         --calls_;
-        exits_.set.resize(globals_);
-        summary_.assigns = exits_.set;
-        Summary& summary = summaries_[function] = std::move(summary_);
-        leave(std::move(outer));
-        loops_ = loops;
-        exits_ = exits;
-        parameters_ = parameters;
-        returns_ = returns;
+        here_.exits.set.resize(globals_);
+        here_.summary.assigns = here_.exits.set;
+        Summary& summary = summaries_[function] = std::move(here_.summary);
+        here_ = std::move(outer);
         return summary;
     }
 
@@ -118,38 +249,37 @@ private:
         for (NodeId part = tree_[function].first_child; part != k_no_node; part = tree_[part].next) {
             if (tree_[part].kind == NodeKind::parameter) {
                 const NodeId type = tree_.child(part, 0);
-                const size_t before = live_.size();
+                const size_t before = here_.live.size();
                 const bool named = tree_[part].word >= tree_[type].end;
                 declare(type, part, named && has_qualifier(text_, type, "out"));
-                if (live_.size() > before)
+                if (here_.live.size() > before)
                     variables_.back().parameter = true;
             } else if (tree_[part].kind == NodeKind::block) {
                 body = part;
             }
         }
-        exits_ = nowhere(live_.size());
+        here_.exits = nowhere();
         walk(body);
-        const bool falls = state_.reached;
+        const bool falls = here_.state.reached;
         exit(body);
-        if (falls && runs_ && returns_ && type_name(text_, tree_.child(function, 0)) != "void")
+        if (falls && runs_ && here_.returns && type_name(text_, tree_.child(function, 0)) != "void")
             result_.without_return.push_back(function);
         runs_ = outer_runs;
         close();
     }
 
-    /// Leaves the function: records `out` parameters without a value, and merges the state into exits_.
+    /// Leaves the function: records `out` parameters without a value, and merges the state into the exits.
     void exit(NodeId at) {
-        if (!state_.reached)
+        if (!here_.state.reached)
             return;
-        for (size_t place = parameters_; place < exits_.set.size(); ++place) {
+        for (size_t place = here_.parameters; place < here_.exits.set.size(); ++place) {
             UnsetVariable& parameter = variable(place);
-            if ((all_slots(parameter.shape->slots) & ~state_.set[place]) != 0 && parameter.left == k_no_node)
+            if ((all_slots(parameter.shape->slots) & ~here_.state.set[place]) != 0 &&
+                parameter.left == k_no_node)
                 parameter.left = at;
         }
-        State here = state_;
-        here.set.resize(exits_.set.size());
-        exits_.meet(here);
-        state_ = nowhere(state_.set.size());
+        here_.exits.meet_inner(here_.state);
+        here_.state = nowhere();
     }
 
     /// Applies a call. Any overload with that many parameters may be the callee, so their summaries are
@@ -173,7 +303,7 @@ private:
         for (size_t i = 0; i < globals_ && !first; ++i) {
             if (all.reads[i] != 0)
                 need(i, all.reads[i], all.places[i]);
-            state_.set[i] |= all.assigns[i];
+            here_.state.set[i] |= all.assigns[i];
         }
     }
 
@@ -273,11 +403,11 @@ private:
 
     /// Walks two alternatives, one of which runs; `no` may be k_no_node.
     void branch(NodeId yes, NodeId no) {
-        State before = state_;
+        State before = here_.state;
         scoped(yes);
-        std::swap(before, state_);
+        std::swap(before, here_.state);
         scoped(no);
-        state_.meet(before);
+        here_.state.meet(before);
     }
 
     void choose(NodeId id) {
@@ -286,17 +416,17 @@ private:
     }
 
     void body_of_loop(NodeId body) {
-        loops_.push_back({nowhere(live_.size()), nowhere(live_.size()), false});
+        here_.loops.push_back({nowhere(), nowhere(), false});
         scoped(body);
-        state_.meet(loops_.back().continues);
+        here_.state.meet(here_.loops.back().continues);
     }
 
     /// Sets the state after a loop: merges all breaks with `out`, the state in which the condition was false.
     void leave_loop(const State& out) {
-        State behind = loops_.back().breaks;
+        State behind = here_.loops.back().breaks;
         behind.meet(out);
-        loops_.pop_back();
-        state_ = std::move(behind);
+        here_.loops.pop_back();
+        here_.state = std::move(behind);
     }
 
     void loop_for(NodeId id) {
@@ -306,18 +436,18 @@ private:
         const bool endless = is_always_true(text_, condition);
         const bool entered = endless || enters_surely(text_, shapes_, id);
         walk(condition);
-        State skipped = entered ? nowhere(live_.size()) : state_;
+        State skipped = entered ? nowhere() : here_.state;
         body_of_loop(tree_.child(id, 3));
         walk(tree_.child(id, 2));
         walk(condition);
         if (!endless)
-            skipped.meet(state_);
+            skipped.meet(here_.state);
         leave_loop(skipped);
         for (const NodeId filled : filled_arrays(text_, facts_, id))
             if (const Found found = find(filled);
                 found.place != k_untracked && found.part.exact && found.part.shape &&
                 fills(text_, shapes_, id, variable(found.place).declared, *found.part.shape, filled))
-                state_.set[found.place] |= found.part.slots;
+                here_.state.set[found.place] |= found.part.slots;
         close();
     }
 
@@ -325,7 +455,7 @@ private:
         open();
         const NodeId condition = tree_.child(id, 0);
         walk(condition);
-        const State skipped = is_always_true(text_, condition) ? nowhere(live_.size()) : state_;
+        const State skipped = is_always_true(text_, condition) ? nowhere() : here_.state;
         body_of_loop(tree_.child(id, 1));
         leave_loop(skipped); // later iterations have assigned no less
         close();
@@ -335,7 +465,7 @@ private:
         body_of_loop(tree_.child(id, 0));
         const NodeId condition = tree_.child(id, 1);
         walk(condition);
-        const State out = is_always_true(text_, condition) ? nowhere(live_.size()) : state_;
+        const State out = is_always_true(text_, condition) ? nowhere() : here_.state;
         leave_loop(out);
     }
 
@@ -343,46 +473,39 @@ private:
     /// statement.
     void switch_on(NodeId id) {
         walk(tree_.child(id, 0));
-        State chosen = state_;
+        State chosen = here_.state;
         bool has_default = false;
-        loops_.push_back({nowhere(live_.size()), nowhere(live_.size()), true});
+        here_.loops.push_back({nowhere(), nowhere(), true});
         open();
-        state_ = nowhere(live_.size());
+        here_.state = nowhere();
         const NodeId block = tree_.child(id, 1);
         for (NodeId part = tree_[block].first_child; part != k_no_node; part = tree_[part].next) {
             if (tree_[part].kind == NodeKind::label) {
                 State entry = chosen; // a jump over a declaration leaves its variable without a value
-                entry.set.resize(live_.size(), 0);
-                state_.meet(entry);
+                entry.set.resize(here_.live.size(), 0);
+                here_.state.meet(entry);
                 has_default = has_default || text_.word_of(part) == "default";
             }
             walk(part);
         }
         close();
-        State behind = loops_.back().breaks;
-        loops_.pop_back();
-        behind.meet(state_);
+        State behind = here_.loops.back().breaks;
+        here_.loops.pop_back();
+        behind.meet(here_.state);
         if (!has_default)
             behind.meet(chosen);
-        state_ = std::move(behind);
+        here_.state = std::move(behind);
     }
 
     void jump(NodeId id) {
         const std::string_view word = text_.word_of(id);
-        if (word == "discard") {
-            state_ = nowhere(state_.set.size());
-            return;
-        }
-        for (auto loop = loops_.rbegin(); loop != loops_.rend(); ++loop) {
+        for (auto loop = here_.loops.rbegin(); word != "discard" && loop != here_.loops.rend(); ++loop) {
             if (word == "continue" && loop->is_switch)
                 continue;
-            State& to = word == "break" ? loop->breaks : loop->continues;
-            State here = state_;
-            here.set.resize(to.set.size());
-            to.meet(here);
+            (word == "break" ? loop->breaks : loop->continues).meet_inner(here_.state);
             break;
         }
-        state_ = nowhere(state_.set.size());
+        here_.state = nowhere();
     }
 
     void walk(NodeId id) {
@@ -411,7 +534,7 @@ private:
             return close();
         case NodeKind::return_statement:
             each(id);
-            returns_ = true;
+            here_.returns = true;
             return exit(id);
         case NodeKind::binary:
             walk(tree_.child(id, 0));
@@ -430,7 +553,7 @@ private:
 
     /// Evaluates globals as `main` finds them: their initialisers run first.
     void from_the_start() {
-        enter();
+        here_ = entered();
         for (NodeId part = tree_[0].first_child; part != k_no_node; part = tree_[part].next)
             if (tree_[part].kind == NodeKind::declaration)
                 for (const NodeId declared : tree_.children(part))
@@ -444,20 +567,24 @@ private:
                     if (summary.reads[i] != 0)
                         need(i, summary.reads[i], summary.places[i]);
         for (size_t i = 0; i < globals_; ++i)
-            variables_[i].read = summary_.places[i];
+            variables_[i].read = here_.summary.places[i];
     }
 
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
     const TreeFacts& facts_;
+    Shapes& shapes_;
     std::unordered_set<std::string_view> reached_; ///< functions that main calls, directly or indirectly
     bool whole_ = false;                           ///< the text has no main
-    std::vector<Loop> loops_;
-    State exits_;           ///< merged state of all returns so far
-    size_t parameters_ = 0; ///< first parameter in live_
-    bool returns_ = false;  ///< the function has a return statement
-    int calls_ = 0;         ///< current call depth
-    std::unordered_map<NodeId, Summary> summaries_;
-    Summary unfollowed_;
-    Assignment result_;
+    bool runs_ = true;                             ///< the current function is reached from main
+    std::vector<UnsetVariable> variables_{};
+    size_t globals_ = 0; ///< tracked ones
+    Scope outermost_{};
+    Inside here_{};
+    int calls_ = 0; ///< current call depth
+    std::unordered_map<NodeId, Summary> summaries_{};
+    Summary unfollowed_{};
+    Assignment result_{};
 };
 
 } // namespace

@@ -29,6 +29,66 @@ bool calls_function(const ParsedText& text, const TreeFacts& facts, NodeId id) {
     return text.tree()[id].kind == NodeKind::call && facts.function(called_name(text, id));
 }
 
+/// Cheaper operations are not tried: a driver needs no instruction for most of them.
+constexpr double k_least_work = 4;
+/// Shares of a loop's iterations that are tried.
+constexpr std::array k_parts{0.9, 0.75, 0.5, 0.25};
+constexpr double k_fewest_turns = 2;
+/// Coarser levels show in nearly any picture.
+constexpr int k_coarsest_level = 3;
+
+/// Returns the source tokens from one token to another, unless one of them comes from a macro.
+std::optional<WrittenTokens> between(const ParsedText& text, size_t first, size_t last) {
+    const auto& words = text.words();
+    for (size_t i = first; i <= last; ++i)
+        if (words[i].from_macro())
+            return std::nullopt;
+    if (text.spelled(first).file.empty() || text.spelled(first).file != text.spelled(last).file)
+        return std::nullopt;
+    return WrittenTokens{words[first].used, words[last].used};
+}
+
+/// Writes a number with four digits.
+std::string number_text(double value) {
+    return as_float(fmt::format("{:.4g}", value));
+}
+
+bool has_jump(const ParsedText& text, NodeId id) {
+    for (size_t i = text.tree()[id].begin; i < text.tree()[id].end; ++i)
+        for (const std::string_view word : {"return", "discard"})
+            if (text.word(i) == word)
+                return true;
+    return false;
+}
+
+/// Returns whether the call has a result that is needed: an `out` parameter, or an unknown function.
+bool gives_out(const ParsedText& text, const TreeFacts& facts, NodeId call) {
+    const FunctionFacts* const function = facts.function(called_name(text, call));
+    if (!function)
+        return true;
+    for (const NodeId definition : function->definitions)
+        for (const NodeId part : text.tree().children(definition))
+            if (text.tree()[part].kind == NodeKind::parameter &&
+                has_qualifier(text, text.tree().child(part, 0), "out"))
+                return true;
+    return false;
+}
+
+/// Returns whether the statement updates something that exists without it: `x += y`, `f(x)`.
+bool may_be_left_out(const ParsedText& text, const TreeFacts& facts, NodeId expression) {
+    const NodeKind kind = text.tree()[expression].kind;
+    if (kind == NodeKind::assign)
+        return text.word_of(expression) != "=";
+    return kind == NodeKind::call && !gives_out(text, facts, expression);
+}
+
+std::string in_short(std::string words) {
+    constexpr size_t k_longest = 60;
+    if (words.size() > k_longest)
+        words = words.substr(0, k_longest - 3) + "...";
+    return words;
+}
+
 } // namespace
 
 WorkEstimate::WorkEstimate(const ParsedText& text, const TreeFacts& facts)
@@ -98,70 +158,6 @@ void WorkEstimate::count_times() {
         in_all[id] = times_[id] * calls_of(tree_.around(id, NodeKind::function));
     times_ = std::move(in_all);
 }
-
-namespace {
-
-/// Cheaper operations are not tried: a driver needs no instruction for most of them.
-constexpr double k_least_work = 4;
-/// Shares of a loop's iterations that are tried.
-constexpr std::array k_parts{0.9, 0.75, 0.5, 0.25};
-constexpr double k_fewest_turns = 2;
-/// Coarser levels show in nearly any picture.
-constexpr int k_coarsest_level = 3;
-
-/// Returns the source tokens from one token to another, unless one of them comes from a macro.
-std::optional<WrittenTokens> between(const ParsedText& text, size_t first, size_t last) {
-    const auto& words = text.words();
-    for (size_t i = first; i <= last; ++i)
-        if (words[i].from_macro())
-            return std::nullopt;
-    if (text.spelled(first).file.empty() || text.spelled(first).file != text.spelled(last).file)
-        return std::nullopt;
-    return WrittenTokens{words[first].used, words[last].used};
-}
-
-/// Writes a number with four digits.
-std::string number_text(double value) {
-    return as_float(fmt::format("{:.4g}", value));
-}
-
-bool has_jump(const ParsedText& text, NodeId id) {
-    for (size_t i = text.tree()[id].begin; i < text.tree()[id].end; ++i)
-        for (const std::string_view word : {"return", "discard"})
-            if (text.word(i) == word)
-                return true;
-    return false;
-}
-
-/// Returns whether the call has a result that is needed: an `out` parameter, or an unknown function.
-bool gives_out(const ParsedText& text, const TreeFacts& facts, NodeId call) {
-    const FunctionFacts* const function = facts.function(called_name(text, call));
-    if (!function)
-        return true;
-    for (const NodeId definition : function->definitions)
-        for (const NodeId part : text.tree().children(definition))
-            if (text.tree()[part].kind == NodeKind::parameter &&
-                has_qualifier(text, text.tree().child(part, 0), "out"))
-                return true;
-    return false;
-}
-
-/// Returns whether the statement updates something that exists without it: `x += y`, `f(x)`.
-bool may_be_left_out(const ParsedText& text, const TreeFacts& facts, NodeId expression) {
-    const NodeKind kind = text.tree()[expression].kind;
-    if (kind == NodeKind::assign)
-        return text.word_of(expression) != "=";
-    return kind == NodeKind::call && !gives_out(text, facts, expression);
-}
-
-std::string in_short(std::string words) {
-    constexpr size_t k_longest = 60;
-    if (words.size() > k_longest)
-        words = words.substr(0, k_longest - 3) + "...";
-    return words;
-}
-
-} // namespace
 
 Cutter::Cutter(const ParsedText& text, const TreeFacts& facts)
     : text_(text), tree_(text.tree()), facts_(facts), work_(text, facts), kept_(tree_.nodes.size()) {

@@ -134,24 +134,6 @@ std::optional<LoopBound> bound_in(const ParsedText& text, NodeId condition, Node
     return left ? left : bound_in(text, tree.child(condition, 1), loop);
 }
 
-} // namespace
-
-NodeId loop_condition(const ParsedText& text, NodeId loop) {
-    const SyntaxTree& tree = text.tree();
-    const size_t index = tree[loop].kind == NodeKind::loop_while ? 0 : 1;
-    const NodeId condition = tree.child(loop, index);
-    return condition != k_no_node && tree[condition].kind == NodeKind::absent ? k_no_node : condition;
-}
-
-std::optional<LoopBound> loop_bound(const ParsedText& text, NodeId loop) {
-    const NodeId condition = loop_condition(text, loop);
-    if (condition == k_no_node)
-        return std::nullopt;
-    return bound_in(text, condition, loop);
-}
-
-namespace {
-
 /// Loops with more iterations are not simulated; drivers cancel them earlier.
 constexpr double k_most_turns = 1e6;
 /// Tolerance for a quotient of two literals, for the rounding in double: within it the quotient is a whole
@@ -170,6 +152,44 @@ std::optional<double> number_at(const ParsedText& text, NodeId id) {
 
 bool is_name(const ParsedText& text, NodeId id, std::string_view name) {
     return text.tree()[id].kind == NodeKind::name && text.word_of(id) == name;
+}
+
+/// `i < N` of a loop that begins with `int i = A`.
+struct Head {
+    std::string_view counter;
+    NodeId start = k_no_node;
+    std::string_view comparison;
+    NodeId bound = k_no_node;
+};
+
+std::optional<Head> head_of(const ParsedText& text, NodeId loop) {
+    const SyntaxTree& tree = text.tree();
+    Head head;
+    NodeId first = tree.child(loop, 0);
+    if (tree[first].kind == NodeKind::declaration && tree.child_count(first) == 2) {
+        first = tree.child(first, 1);
+        head.start = tree.child(first, 0);
+        if (head.start == k_no_node || is_bracket(text, head.start))
+            return std::nullopt;
+    } else if (tree[first].kind == NodeKind::expression && tree.child_count(first) == 1) {
+        first = tree.child(first, 0);
+        if (tree[first].kind != NodeKind::assign || text.word_of(first) != "=" ||
+            tree[tree.child(first, 0)].kind != NodeKind::name)
+            return std::nullopt;
+        head.start = tree.child(first, 1);
+        first = tree.child(first, 0);
+    } else {
+        return std::nullopt;
+    }
+    head.counter = text.word_of(first);
+    const NodeId condition = tree.child(loop, 1);
+    const NodeId left = tree.child(condition, 0);
+    if (tree[condition].kind != NodeKind::binary || tree[left].kind != NodeKind::name ||
+        text.word_of(left) != head.counter)
+        return std::nullopt;
+    head.comparison = text.word_of(condition);
+    head.bound = tree.child(condition, 1);
+    return head;
 }
 
 struct Numbers {
@@ -213,50 +233,24 @@ bool is_set_in(const ParsedText& text, const TreeFacts& facts, NodeId body, std:
 std::optional<FloatCounter> counter_of(const ParsedText& text, const TreeFacts& facts, NodeId loop,
                                        Numbers& numbers) {
     const SyntaxTree& tree = text.tree();
-    const NodeId head = tree.child(loop, 0), test = tree.child(loop, 1), change = tree.child(loop, 2);
-    if (tree[head].kind != NodeKind::declaration || tree.child_count(head) != 2 ||
-        type_name(text, tree.child(head, 0)) != "float" || tree[test].kind != NodeKind::binary ||
-        tree[change].kind != NodeKind::assign)
+    const auto head = head_of(text, loop);
+    const NodeId declaration = tree.child(loop, 0), change = tree.child(loop, 2);
+    if (!head || tree[declaration].kind != NodeKind::declaration ||
+        type_name(text, tree.child(declaration, 0)) != "float" || tree[change].kind != NodeKind::assign)
         return std::nullopt;
-    const NodeId declared = tree.child(head, 1);
-    if (tree.child_count(declared) != 1 || is_bracket(text, tree.child(declared, 0)))
-        return std::nullopt;
-    FloatCounter counter{loop, text.word_of(declared), tree.child(declared, 0), tree.child(change, 1)};
-    const std::string_view op = text.word_of(test), by = text.word_of(change);
+    FloatCounter counter{loop, head->counter, head->start, tree.child(change, 1)};
+    const std::string_view op = head->comparison, by = text.word_of(change);
     counter.down = by == "-=";
-    const auto first = number_at(text, counter.first), last = number_at(text, tree.child(test, 1)),
+    const auto first = number_at(text, counter.first), last = number_at(text, head->bound),
                step = number_at(text, counter.step);
     const bool up = op == "<" || op == "<=";
-    if (!is_name(text, tree.child(test, 0), counter.name) ||
-        !is_name(text, tree.child(change, 0), counter.name) || (!up && op != ">" && op != ">=") ||
+    if (!is_name(text, tree.child(change, 0), counter.name) || (!up && op != ">" && op != ">=") ||
         (by != "+=" && by != "-=") || !first || !last || !step ||
         is_set_in(text, facts, tree.child(loop, 3), counter.name))
         return std::nullopt;
     numbers = {*first, *last, counter.down ? -*step : *step, op.ends_with('=')};
     return numbers.step != 0 && (numbers.step > 0) == up ? std::optional(counter) : std::nullopt;
 }
-
-} // namespace
-
-std::vector<FloatCounter> miscounting_loops(const ParsedText& text, const TreeFacts& facts) {
-    const SyntaxTree& tree = text.tree();
-    std::vector<FloatCounter> found;
-    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
-        Numbers numbers;
-        auto counter = tree[id].kind == NodeKind::loop_for && tree.child_count(id) == 4
-                           ? counter_of(text, facts, id, numbers)
-                           : std::nullopt;
-        if (!counter)
-            continue;
-        counter->turns = float_turns(numbers);
-        counter->exact_turns = exact_turns(numbers);
-        if (counter->turns != counter->exact_turns && counter->exact_turns <= k_most_turns)
-            found.push_back(*counter);
-    }
-    return found;
-}
-
-namespace {
 
 constexpr int k_deepest_value = 20;
 
@@ -296,44 +290,6 @@ std::optional<double> value_of(const ParsedText& text, const Shapes& shapes, Nod
     }
 }
 
-/// `i < N` of a loop that begins with `int i = A`.
-struct Head {
-    std::string_view counter;
-    NodeId start = k_no_node;
-    std::string_view comparison;
-    NodeId bound = k_no_node;
-};
-
-std::optional<Head> head_of(const ParsedText& text, NodeId loop) {
-    const SyntaxTree& tree = text.tree();
-    Head head;
-    NodeId first = tree.child(loop, 0);
-    if (tree[first].kind == NodeKind::declaration && tree.child_count(first) == 2) {
-        first = tree.child(first, 1);
-        head.start = tree.child(first, 0);
-        if (head.start == k_no_node || is_bracket(text, head.start))
-            return std::nullopt;
-    } else if (tree[first].kind == NodeKind::expression && tree.child_count(first) == 1) {
-        first = tree.child(first, 0);
-        if (tree[first].kind != NodeKind::assign || text.word_of(first) != "=" ||
-            tree[tree.child(first, 0)].kind != NodeKind::name)
-            return std::nullopt;
-        head.start = tree.child(first, 1);
-        first = tree.child(first, 0);
-    } else {
-        return std::nullopt;
-    }
-    head.counter = text.word_of(first);
-    const NodeId condition = tree.child(loop, 1);
-    const NodeId left = tree.child(condition, 0);
-    if (tree[condition].kind != NodeKind::binary || tree[left].kind != NodeKind::name ||
-        text.word_of(left) != head.counter)
-        return std::nullopt;
-    head.comparison = text.word_of(condition);
-    head.bound = tree.child(condition, 1);
-    return head;
-}
-
 /// Checks for `++i`, `i++`, `i += 1`.
 bool counts_up(const ParsedText& text, NodeId step, std::string_view counter) {
     const SyntaxTree& tree = text.tree();
@@ -352,18 +308,7 @@ bool goes_straight(const ParsedText& text, const TreeFacts& facts, NodeId body, 
         for (const std::string_view leaves : {"break", "continue", "return", "discard"})
             if (text.word(i) == leaves)
                 return false;
-    // children come before their parents
-    for (NodeId id = body; id > 0 && tree[id].begin >= tree[body].begin; --id) {
-        if (is_change(text, id) && text.word_of(tree.child(id, 0)) == counter)
-            return false;
-        if (tree[id].kind != NodeKind::call)
-            continue;
-        size_t index = 0;
-        for (NodeId part = tree[tree.child(id, 0)].next; part != k_no_node; part = tree[part].next, ++index)
-            if (text.word_of(part) == counter && facts.writes_argument(called_name(text, id), index))
-                return false;
-    }
-    return true;
+    return !is_set_in(text, facts, body, counter);
 }
 
 /// Returns the arguments that a call writes, if its function has exactly one definition.
@@ -383,6 +328,38 @@ std::vector<NodeId> surely_written(const ParsedText& text, const TreeFacts& fact
 }
 
 } // namespace
+
+NodeId loop_condition(const ParsedText& text, NodeId loop) {
+    const SyntaxTree& tree = text.tree();
+    const size_t index = tree[loop].kind == NodeKind::loop_while ? 0 : 1;
+    const NodeId condition = tree.child(loop, index);
+    return condition != k_no_node && tree[condition].kind == NodeKind::absent ? k_no_node : condition;
+}
+
+std::optional<LoopBound> loop_bound(const ParsedText& text, NodeId loop) {
+    const NodeId condition = loop_condition(text, loop);
+    if (condition == k_no_node)
+        return std::nullopt;
+    return bound_in(text, condition, loop);
+}
+
+std::vector<FloatCounter> miscounting_loops(const ParsedText& text, const TreeFacts& facts) {
+    const SyntaxTree& tree = text.tree();
+    std::vector<FloatCounter> found;
+    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
+        Numbers numbers;
+        auto counter = tree[id].kind == NodeKind::loop_for && tree.child_count(id) == 4
+                           ? counter_of(text, facts, id, numbers)
+                           : std::nullopt;
+        if (!counter)
+            continue;
+        counter->turns = float_turns(numbers);
+        counter->exact_turns = exact_turns(numbers);
+        if (counter->turns != counter->exact_turns && counter->exact_turns <= k_most_turns)
+            found.push_back(*counter);
+    }
+    return found;
+}
 
 bool is_always_true(const ParsedText& text, NodeId condition) {
     const NodeKind kind = text.tree()[condition].kind;

@@ -1,5 +1,4 @@
-#include "shader/pass_cuts.hpp"
-
+#include "shader/cuts.hpp"
 #include "shader/parsed_text.hpp"
 #include "shader/uniform_expressions.hpp"
 
@@ -115,41 +114,7 @@ std::optional<Wrap> drawn_small(const ParsedText& text, NodeId main) {
                                colour, place));
 }
 
-} // namespace
-
-std::optional<Cut> half_size(std::span<const BufferReader> passes, size_t buffer, const WorkEstimate& work) {
-    const ParsedText& text = passes[buffer].text;
-    const NodeId main = find_main_image(text);
-    if (main == k_no_node || !passes[buffer].samplers.empty() || says(text, "gl_FragCoord") ||
-        says(text, "mainHit"))
-        return std::nullopt;
-    auto drawn = drawn_small(text, main);
-    if (!drawn)
-        return std::nullopt;
-    const SourceLocation where = text.used(text.tree()[main].begin);
-    Cut cut{{{*std::move(drawn)},
-             fmt::format("{}:{}: draws the buffer at half its width and height", where.file, where.line)},
-            work.of(body_of_function(text, main)) * k_saved,
-            true};
-    for (const BufferReader& reader : passes)
-        for (const BufferSampler& sampler : reader.samplers) {
-            auto wraps = LookUps(reader, sampler).run();
-            if (!wraps)
-                return std::nullopt;
-            std::ranges::move(*wraps, std::back_inserter(cut.change.wraps));
-        }
-    const std::set<std::string> shared = shared_files(passes);
-    const bool read = cut.change.wraps.size() > 1;
-    const bool own = std::ranges::none_of(
-        cut.change.wraps, [&](const Wrap& wrap) { return shared.contains(wrap.first.where.file); });
-    return read && own ? std::optional(std::move(cut)) : std::nullopt;
-}
-
-namespace {
-
 constexpr size_t k_longest = 160, k_most_values = 64;
-/// Depth to which local variables are replaced by their values.
-constexpr int k_longest_word_chain = 8;
 
 struct SharedValue {
     std::string type, name, words;
@@ -247,7 +212,10 @@ private:
     std::optional<std::string> said_in_main(NodeId id) {
         const auto [begin, end] = edits_.tokens_of(tree_[id].begin, tree_[id].end);
         const text::Token &first = text_.tokens()[begin], &last = text_.tokens()[end];
-        auto words = spelled(id, 0);
+        const auto is_parameter = [&](std::string_view name, bool member) {
+            return !member && std::ranges::count(parameters_, name) > 0;
+        };
+        auto words = expressions_.spelled(id, k_longest, is_parameter);
         if (!words || first.line != last.line || file_of(id) != file_of(main_))
             return std::nullopt;
         bool as_written = true;
@@ -258,39 +226,6 @@ private:
         }
         return as_written ? text_.source().text().substr(first.begin, last.end() - first.begin) : words;
     }
-    /// Returns the text of an expression with local variables replaced by their values.
-    std::optional<std::string> spelled(NodeId id, int depth) {
-        std::string words;
-        for (size_t i = tree_[id].begin; i < tree_[id].end; ++i) {
-            const Word& word = text_.words()[i];
-            const bool member = i > tree_[id].begin && text_.words()[i - 1].is(".");
-            const bool name = word.kind == text::TokenKind::identifier && !member;
-            const auto* const alias = name ? expressions_.alias(word.text) : nullptr;
-            const auto next = alias ? spelled(*alias, depth) : std::optional(std::string(word.text));
-            if (!next || words.size() > k_longest || (name && std::ranges::count(parameters_, word.text) > 0))
-                return std::nullopt;
-            const bool apart = !words.empty() && words.back() == ',';
-            const bool operation = i > tree_[id].begin && is_operation(i);
-            words += (apart || operation ? " " : "") + *next + (operation ? " " : "");
-        }
-        return words;
-    }
-    std::optional<std::string> spelled(const UniformExpressions::Alias& alias, int depth) {
-        const auto words = depth < k_longest_word_chain ? spelled(alias.value, depth + 1) : std::nullopt;
-        const auto value = expressions_.value(alias.value);
-        if (!words)
-            return std::nullopt;
-        return fmt::format("{}({})", value->type == alias.type ? "" : to_string(alias.type), *words);
-    }
-    /// Returns whether the token is an operator between two operands.
-    bool is_operation(size_t word) const {
-        const Word& before = text_.words()[word - 1];
-        const bool ends_value =
-            before.kind != text::TokenKind::punctuation || before.is(")") || before.is("]");
-        return ends_value && text_.words()[word].text.size() == 1 &&
-               std::string_view("+-*/").find(text_.words()[word].text) != std::string_view::npos;
-    }
-
     std::optional<Cut> cut() {
         std::string declarations, assignments;
         for (const SharedValue& value : values_) {
@@ -331,6 +266,34 @@ private:
 };
 
 } // namespace
+
+std::optional<Cut> half_size(std::span<const BufferReader> passes, size_t buffer, const WorkEstimate& work) {
+    const ParsedText& text = passes[buffer].text;
+    const NodeId main = find_main_image(text);
+    if (main == k_no_node || !passes[buffer].samplers.empty() || says(text, "gl_FragCoord") ||
+        says(text, "mainHit"))
+        return std::nullopt;
+    auto drawn = drawn_small(text, main);
+    if (!drawn)
+        return std::nullopt;
+    const SourceLocation where = text.used(text.tree()[main].begin);
+    Cut cut{{{*std::move(drawn)},
+             fmt::format("{}:{}: draws the buffer at half its width and height", where.file, where.line)},
+            work.of(body_of_function(text, main)) * k_saved,
+            true};
+    for (const BufferReader& reader : passes)
+        for (const BufferSampler& sampler : reader.samplers) {
+            auto wraps = LookUps(reader, sampler).run();
+            if (!wraps)
+                return std::nullopt;
+            std::ranges::move(*wraps, std::back_inserter(cut.change.wraps));
+        }
+    const std::set<std::string> shared = shared_files(passes);
+    const bool read = cut.change.wraps.size() > 1;
+    const bool own = std::ranges::none_of(
+        cut.change.wraps, [&](const Wrap& wrap) { return shared.contains(wrap.first.where.file); });
+    return read && own ? std::optional(std::move(cut)) : std::nullopt;
+}
 
 std::optional<Cut> once_a_pixel(const ParsedText& text, const TreeFacts& facts, const WorkEstimate& work) {
     return Finder(text, facts, work).run();

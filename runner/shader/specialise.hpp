@@ -1,6 +1,5 @@
-// Removes code that a program does not need: globals that `main` cannot reach, branches that the knobs'
-// values exclude, and work in loops that has one value per frame. Text in, text out; every line keeps its
-// number.
+// Removes code that a program does not need: globals that `main` cannot reach, and work in loops that has one
+// value per frame. Text in, text out; every line keeps its number.
 #pragma once
 
 #include "base/mapped_text.hpp"
@@ -15,23 +14,21 @@ namespace tidemark::glsl {
 enum class Specialise : unsigned char {
     nothing,
     unreachable, ///< functions, variables and structures: the driver compiles the rest to the same code
-    invariant_uniforms, ///< for knobs that do not change: also removes the branches that they exclude and
-                        ///< loop-invariant work. The language guarantees the same values; a driver that
-                        ///< reorders sums may round them differently
+    invariant_uniforms, ///< moves loop-invariant work out of loops. The language guarantees the same values;
+                        ///< a driver that reorders sums may round them differently
     constants ///< makes knobs constants, which the driver folds into its arithmetic: rounding differs
 };
 
 /// The changes made to a text.
 struct LeftOut {
     int lines = 0;                            ///< author's lines that are empty now
-    int branches = 0;                         ///< branches decided by knobs or constants
     int loop_invariants = 0;                  ///< expressions moved out of loops
     int constants = 0;                        ///< knobs made constant
     std::string kept_whole = "not asked for"; ///< the reason if nothing was done; otherwise empty
 
     bool anything() const { return kept_whole.empty(); }
     /// Returns whether a driver may round differently.
-    bool in_doubt() const { return branches + loop_invariants + constants > 0; }
+    bool in_doubt() const { return loop_invariants + constants > 0; }
 };
 
 struct Specialised {

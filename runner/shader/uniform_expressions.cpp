@@ -189,48 +189,12 @@ private:
     std::string assignments_;
 };
 
-} // namespace
+/// Longest chain of calls that is followed.
+constexpr int k_deepest_calls = 60;
+/// Longest chain of local variables whose values are local variables.
+constexpr int k_longest_alias_chain = 8;
 
-std::string assign_globals_in_main(const ParsedText& text) {
-    return ValueMover(text).run();
-}
-
-std::vector<Global> find_globals(const ParsedText& text) {
-    return ExpressionFinder(text).run();
-}
-
-std::vector<bool> find_reached(const ParsedText& text, const std::vector<Global>& globals,
-                               const std::vector<bool>& gone, const std::vector<bool>& kept) {
-    std::unordered_map<std::string_view, std::vector<size_t>> named;
-    std::vector<bool> reached = kept;
-    std::vector<size_t> open;
-    for (size_t i = 0; i < globals.size(); ++i) {
-        for (const std::string_view name : globals[i].names)
-            named[name].push_back(i);
-        if (reached[i])
-            open.push_back(i);
-    }
-    while (!open.empty()) {
-        const Node& node = text.tree()[globals[open.back()].node];
-        open.pop_back();
-        for (size_t i = node.begin; i < node.end; ++i) {
-            const Word& word = text.words()[i];
-            if (word.kind != text::TokenKind::identifier || (!gone.empty() && gone[i]))
-                continue;
-            const auto found = named.find(word.text);
-            if (found == named.end())
-                continue;
-            for (const size_t global : found->second)
-                if (!reached[global]) {
-                    reached[global] = true;
-                    open.push_back(global);
-                }
-            named.erase(found);
-        }
-    }
-    return reached;
-}
-
+/// Returns the variables that the nodes [first, last] declare, without members of structures.
 Variables find_variables(const ParsedText& text, NodeId first, NodeId last) {
     const SyntaxTree& tree = text.tree();
     Variables variables;
@@ -250,6 +214,7 @@ Variables find_variables(const ParsedText& text, NodeId first, NodeId last) {
     return variables;
 }
 
+/// Returns the variables of the outermost level, each with its last declaration there.
 Variables find_global_variables(const ParsedText& text, const std::vector<Global>& globals) {
     Variables variables;
     for (const Global& global : globals)
@@ -263,12 +228,45 @@ Variables find_global_variables(const ParsedText& text, const std::vector<Global
     return variables;
 }
 
-namespace {
-
-/// Longest chain of calls that is followed.
-constexpr int k_deepest_calls = 60;
-
 } // namespace
+
+std::string assign_globals_in_main(const ParsedText& text) {
+    return ValueMover(text).run();
+}
+
+std::vector<Global> find_globals(const ParsedText& text) {
+    return ExpressionFinder(text).run();
+}
+
+std::vector<bool> find_reached(const ParsedText& text, const std::vector<Global>& globals,
+                               const std::vector<bool>& kept) {
+    std::unordered_map<std::string_view, std::vector<size_t>> named;
+    std::vector<bool> reached = kept;
+    std::vector<size_t> open;
+    for (size_t i = 0; i < globals.size(); ++i) {
+        for (const std::string_view name : globals[i].names)
+            named[name].push_back(i);
+        if (reached[i])
+            open.push_back(i);
+    }
+    while (!open.empty()) {
+        const Node& node = text.tree()[globals[open.back()].node];
+        open.pop_back();
+        for (size_t i = node.begin; i < node.end; ++i) {
+            const Word& word = text.words()[i];
+            const auto found = word.kind == text::TokenKind::identifier ? named.find(word.text) : named.end();
+            if (found == named.end())
+                continue;
+            for (const size_t global : found->second)
+                if (!reached[global]) {
+                    reached[global] = true;
+                    open.push_back(global);
+                }
+            named.erase(found);
+        }
+    }
+    return reached;
+}
 
 UniformExpressions::UniformExpressions(const ParsedText& text, const std::vector<Global>& globals)
     : text_(text), tree_(text.tree()) {
@@ -319,6 +317,40 @@ auto UniformExpressions::value(NodeId expression) const -> Value {
 auto UniformExpressions::alias(std::string_view name) const -> const Alias* {
     const auto found = aliases_.find(name);
     return found == aliases_.end() ? nullptr : &found->second;
+}
+
+std::optional<std::string> UniformExpressions::spelled(NodeId id, size_t longest, const Refused& refused,
+                                                       int depth) const {
+    std::string words;
+    for (size_t i = tree_[id].begin; i < tree_[id].end; ++i) {
+        const Word& word = text_.words()[i];
+        const bool inside = i > tree_[id].begin;
+        const bool member = inside && text_.words()[i - 1].is(".");
+        const bool identifier = word.kind == text::TokenKind::identifier;
+        const Alias* const known = identifier && !member ? alias(word.text) : nullptr;
+        auto next = std::optional(std::string(word.text));
+        if (known)
+            next = depth < k_longest_alias_chain ? spelled(known->value, longest, refused, depth + 1)
+                                                 : std::nullopt;
+        if (!next || words.size() > longest || (identifier && refused(word.text, member)))
+            return std::nullopt;
+        if (known) // a whole number may become a float
+            next = fmt::format("{}({})",
+                               value(known->value)->type == known->type ? "" : to_string(known->type), *next);
+        const bool operation = inside && is_operation(i);
+        const bool sign = word.is("-") || word.is("+"); // `--` is another operator
+        const bool apart = operation || words.ends_with(',') || (sign && words.ends_with(word.text));
+        words += (apart ? " " : "") + *next + (operation ? " " : "");
+    }
+    return words;
+}
+
+/// Returns whether a token is an operator between two operands.
+bool UniformExpressions::is_operation(size_t word) const {
+    const Word& before = text_.words()[word - 1];
+    const bool ends_value = before.kind != text::TokenKind::punctuation || before.is(")") || before.is("]");
+    return ends_value && text_.words()[word].text.size() == 1 &&
+           std::string_view("+-*/").find(text_.words()[word].text) != std::string_view::npos;
 }
 
 bool UniformExpressions::writes_through_arguments(std::string_view name) const {

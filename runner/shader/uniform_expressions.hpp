@@ -5,6 +5,7 @@
 #include "shader/parsed_text.hpp"
 #include "shader/vocabulary.hpp"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,10 +28,9 @@ struct Global {
 /// Returns the globals in the order of the text.
 std::vector<Global> find_globals(const ParsedText& text);
 
-/// Returns for each global whether it is reached. `gone` tokens (empty: none) reach nothing; `kept` globals,
-/// in the order of `globals`, are always reached.
+/// Returns for each global whether it is reached; `kept` globals, in the order of `globals`, always are.
 std::vector<bool> find_reached(const ParsedText& text, const std::vector<Global>& globals,
-                               const std::vector<bool>& gone, const std::vector<bool>& kept);
+                               const std::vector<bool>& kept);
 
 /// A variable's declaration, and how often its name is declared (in several scopes).
 struct Variable {
@@ -39,12 +39,6 @@ struct Variable {
     unsigned times = 0;
 };
 using Variables = std::unordered_map<std::string_view, Variable>;
-
-/// Returns the variables that the nodes [first, last] declare, without members of structures.
-Variables find_variables(const ParsedText& text, NodeId first, NodeId last);
-
-/// Returns the variables of the outermost level, each with its last declaration there.
-Variables find_global_variables(const ParsedText& text, const std::vector<Global>& globals);
 
 /// Returns the text with the values of global variables assigned at the start of `main`: glslang 12 crashes
 /// when it writes debug information for a value outside of functions. If there is such a variable, macros are
@@ -84,6 +78,13 @@ public:
     };
     const Alias* alias(std::string_view name) const;
 
+    /// Decides by an identifier and whether it is a member or swizzle.
+    using Refused = std::function<bool(std::string_view, bool member)>;
+    /// Returns the text of an expression with local variables replaced by their values. Returns nothing if it
+    /// is longer than `longest` characters, or if `refused` accepts one of its identifiers.
+    std::optional<std::string> spelled(NodeId expression, size_t longest, const Refused& refused,
+                                       int depth = 0) const;
+
 private:
     using Value = std::optional<FrameValue>;
 
@@ -98,6 +99,7 @@ private:
     std::optional<PureFunction> examine(const Global& function) const;
     bool writes_through_arguments(std::string_view name) const;
     bool is_callee(NodeId name) const;
+    bool is_operation(size_t word) const;
 
     const ParsedText& text_;
     const SyntaxTree& tree_;

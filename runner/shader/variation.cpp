@@ -110,78 +110,6 @@ bool is_operation(const ParsedText& text, const TreeFacts& facts, NodeId id) {
     return text.tree()[id].kind != NodeKind::call && is_float_operation(text, facts, id);
 }
 
-} // namespace
-
-Variation vary_sines(const ParsedText& text, const TreeFacts& facts) {
-    const SyntaxTree& tree = text.tree();
-    const std::string prefix = fresh_prefix(text);
-    std::string prelude = spell(k_unit, prefix);
-    for (const std::string_view name : {"sin", "cos"})
-        prelude += spell(k_sine, prefix, name) + vector_overloads(name, prefix);
-    return vary(text, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
-        const auto name = tree[id].kind == NodeKind::call ? called_name(text, id) : std::string_view{};
-        if ((name != "sin" && name != "cos") || facts.function(name) || must_stay_constant(text, id))
-            return false;
-        edits.replace(tree[tree.child(id, 0)].word, prefix + std::string(name));
-        return true;
-    });
-}
-
-Variation vary_inputs(const ParsedText& text, const TreeFacts& facts) {
-    const std::string prefix = fresh_prefix(text);
-    const std::string prelude =
-        spell(k_unit, prefix) + spell(k_input, prefix) + vector_overloads("input", prefix);
-    return vary(text, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
-        const auto name = text.tree()[id].kind == NodeKind::name ? text.word_of(id) : std::string_view{};
-        if ((name != "iTime" && name != "iResolution" && name != "iMouse") || must_stay_constant(text, id))
-            return false;
-        const auto meanings = facts.names.find(name);
-        if (meanings == facts.names.end() || !meanings->second.uniform)
-            return false;
-        edits.wrap(id, prefix + "input(", ")");
-        return true;
-    });
-}
-
-Variation vary_rounding(const ParsedText& text, const TreeFacts& facts) {
-    return vary_results(text, k_lot, [&](NodeId id) {
-        if (is_operation(text, facts, id))
-            return text.word_of(id).front() == '/';
-        const std::string_view name =
-            text.tree()[id].kind == NodeKind::call ? called_name(text, id) : std::string_view{};
-        const BuiltinFunction* const builtin = facts.function(name) ? nullptr : find_builtin(name);
-        return builtin && builtin->is(Trait::inexact);
-    });
-}
-
-Variation vary_halves(const ParsedText& text, const TreeFacts& facts) {
-    const bool asked = std::ranges::any_of(
-        text.words(), [](const Word& word) { return word.text == "mediump" || word.text == "lowp"; });
-    if (!asked)
-        return {};
-    return vary_results(text, k_half, [&](NodeId id) { return is_operation(text, facts, id); });
-}
-
-Variation vary_precision(const ParsedText& text, const TreeFacts&) {
-    const SyntaxTree& tree = text.tree();
-    const std::string header = "#extension GL_ARB_gpu_shader5 : enable\n";
-    return vary(text, {}, header, [&](NodeId id, SourceRewriter& edits) {
-        if (tree[id].kind != NodeKind::declaration || tree.around(id, NodeKind::function) == k_no_node)
-            return false;
-        const NodeId type = tree.child(id, 0);
-        if (class_of_type(type_name(text, type)) != TypeClass::floating ||
-            has_qualifier(text, type, "const") || has_qualifier(text, type, "precise"))
-            return false;
-        edits.wrap(type, "precise ", "");
-        return true;
-    });
-}
-
-// Varies sums as other compilers write them: a product added with one rounding, and terms added from the
-// other end.
-
-namespace {
-
 // A product in a sum, `$sum($product(a,b),c)`, is passed in double: exact in mode 1, rounded in mode 0. The
 // driver selects the overload by type; those where nothing is contracted (whole numbers, products of
 // matrices) add and multiply as usual.
@@ -275,22 +203,12 @@ NodeId product_of(const ParsedText& text, const TreeFacts& facts, NodeId operand
 
 class Contraction {
 public:
-    Contraction(const ParsedText& text, const TreeFacts& facts)
-        : text_(text), tree_(text.tree()), facts_(facts), edits_(text), prefix_(fresh_prefix(text)) {}
+    Contraction(const ParsedText& text, const TreeFacts& facts, const std::string& prefix,
+                SourceRewriter& edits)
+        : text_(text), tree_(text.tree()), facts_(facts), prefix_(prefix), edits_(edits) {}
 
-    Variation run() {
-        Variation result{{}, prefix_ + "mode"};
-        for (NodeId id = 1; id < tree_.nodes.size(); ++id)
-            result.places += contracted(id) ? 1 : 0;
-        result.text = headers_with_buffers(text_) +
-                      "#extension GL_ARB_gpu_shader_fp64 : enable\n"
-                      "#extension GL_ARB_gpu_shader5 : enable\n" +
-                      spell(contraction_prelude(text_), prefix_) + edits_.text();
-        return result;
-    }
-
-private:
-    bool contracted(NodeId id) {
+    /// Returns whether the node was changed.
+    bool contract(NodeId id) {
         if (must_stay_constant(text_, id))
             return false;
         switch (tree_[id].kind) {
@@ -301,6 +219,7 @@ private:
         }
     }
 
+private:
     bool dot(NodeId id) {
         if (called_name(text_, id) != "dot" || facts_.function("dot"))
             return false;
@@ -350,8 +269,8 @@ private:
     const ParsedText& text_;
     const SyntaxTree& tree_;
     const TreeFacts& facts_;
-    SourceRewriter edits_;
-    std::string prefix_;
+    const std::string& prefix_;
+    SourceRewriter& edits_;
 };
 
 bool adds(const ParsedText& text, NodeId id) {
@@ -376,25 +295,95 @@ void reverse(const ParsedText& text, NodeId chain, SourceRewriter& edits) {
 
 } // namespace
 
+Variation vary_sines(const ParsedText& text, const TreeFacts& facts) {
+    const SyntaxTree& tree = text.tree();
+    const std::string prefix = fresh_prefix(text);
+    std::string prelude = spell(k_unit, prefix);
+    for (const std::string_view name : {"sin", "cos"})
+        prelude += spell(k_sine, prefix, name) + vector_overloads(name, prefix);
+    return vary(text, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
+        const auto name = tree[id].kind == NodeKind::call ? called_name(text, id) : std::string_view{};
+        if ((name != "sin" && name != "cos") || facts.function(name) || must_stay_constant(text, id))
+            return false;
+        edits.replace(tree[tree.child(id, 0)].word, prefix + std::string(name));
+        return true;
+    });
+}
+
+Variation vary_inputs(const ParsedText& text, const TreeFacts& facts) {
+    const std::string prefix = fresh_prefix(text);
+    const std::string prelude =
+        spell(k_unit, prefix) + spell(k_input, prefix) + vector_overloads("input", prefix);
+    return vary(text, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
+        const auto name = text.tree()[id].kind == NodeKind::name ? text.word_of(id) : std::string_view{};
+        if ((name != "iTime" && name != "iResolution" && name != "iMouse") || must_stay_constant(text, id))
+            return false;
+        const auto meanings = facts.names.find(name);
+        if (meanings == facts.names.end() || !meanings->second.uniform)
+            return false;
+        edits.wrap(id, prefix + "input(", ")");
+        return true;
+    });
+}
+
+Variation vary_rounding(const ParsedText& text, const TreeFacts& facts) {
+    return vary_results(text, k_lot, [&](NodeId id) {
+        if (is_operation(text, facts, id))
+            return text.word_of(id).front() == '/';
+        const std::string_view name =
+            text.tree()[id].kind == NodeKind::call ? called_name(text, id) : std::string_view{};
+        const BuiltinFunction* const builtin = facts.function(name) ? nullptr : find_builtin(name);
+        return builtin && builtin->is(Trait::inexact);
+    });
+}
+
+Variation vary_halves(const ParsedText& text, const TreeFacts& facts) {
+    const bool asked = std::ranges::any_of(
+        text.words(), [](const Word& word) { return word.text == "mediump" || word.text == "lowp"; });
+    if (!asked)
+        return {};
+    return vary_results(text, k_half, [&](NodeId id) { return is_operation(text, facts, id); });
+}
+
+Variation vary_precision(const ParsedText& text, const TreeFacts&) {
+    const SyntaxTree& tree = text.tree();
+    const std::string header = "#extension GL_ARB_gpu_shader5 : enable\n";
+    return vary(text, {}, header, [&](NodeId id, SourceRewriter& edits) {
+        if (tree[id].kind != NodeKind::declaration || tree.around(id, NodeKind::function) == k_no_node)
+            return false;
+        const NodeId type = tree.child(id, 0);
+        if (class_of_type(type_name(text, type)) != TypeClass::floating ||
+            has_qualifier(text, type, "const") || has_qualifier(text, type, "precise"))
+            return false;
+        edits.wrap(type, "precise ", "");
+        return true;
+    });
+}
+
+// Varies sums as other compilers write them: a product added with one rounding, and terms added from the
+// other end.
+
 Variation vary_contraction(const ParsedText& text, const TreeFacts& facts) {
-    return Contraction(text, facts).run();
+    const std::string prefix = fresh_prefix(text);
+    const std::string prelude = "#extension GL_ARB_gpu_shader_fp64 : enable\n"
+                                "#extension GL_ARB_gpu_shader5 : enable\n" +
+                                spell(contraction_prelude(text), prefix);
+    return vary(text, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
+        return Contraction(text, facts, prefix, edits).contract(id);
+    });
 }
 
 Variation vary_order(const ParsedText& text, const TreeFacts& facts) {
     const SyntaxTree& tree = text.tree();
-    Variation result;
-    SourceRewriter edits(text);
-    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
+    return vary(text, {}, {}, [&](NodeId id, SourceRewriter& edits) {
         const NodeId parent = tree[id].parent;
         const bool whole_chain = !adds(text, parent) || tree.child(parent, 0) != id;
         if (!adds(text, id) || !whole_chain || !adds(text, tree.child(id, 0)) || facts.surely_whole[id] ||
             must_stay_constant(text, id))
-            continue;
+            return false;
         reverse(text, id, edits);
-        ++result.places;
-    }
-    result.text = headers_with_buffers(text) + edits.text();
-    return result;
+        return true;
+    });
 }
 
 } // namespace tidemark::glsl

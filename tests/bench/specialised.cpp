@@ -72,11 +72,10 @@ std::vector<image::Image> everything(const render::Renderer& renderer) {
 }
 
 Json json_of(const render::Renderer& renderer) {
-    Json json = {{"lines", 0}, {"branches", 0}, {"hoisted", 0}, {"constants", 0}};
+    Json json = {{"lines", 0}, {"hoisted", 0}, {"constants", 0}};
     for (const render::PlannedPass& planned : renderer.plan().passes) {
         const glsl::LeftOut& left_out = renderer.left_out(planned.pass);
         json["lines"] = json["lines"].get<int>() + left_out.lines;
-        json["branches"] = json["branches"].get<int>() + left_out.branches;
         json["hoisted"] = json["hoisted"].get<int>() + left_out.loop_invariants;
         json["constants"] = json["constants"].get<int>() + left_out.constants;
         if (!left_out.anything())

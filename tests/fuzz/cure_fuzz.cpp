@@ -2,7 +2,7 @@
 // comes of it is a text that is read again.
 #include "fuzz.hpp"
 #include "shader/fixes.hpp"
-#include "shader/pass_cuts.hpp"
+#include "shader/cuts.hpp"
 #include "shader/undefined_behaviour.hpp"
 
 #include <iterator>

