@@ -37,7 +37,8 @@ private:
     Way last_ = Way::in_parts;
 };
 
-// What draws the frames: a Stage, or a test. FramePump decides when, and how much of a frame at a time.
+// The interface that frames are drawn through, by a Stage or a test. FramePump decides when, and how much of
+// a frame at a time.
 
 /// A part of a frame that the driver is drawing.
 struct DriverWork {
@@ -55,7 +56,8 @@ public:
     FrameParts& operator=(const FrameParts&) = delete;
     virtual ~FrameParts() = default;
 
-    /// Draws for `seconds`. Returns whether the frame is complete; fails when there is no memory for parts.
+    /// Draws for `seconds`. Returns whether the frame is complete; fails if the memory does not suffice for
+    /// parts.
     virtual Result<bool> draw_for(double seconds) = 0;
     /// Returns whether the frame, now complete, had a pass to draw.
     virtual bool drew_pass() const = 0;
@@ -143,8 +145,8 @@ public:
     std::optional<Made> begin(FrameMaker& maker, const render::FrameState& state,
                               const render::FrameInputs& inputs, bool wanted, double now,
                               std::vector<render::PassTimer>* timers = nullptr);
-    /// Draws further parts. Returns the frame if it is complete; fails if there is no memory for parts, and
-    /// draws frames whole from then on.
+    /// Draws further parts. Returns the frame if it is complete; fails if the memory does not suffice for
+    /// parts, and draws frames whole from then on.
     Result<std::optional<Made>> advance();
     /// Cancels the frame or the seek in progress. Returns whether it was a frame, whose number is free again.
     bool cancel();

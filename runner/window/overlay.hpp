@@ -36,8 +36,8 @@ std::vector<std::string> editor_words(std::string_view editor, const SourceLocat
 /// Opens $VISUAL, else $EDITOR. Fails (ErrorCode::usage) if neither is set or it does not start.
 Result<void> open_editor(const SourceLocation& where);
 
-// What the panels over the picture show and edit, apart from the picture and its time. The window carries the
-// panels' commands out.
+// The contents of the panels over the picture, apart from the picture and its time. The window carries out
+// the panels' commands.
 
 /// Returns the scene's knobs with their current values: the defaults after `turned`.
 std::vector<live::KnobField> knob_fields(const scene::Scene& scene,

@@ -25,8 +25,8 @@ struct KeptPicture {
 
 class Recorder {
 public:
-    /// What drives the scene: the user alone, the user's input as it is recorded (so that a replay shows the
-    /// same pictures), or a given recording.
+    /// The source of the scene's input: the user, the recording in progress (so that a replay shows the same
+    /// pictures), or a given recording.
     enum class Mode { live, recording, replaying };
 
     /// `file`: for the user's input; empty: it is not recorded. `script`: to be replayed; excludes `file`.

@@ -48,8 +48,8 @@ public:
     bool by_frames() const { return source_ == Source::frames; }
 
     void set_loop(const live::SetLoop& loop) { loop_ = loop; }
-    /// Returns the time to seek to because iTime has passed the loop's end; nothing if it has not, or if
-    /// there is no loop.
+    /// Returns the time to seek to because iTime has passed the loop's end; nothing before that, or without a
+    /// loop.
     std::optional<double> loop_jump(double now) const;
 
     /// Excludes a break between frames from the next iTimeDelta.
