@@ -85,7 +85,7 @@ namespace {
 constexpr int k_largest_window = 32767;
 
 struct ViewOptions : ViewerOptions {
-    std::optional<render::RenderScale> scale;
+    std::optional<RenderScale> scale;
     std::optional<double> adaptive;
     bool plain = false;
     bool fresh = false;
@@ -108,10 +108,10 @@ std::optional<Remembered> left_before(const ViewOptions& options, bool sized, Fr
     return state;
 }
 
-render::RenderScale first_scale(const ViewOptions& options, const std::optional<Remembered>& left) {
+RenderScale first_scale(const ViewOptions& options, const std::optional<Remembered>& left) {
     if (options.scale)
         return *options.scale;
-    return left && left->scale ? *left->scale : render::RenderScale();
+    return left && left->scale ? *left->scale : RenderScale();
 }
 
 /// Returns the learned MIDI bindings, which also apply while recording and with --fresh.
@@ -152,12 +152,12 @@ Result<int> view(const ViewOptions& options) {
 
 void add_scale_options(Command command, ViewOptions& options) {
     std::vector<std::string> names;
-    for (const render::RenderScale scale : render::RenderScale::all())
+    for (const RenderScale scale : RenderScale::all())
         names.push_back(scale.name());
     command
         .add_option(
             "--scale",
-            [&options](const std::string& name) { options.scale = render::RenderScale::named(name); },
+            [&options](const std::string& name) { options.scale = RenderScale::named(name); },
             "Initial render scale: rendered pixels per window pixel, along a side [1]")
         .type_name(fmt::format("{}", fmt::join(names, "|")))
         .check(one_of(names));

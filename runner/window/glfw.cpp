@@ -83,57 +83,6 @@ std::string words_on_monitors() {
     return words.empty() ? "there is no monitor" : fmt::format("{}", fmt::join(words, ", "));
 }
 
-} // namespace
-
-ScreenArea place_of(GLFWwindow* window) {
-    ScreenArea place;
-    glfwGetWindowPos(window, &place.x, &place.y);
-    glfwGetWindowSize(window, &place.width, &place.height);
-    return place;
-}
-
-Monitor monitor_under(const ScreenArea& window) {
-    const std::vector<Monitor> monitors = all_monitors();
-    const auto area = [&](const Monitor& monitor) { return common_area(window, monitor.place); };
-    const auto most = std::ranges::max_element(monitors, {}, area);
-    return most == monitors.end() ? Monitor() : *most;
-}
-
-Result<Monitor> monitor_numbered(int number, const char* option) {
-    const std::vector<Monitor> monitors = all_monitors();
-    if (number >= 1 && size_t(number) <= monitors.size())
-        return monitors[size_t(number) - 1];
-    return fail(ErrorCode::usage,
-                fmt::format("{} {}: there is no such monitor: {}", option, number, words_on_monitors()));
-}
-
-Result<void> move_to_wished(GLFWwindow* window, const WindowWishes& wishes) {
-    ScreenArea place = place_of(window);
-    const auto move = [&] { glfwSetWindowPos(window, place.x, place.y); };
-    if (wishes.monitor)
-        place = centred(place, TRY(monitor_numbered(*wishes.monitor, "--monitor")).place);
-    if (const auto& corner = wishes.position) {
-        const ScreenArea from =
-            wishes.monitor ? TRY(monitor_numbered(*wishes.monitor, "--monitor")).place : ScreenArea();
-        place.x = from.x + corner->x;
-        place.y = from.y + corner->y;
-        if (!is_shown(place))
-            return fail(ErrorCode::usage, fmt::format("--position {},{}: no monitor shows that place: {}",
-                                                      corner->x, corner->y, words_on_monitors()));
-    }
-    if (wishes.monitor || wishes.position) {
-        move();
-    } else if (wishes.left_at) { // the monitor of last time may be gone
-        place.x = wishes.left_at->x;
-        place.y = wishes.left_at->y;
-        if (is_shown(place))
-            move();
-    }
-    return {};
-}
-
-namespace {
-
 struct KeyPair {
     int glfw;
     Key key;
@@ -224,6 +173,53 @@ Key key_from_name(const char* name) {
 }
 
 } // namespace
+
+ScreenArea place_of(GLFWwindow* window) {
+    ScreenArea place;
+    glfwGetWindowPos(window, &place.x, &place.y);
+    glfwGetWindowSize(window, &place.width, &place.height);
+    return place;
+}
+
+Monitor monitor_under(const ScreenArea& window) {
+    const std::vector<Monitor> monitors = all_monitors();
+    const auto area = [&](const Monitor& monitor) { return common_area(window, monitor.place); };
+    const auto most = std::ranges::max_element(monitors, {}, area);
+    return most == monitors.end() ? Monitor() : *most;
+}
+
+Result<Monitor> monitor_numbered(int number, const char* option) {
+    const std::vector<Monitor> monitors = all_monitors();
+    if (number >= 1 && size_t(number) <= monitors.size())
+        return monitors[size_t(number) - 1];
+    return fail(ErrorCode::usage,
+                fmt::format("{} {}: there is no such monitor: {}", option, number, words_on_monitors()));
+}
+
+Result<void> move_to_wished(GLFWwindow* window, const WindowWishes& wishes) {
+    ScreenArea place = place_of(window);
+    const auto move = [&] { glfwSetWindowPos(window, place.x, place.y); };
+    if (wishes.monitor)
+        place = centred(place, TRY(monitor_numbered(*wishes.monitor, "--monitor")).place);
+    if (const auto& corner = wishes.position) {
+        const ScreenArea from =
+            wishes.monitor ? TRY(monitor_numbered(*wishes.monitor, "--monitor")).place : ScreenArea();
+        place.x = from.x + corner->x;
+        place.y = from.y + corner->y;
+        if (!is_shown(place))
+            return fail(ErrorCode::usage, fmt::format("--position {},{}: no monitor shows that place: {}",
+                                                      corner->x, corner->y, words_on_monitors()));
+    }
+    if (wishes.monitor || wishes.position) {
+        move();
+    } else if (wishes.left_at) { // the monitor of last time may be gone
+        place.x = wishes.left_at->x;
+        place.y = wishes.left_at->y;
+        if (is_shown(place))
+            move();
+    }
+    return {};
+}
 
 Key key_from_glfw(int glfw_key, const char* key_name) {
     if (!is_keypad(glfw_key))

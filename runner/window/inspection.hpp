@@ -3,9 +3,6 @@
 #pragma once
 
 #include "base/error.hpp"
-#include "host/input_events.hpp"
-#include "host/overlay_fields.hpp"
-#include "render/buffer_views.hpp"
 #include "render/renderer.hpp"
 
 #include <atomic>
@@ -39,54 +36,6 @@ private:
     std::map<size_t, double> milliseconds_;
     std::optional<double> frame_before_;
     std::optional<double> in_parts_; ///< of a frame drawn in parts, for the next call of next_frame
-};
-
-// The textures that passes draw and read, as flat pictures for the overlay: cubes unfolded, a slice of a
-// volume, the large one with its view settings. Draws no pass; does nothing while the controls are hidden.
-
-/// The pictures of one Renderer, in its context.
-class PictureViews {
-public:
-    /// The large picture and its view settings, into which the automatic exposure is written.
-    struct Large {
-        std::optional<size_t> index{}; ///< index into `fields`; beyond the end: none
-        live::LookField look{};
-        Extent window{};
-    };
-
-    /// Returns the outputs of passes, then their inputs. `floats` and `inputs` give the shown pass in floats.
-    std::vector<live::PictureField> fields(const render::Renderer& renderer, const PassCosts& costs,
-                                           Large& large, render::ShownFloats& floats,
-                                           const render::FrameInputs& inputs);
-
-private:
-    const gl::Texture* flat(const gl::Texture& picture, int face, std::optional<int> slice);
-    const gl::Texture& looked_at(const gl::Texture& picture, live::LookField& look);
-
-    std::map<GLuint, render::FlatView> flat_{}; ///< views of the textures that are not flat
-    std::optional<render::PictureLook> look_{};
-};
-
-// The magnifier of the window. Reads the pixels around the pointer, only while it is open.
-
-class Magnifier {
-public:
-    void toggle() { open_ = !open_; }
-    bool is_open() const { return open_; }
-    /// Follows the pointer. Returns whether the magnifier must be shown again.
-    bool follow(const platform::InputEvent& event);
-
-    /// Returns the pixel under the pointer, for a picture that fills the window.
-    Rectangle pixel(Extent picture, Extent window) const;
-    /// Returns the magnifier of the frame on show, which was drawn with `inputs`. Returns nothing while it is
-    /// closed or the pointer is outside the window.
-    std::optional<live::MagnifierField> field(const render::Renderer& renderer,
-                                              const render::FrameInputs& inputs, Extent window,
-                                              render::ShownFloats& floats) const;
-
-private:
-    bool open_ = false;
-    platform::PointerPosition pointer_{};
 };
 
 // Checks at intervals whether all pixels on show are finite. After it has found one that is not, it stops

@@ -15,6 +15,7 @@
 #include <ctime>
 
 namespace tidemark::cli {
+namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view k_set = "--set";
@@ -30,6 +31,35 @@ bool is_edited(const HeldValue& held, const std::vector<HeldValue>& before) {
 bool names(std::string_view setting, std::string_view name) {
     const auto split = scene::split_setting(setting, k_set);
     return split && split->first == name;
+}
+
+/// Time in which a scene that does not load may still be half saved. It is longer than an editor's pause
+/// between two writes, and short for a person.
+constexpr double k_half_written_seconds = 0.06;
+
+/// The kernel's tick, which is the resolution of file times.
+constexpr double k_tick_seconds = 0.02;
+
+double seconds_of(const timespec& time) {
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
+double file_clock_seconds() {
+    timespec now{};
+    ::clock_gettime(CLOCK_REALTIME, &now);
+    return seconds_of(now);
+}
+
+/// Returns whether the file was written, or moved into place, since `file_clock` or up to one tick before.
+bool touched_since(const fs::path& file, double file_clock) {
+    struct stat status {};
+    return ::stat(file.c_str(), &status) == 0 && seconds_of(status.st_ctim) >= file_clock - k_tick_seconds;
+}
+
+/// Returns whether saving a file cannot fix the error.
+bool is_final(const Error& error) {
+    return error.code == ErrorCode::usage || error.code == ErrorCode::no_memory ||
+           error.code == ErrorCode::no_context;
 }
 
 } // namespace
@@ -86,40 +116,6 @@ std::vector<std::string> edits_of_turned(const std::vector<scene::Knob>& before,
     }
     return lines;
 }
-
-namespace fs = std::filesystem;
-namespace {
-
-/// Time in which a scene that does not load may still be half saved. It is longer than an editor's pause
-/// between two writes, and short for a person.
-constexpr double k_half_written_seconds = 0.06;
-
-/// The kernel's tick, which is the resolution of file times.
-constexpr double k_tick_seconds = 0.02;
-
-double seconds_of(const timespec& time) {
-    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
-}
-
-double file_clock_seconds() {
-    timespec now{};
-    ::clock_gettime(CLOCK_REALTIME, &now);
-    return seconds_of(now);
-}
-
-/// Returns whether the file was written, or moved into place, since `file_clock` or up to one tick before.
-bool touched_since(const fs::path& file, double file_clock) {
-    struct stat status {};
-    return ::stat(file.c_str(), &status) == 0 && seconds_of(status.st_ctim) >= file_clock - k_tick_seconds;
-}
-
-/// Returns whether saving a file cannot fix the error.
-bool is_final(const Error& error) {
-    return error.code == ErrorCode::usage || error.code == ErrorCode::no_memory ||
-           error.code == ErrorCode::no_context;
-}
-
-} // namespace
 
 LiveScene::LiveScene(SceneRequest request, platform::FileWatcher watcher, const std::function<void()>& wake)
     : request_(std::move(request)), watcher_(std::move(watcher)), builder_(wake) {

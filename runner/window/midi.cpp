@@ -37,6 +37,11 @@ namespace {
 constexpr const char* k_sequencer = "/dev/snd/seq";
 constexpr unsigned k_queue = 1; ///< messages; not used, since a callback receives them
 
+constexpr int k_status = 0x80;          ///< bytes from here on are status bytes, below are data
+constexpr int k_control_change = 0xB0;  ///< to 0xBF, by channel
+constexpr int k_real_time = 0xF8;       ///< real-time messages from here on may interrupt another message
+constexpr int k_channel_messages = 120; ///< from here on: channel modes such as "all notes off"
+
 /// The librtmidi functions that are used.
 struct MidiLibrary {
     decltype(&rtmidi_in_create) create = nullptr;
@@ -118,15 +123,6 @@ Result<std::unique_ptr<MidiPort>> MidiPort::open(std::string_view name, Inbox& i
         return cannot_listen("'{}' cannot be opened", *found);
     return std::unique_ptr<MidiPort>(new MidiPort(std::move(device)));
 }
-
-namespace {
-
-constexpr int k_status = 0x80;          ///< bytes from here on are status bytes, below are data
-constexpr int k_control_change = 0xB0;  ///< to 0xBF, by channel
-constexpr int k_real_time = 0xF8;       ///< real-time messages from here on may interrupt another message
-constexpr int k_channel_messages = 120; ///< from here on: channel modes such as "all notes off"
-
-} // namespace
 
 std::vector<ControlChange> MidiParser::parse(std::string_view bytes) {
     std::vector<ControlChange> changes;

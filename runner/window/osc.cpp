@@ -53,40 +53,6 @@ std::string bound_address(int descriptor) {
     return fmt::format("{}:{}", host.data(), port.data());
 }
 
-} // namespace
-
-Result<OscAddress> parse_osc_address(std::string_view text) {
-    const size_t colon = text.rfind(':');
-    const std::string_view port = colon == text.npos ? text : text.substr(colon + 1);
-    std::string_view host = colon == text.npos ? k_loopback : text.substr(0, colon);
-    if (host.starts_with('[') && host.ends_with(']'))
-        host = host.substr(1, host.size() - 2);
-    if (host.empty() || !is_port(port))
-        return fail(
-            ErrorCode::usage,
-            fmt::format("--osc {}: give a port, as in --osc 9000, or an address to listen at with it, "
-                        "as in --osc 0.0.0.0:9000",
-                        text));
-    return OscAddress{std::string(host), std::string(port)};
-}
-
-Result<OscSocket> open_osc_socket(const OscAddress& address) {
-    addrinfo wanted{};
-    wanted.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
-    wanted.ai_socktype = SOCK_DGRAM;
-    addrinfo* first = nullptr;
-    if (const int error = ::getaddrinfo(address.host.c_str(), address.port.c_str(), &wanted, &first))
-        return refuse(address, ::gai_strerror(error));
-    const Found found(first, ::freeaddrinfo);
-    Descriptor socket(::socket(found->ai_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-    if (socket.get() < 0 || ::bind(socket.get(), found->ai_addr, found->ai_addrlen) != 0)
-        return refuse(address, std::strerror(errno));
-    std::string bound = bound_address(socket.get());
-    return OscSocket{socket.release(), std::move(bound)};
-}
-
-namespace {
-
 constexpr std::string_view k_bundle("#bundle\0", 8);
 constexpr size_t k_time_tag = 8;     ///< bytes
 constexpr size_t k_element_size = 4; ///< bytes
@@ -203,19 +169,6 @@ Result<void> parse_into(std::vector<OscMessage>& messages, const OscLibrary& lib
     return {};
 }
 
-} // namespace
-
-Result<std::vector<OscMessage>> parse_osc(std::string_view packet) {
-    const auto& liblo = osc_library();
-    if (!liblo)
-        return fail(liblo.error());
-    std::vector<OscMessage> messages;
-    TRY(parse_into(messages, *liblo, packet));
-    return messages;
-}
-
-namespace {
-
 constexpr std::string_view k_knob = "/knob/";
 
 template <class... Words>
@@ -320,6 +273,45 @@ Result<Command> play(const OscMessage& message) {
 }
 
 } // namespace
+
+Result<OscAddress> parse_osc_address(std::string_view text) {
+    const size_t colon = text.rfind(':');
+    const std::string_view port = colon == text.npos ? text : text.substr(colon + 1);
+    std::string_view host = colon == text.npos ? k_loopback : text.substr(0, colon);
+    if (host.starts_with('[') && host.ends_with(']'))
+        host = host.substr(1, host.size() - 2);
+    if (host.empty() || !is_port(port))
+        return fail(
+            ErrorCode::usage,
+            fmt::format("--osc {}: give a port, as in --osc 9000, or an address to listen at with it, "
+                        "as in --osc 0.0.0.0:9000",
+                        text));
+    return OscAddress{std::string(host), std::string(port)};
+}
+
+Result<OscSocket> open_osc_socket(const OscAddress& address) {
+    addrinfo wanted{};
+    wanted.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
+    wanted.ai_socktype = SOCK_DGRAM;
+    addrinfo* first = nullptr;
+    if (const int error = ::getaddrinfo(address.host.c_str(), address.port.c_str(), &wanted, &first))
+        return refuse(address, ::gai_strerror(error));
+    const Found found(first, ::freeaddrinfo);
+    Descriptor socket(::socket(found->ai_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+    if (socket.get() < 0 || ::bind(socket.get(), found->ai_addr, found->ai_addrlen) != 0)
+        return refuse(address, std::strerror(errno));
+    std::string bound = bound_address(socket.get());
+    return OscSocket{socket.release(), std::move(bound)};
+}
+
+Result<std::vector<OscMessage>> parse_osc(std::string_view packet) {
+    const auto& liblo = osc_library();
+    if (!liblo)
+        return fail(liblo.error());
+    std::vector<OscMessage> messages;
+    TRY(parse_into(messages, *liblo, packet));
+    return messages;
+}
 
 Result<Command> osc_command(const OscMessage& message, std::span<const scene::Knob> knobs) {
     if (message.address.starts_with(k_knob))

@@ -104,7 +104,7 @@ std::optional<Remembered> parse(const std::string& text, const fs::path& scene) 
         if (const Json& left = json.at("moment"); !left.is_null())
             state.moment = readable(left);
         state.place = place_of(json.at("window"));
-        state.scale = render::RenderScale::named(json.value("scale", "")); // older files have none
+        state.scale = RenderScale::named(json.value("scale", "")); // older files have none
         state.controls_open = json.at("controls").get<bool>();
         state.views = moments_of(json.at("views"));
         state.controllers = bindings_of(json.value("controllers", Json::array()));
@@ -169,7 +169,7 @@ std::string words_of(const Remembered& state) {
             words.push_back("camera " + to_string(shown.camera));
         words.push_back(fmt::format("{:.3f} s", shown.seconds()));
     }
-    if (state.scale && *state.scale != render::RenderScale())
+    if (state.scale && *state.scale != RenderScale())
         words.push_back("scale " + state.scale->name());
     if (!state.views.empty())
         words.push_back(fmt::format("{} view{}", state.views.size(), state.views.size() > 1 ? "s" : ""));

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "host/moment.hpp"
-#include "window/frame_pacing.hpp"
 #include "window/midi.hpp"
+#include "window/picture_view.hpp"
 #include "window/window.hpp"
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace tidemark::cli {
 struct Remembered {
     std::optional<Moment> moment{}; ///< last on show: its knobs, camera and time are used
     std::optional<platform::WindowPlace> place{};
-    std::optional<render::RenderScale> scale{};
+    std::optional<RenderScale> scale{};
     bool controls_open = false;
     std::vector<Moment> views{};
     std::vector<live::Binding> controllers{}; ///< bindings of a MIDI device

@@ -26,6 +26,75 @@ constexpr double k_shortest_rest_seconds = 2;
 /// idle time.
 constexpr double k_rest_per_second_of_compiling = 20;
 
+/// A frame of a Renderer, drawn in parts.
+class RenderedParts : public FrameParts {
+public:
+    RenderedParts(render::Renderer& renderer, const render::FrameInputs& inputs, render::PartSize& size)
+        : renderer_(renderer), frame_(renderer, inputs, size, now_seconds) {}
+
+    Result<bool> draw_for(double seconds) override {
+        const size_t before = renderer_.passes_drawn();
+        auto whole = frame_.draw_for(seconds);
+        drew_pass_ = renderer_.passes_drawn() != before;
+        return whole;
+    }
+    bool drew_pass() const override { return drew_pass_; }
+    double share() const override { return frame_.share(); }
+    const std::vector<render::FrameInParts::PassSeconds>& seconds() const override {
+        return frame_.seconds();
+    }
+    std::optional<DriverWork> work() const override {
+        const auto& at = frame_.under_way();
+        if (!at)
+            return std::nullopt;
+        return DriverWork{at->part, at->begun, [&at](double seconds) { return at->end.wait(seconds); }};
+    }
+    std::optional<DriverWork> cancel() override {
+        auto at = render::FrameInParts::give_up(std::move(frame_));
+        if (!at)
+            return std::nullopt;
+        const auto kept = std::make_shared<render::FrameInParts::UnderWay>(*std::move(at));
+        return DriverWork{kept->part, kept->begun,
+                          [kept](double seconds) { return kept->end.wait(seconds); }};
+    }
+
+private:
+    render::Renderer& renderer_;
+    render::FrameInParts frame_;
+    bool drew_pass_ = false; ///< by the last call of draw_for
+};
+
+/// Returns whether threads may compile. Some drivers cannot compile and draw at once in shared contexts (see
+/// Dolphin's pull request 7276); with TIDEMARK_ASYNC_COMPILE=off the window waits for the compiler instead.
+bool compiles_on_threads() {
+    const char* const wish = std::getenv("TIDEMARK_ASYNC_COMPILE");
+    return !wish || std::string_view(wish) != "off";
+}
+
+/// Concurrent builds. Each keeps a core busy, and drawing needs one, too.
+constexpr size_t k_most_at_once = 3;
+
+Result<Stage> build(StageBuilder::Order order, const std::function<bool()>& unwanted) {
+    if (order.rehearsal && !order.settle && !glsl::is_modest(order.scene, order.options.precision))
+        TRY(order.rehearsal->try_out(order.held, unwanted));
+    if (unwanted()) // a cancelled try was not completed, so the scene must not reach the driver here
+        return fail(ErrorCode::load, "the scene is no longer wanted");
+    if (order.settle && !compiles_on_threads())
+        return fail(ErrorCode::check_failed, "a trial would block the window");
+    if (order.settle)
+        return Stage::settle(std::move(order.context), order.scene, order.options, order.first);
+    return Stage::create(std::move(order.context), std::move(order.scene), order.options, order.first);
+}
+
+/// Turns exceptions into errors, so that the picture on show stays.
+Result<Stage> build_or_say_why(StageBuilder::Order order, const std::function<bool()>& unwanted) {
+    try {
+        return build(std::move(order), unwanted);
+    } catch (const std::exception& error) {
+        return fail(ErrorCode::load, fmt::format("the scene cannot be built: {}", error.what()));
+    }
+}
+
 } // namespace
 
 Result<Stage> Stage::create(platform::SharedContext context, scene::Scene scene,
@@ -63,6 +132,16 @@ Result<Stage> Stage::settle(platform::SharedContext context, const scene::Scene&
     return stage;
 }
 
+bool Stage::draw(const render::FrameInputs& inputs, std::vector<render::PassTimer>* timers) {
+    const size_t before = renderer_->passes_drawn();
+    renderer_->draw(inputs, timers);
+    return renderer_->passes_drawn() != before;
+}
+
+std::unique_ptr<FrameParts> Stage::begin(const render::FrameInputs& inputs, render::PartSize& size) {
+    return std::make_unique<RenderedParts>(*renderer_, inputs, size);
+}
+
 Stage::~Stage() {
     if (!renderer_)
         return;
@@ -70,41 +149,6 @@ Stage::~Stage() {
     (void)context_.make_current(); // GL objects must be deleted in the context that owns them
     renderer_.reset();
 }
-
-namespace {
-
-/// Returns whether threads may compile. Some drivers cannot compile and draw at once in shared contexts (see
-/// Dolphin's pull request 7276); with TIDEMARK_ASYNC_COMPILE=off the window waits for the compiler instead.
-bool compiles_on_threads() {
-    const char* const wish = std::getenv("TIDEMARK_ASYNC_COMPILE");
-    return !wish || std::string_view(wish) != "off";
-}
-
-/// Concurrent builds. Each keeps a core busy, and drawing needs one, too.
-constexpr size_t k_most_at_once = 3;
-
-Result<Stage> build(StageBuilder::Order order, const std::function<bool()>& unwanted) {
-    if (order.rehearsal && !order.settle && !glsl::is_modest(order.scene, order.options.precision))
-        TRY(order.rehearsal->try_out(order.held, unwanted));
-    if (unwanted()) // a cancelled try was not completed, so the scene must not reach the driver here
-        return fail(ErrorCode::load, "the scene is no longer wanted");
-    if (order.settle && !compiles_on_threads())
-        return fail(ErrorCode::check_failed, "a trial would block the window");
-    if (order.settle)
-        return Stage::settle(std::move(order.context), order.scene, order.options, order.first);
-    return Stage::create(std::move(order.context), std::move(order.scene), order.options, order.first);
-}
-
-/// Turns exceptions into errors, so that the picture on show stays.
-Result<Stage> build_or_say_why(StageBuilder::Order order, const std::function<bool()>& unwanted) {
-    try {
-        return build(std::move(order), unwanted);
-    } catch (const std::exception& error) {
-        return fail(ErrorCode::load, fmt::format("the scene cannot be built: {}", error.what()));
-    }
-}
-
-} // namespace
 
 struct StageBuilder::Job {
     std::mutex mutex;

@@ -5,6 +5,7 @@
 
 #include "host/gl_context.hpp"
 #include "render/renderer.hpp"
+#include "window/frame_pump.hpp"
 #include "window/rehearsal.hpp"
 
 #include <functional>
@@ -15,7 +16,7 @@
 
 namespace tidemark::cli {
 
-class Stage {
+class Stage : public FrameMaker {
 public:
     /// Compiles the scene and makes the driver finish what it defers to the first draw. Meanwhile the context
     /// is current on the calling thread; afterwards on none.
@@ -28,13 +29,19 @@ public:
     Stage(Stage&&) = default;
     Stage& operator=(Stage&&) = delete;
     /// Keeps the calling thread's current context.
-    ~Stage();
+    ~Stage() override;
 
     /// Makes the context current on the window's thread, to draw into the window.
     Result<void> enter() { return context_.make_current_in_window(); }
 
     render::Renderer& renderer() { return *renderer_; }
     const render::Renderer& renderer() const { return *renderer_; }
+
+    Extent extent() const override { return renderer_->extent(); }
+    bool draw(const render::FrameInputs& inputs, std::vector<render::PassTimer>* timers) override;
+    std::unique_ptr<FrameParts> begin(const render::FrameInputs& inputs, render::PartSize& size) override;
+    void finish() override { glFinish(); }
+    void reset() override { renderer_->reset(); }
 
     /// Returns the idle time, in seconds, before background optimisation is worth trying; none: it never is.
     std::optional<double> seconds_to_settle() const { return seconds_to_settle_; }

@@ -1,15 +1,11 @@
 #include "window/viewer.hpp"
 
-#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/supervision.hpp"
 #include "host/console.hpp"
-#include "host/requests.hpp"
 #include "host/scene_report.hpp"
-#include "media/picture_file.hpp"
 #include "render/gl_context.hpp"
-#include "render/gl_textures.hpp"
 
 #include <fmt/format.h>
 
@@ -22,12 +18,10 @@ namespace {
 
 using platform::Key;
 
-/// A frame that blocks the window for longer can be cancelled with Esc.
-constexpr double k_hold_seconds = 1;
-/// Shortest pause between two such frames, for events and file changes.
-constexpr double k_breath_seconds = 0.05;
 /// Largest age of the seconds in the title.
 constexpr double k_title_seconds = 0.25;
+/// Compiling is not mentioned before this time.
+constexpr double k_short_wait_seconds = 0.3;
 
 render::RenderOptions options_for(Extent drawn, const Viewer::Settings& settings) {
     render::RenderOptions options{drawn, image::SampleType::u8, settings.frames.state.pass,
@@ -36,25 +30,30 @@ render::RenderOptions options_for(Extent drawn, const Viewer::Settings& settings
     return options;
 }
 
+/// Returns the first error, on one line.
+std::string headline(const Error& error) {
+    for (const Diagnostic& diagnostic : error.diagnostics)
+        if (diagnostic.severity == Severity::error)
+            return to_string(diagnostic);
+    return error.message;
+}
+
 } // namespace
 
+/// Frames are counted instead of time while recording or replaying: a wall clock cannot be reproduced.
 Viewer::Viewer(Settings settings, std::unique_ptr<Screen> screen, LiveScene scene)
     : settings_(std::move(settings)), screen_(std::move(screen)), scene_(std::move(scene)),
-      sound_(std::make_unique<SoundPlayer>()), clock_(clock_from(now_seconds())),
-      controls_(settings_.frames.state.camera), scale_(settings_.scale), controls_open_(settings_.controls) {
-    // While recording, the recording itself drives the scene, so that a replay shows the same pictures.
-    if (settings_.frames.input || recording())
-        replay_.emplace(settings_.frames.input.value_or(InputScript{}), settings_.frames.state.camera);
+      sound_(std::make_unique<SoundPlayer>()),
+      timeline_(now_seconds(), settings_.frames.state.fps,
+                settings_.frames.input || !settings_.record.empty() ? Timeline::Source::frames
+                                                                    : Timeline::Source::wall_clock),
+      pump_(settings_.frames.state.fps), picture_(settings_.scale), overlay_(settings_.controls),
+      recorder_(settings_.record, settings_.frames.input, settings_.frames.state.camera),
+      controls_(settings_.frames.state.camera) {
     if (settings_.adaptive)
         toggle_adaptive();
     if (settings_.left)
         take_up(*settings_.left);
-}
-
-/// Counts frames instead of time while recording or replaying: a wall clock cannot be reproduced.
-render::LiveClock Viewer::clock_from(double now) const {
-    const bool by_frames = settings_.frames.input || recording();
-    return render::LiveClock(now, by_frames ? std::optional(settings_.frames.state.fps) : std::nullopt);
 }
 
 Result<Viewer> Viewer::open(Settings settings, const OpenScreen& open_screen) {
@@ -81,31 +80,42 @@ Result<Viewer> Viewer::open(Settings settings, const OpenScreen& open_screen) {
     return viewer;
 }
 
+/// Opens live inputs: their messages are carried out like commands of the panels, so that they are recorded,
+/// too.
+Result<void> Viewer::open_inputs() {
+    if (settings_.inputs && recorder_.mode() == Recorder::Mode::recording)
+        say_what_is_not_recorded(*settings_.inputs);
+    if (settings_.inputs)
+        inputs_ = TRY(LiveInputs::open(*settings_.inputs, [&on = *screen_] { on.wake(); }));
+    return {};
+}
+
 Result<int> Viewer::run(const Interrupt& interrupt) {
     const auto rescue = screen_->when_lost([this](std::string_view what) {
         const auto saved = finish();
         say(to_string(saved ? Error{ErrorCode::no_context, std::string(what)} : saved.error()));
         exit_at_once(exit_code(ErrorCode::no_context));
     });
-    listened_at_ = now_seconds();
-    while (!closing_ && !interrupt.requested()) {
+    pump_.end_round();
+    while (end_ == End::none && !interrupt.requested()) {
         listen();
         const double now = now_seconds();
         TRY(follow_scene(now));
         take_inputs();
         settle_after_rest(now);
         take_origin();
-        step_there();
+        advance_seek();
         go_round(now);
-        rest_unwatched(now);
-        if (wants_frame(now))
+        timeline_.watch(screen_->is_watched(), now);
+        if (pump_.wants_frame(around(), now))
             draw(now);
         TRY(check_driver());
         look_for_numbers(now_seconds());
         show_title(now);
-        sound_->follow(clock_.time(now), !clock_.paused());
+        sound_->follow(timeline_.time(now), !timeline_.paused());
     }
-    leave();
+    if (settings_.remembers && stage_)
+        remember(settings_.scene.path, *state());
     return finish().map([&] { return interrupt.requested() ? Interrupt::k_exit_code : 0; });
 }
 
@@ -114,31 +124,23 @@ Result<void> Viewer::check_driver() {
     const auto reason = gl::reset_reason();
     if (!reason)
         return {};
-    was_reset_ = true;
+    end_ = End::driver_reset;
     TRY(finish());
     return fail(ErrorCode::timed_out, fmt::format("the graphics driver was reset: {}", *reason));
+}
+
+Result<void> Viewer::finish() {
+    return recorder_.finish(scene_files());
 }
 
 /// Waits for events. Those that came while a frame blocked the window are handled first, as they refer to the
 /// picture shown then.
 void Viewer::listen() {
-    double now = now_seconds();
-    held_seconds_ = now - listened_at_;
-    of_the_hold_ = held_seconds_ > k_hold_seconds;
-    if (std::exchange(drew_, false)) {
-        slow_ = of_the_hold_;
-        pace_.took(drawn_extent(), render::FramePace::Way::whole, held_seconds_);
-    }
-    if (ending_ && ending_->end.wait(0))
-        ending_.reset();
-    if (of_the_hold_) {
+    if (pump_.begin_round(drawn_extent()))
         handle_all(screen_->wait(0));
-        next_draw_ = std::max(next_draw_, now + k_breath_seconds);
-        now = now_seconds();
-    }
-    of_the_hold_ = false;
-    handle_all(screen_->wait(closing_ ? 0 : seconds_to_sleep(now)));
-    listened_at_ = now_seconds();
+    pump_.begin_waiting();
+    handle_all(screen_->wait(end_ == End::none ? seconds_to_sleep(now_seconds()) : 0));
+    pump_.end_round();
 }
 
 /// Handles events. While a part of a frame occupies the driver, only Esc and closing the window are handled
@@ -146,7 +148,7 @@ void Viewer::listen() {
 void Viewer::handle_all(const std::vector<platform::InputEvent>& events) {
     std::vector<platform::InputEvent> happened = std::exchange(events_held_, {});
     happened.insert(happened.end(), events.begin(), events.end());
-    const bool held = !happened.empty() && driver_is_at_work();
+    const bool held = !happened.empty() && pump_.driver_busy();
     for (const platform::InputEvent& event : happened) {
         const auto* key = std::get_if<platform::KeyPressed>(&event);
         const bool leads_out =
@@ -155,100 +157,12 @@ void Viewer::handle_all(const std::vector<platform::InputEvent>& events) {
             events_held_.push_back(event);
             continue;
         }
-        stale_overlay_ |= magnifier_.follow(event);
+        overlay_.mark_changed_if(picture_.follow(event));
         if (!screen_->take(event))
             std::visit([this](const auto& it) { handle(it); }, event);
-        obey_overlay();
+        carry_out_all(screen_->take_commands());
     }
-    obey_overlay();
-}
-
-/// Returns whether to wait for a reload: do not start a slow frame while one is compiling.
-bool Viewer::waits_for_better() const {
-    return scene_.building_since() && (slow_ || draws_for_long(now_seconds()));
-}
-
-Result<void> Viewer::finish() {
-    if (recording()) {
-        const OutputPath& record = settings_.record;
-        const auto read =
-            stage_ ? files_read(stage_->renderer().scene()) : std::vector<std::filesystem::path>{};
-        TRY(write_file(record.sparing(read), to_string(replay_->script())));
-    }
-    return writer_ ? writer_->finish() : Result<void>();
-}
-
-bool Viewer::wants_frame(double now) const {
-    if (!screen_->is_watched())
-        return false;
-    if (goes_on())
-        return true;
-    if (stepping_ || driver_is_at_work())
-        return false;
-    if (overlay_due())
-        return true;
-    if (making_ || waits_for_better() || (slow_ && now < next_draw_))
-        return false;
-    return stale_ || (moving() && now >= next_draw_);
-}
-
-/// Returns whether frames follow each other without events.
-bool Viewer::moving() const {
-    return stage_ && !clock_.paused() && !at_rest_ && !given_up_ && !stepping_;
-}
-
-double Viewer::seconds_to_sleep(double now) const {
-    double until = std::numeric_limits<double>::infinity();
-    const bool held = driver_is_held(now);
-    const bool watched = screen_->is_watched();
-    if ((watched && goes_on()) || stepping_)
-        return 0;
-    if (watched && !held && ((stale_ && !slow_ && !making_) || overlay_due()))
-        return 0;
-    if (watched && !held && (stale_ || moving()) && !making_ && !waits_for_better())
-        until = next_draw_;
-    if (scene_.building_since() || ending_)
-        until = std::min(until, now + k_title_seconds);
-    if (!held)
-        until = std::min(until, finite_.due());
-    if (const auto wake = scene_.wake_at())
-        until = std::min(until, *wake);
-    return std::max(0.0, until - now);
-}
-
-/// Shows the last drawn picture and the overlay.
-void Viewer::present(bool fresh) {
-    stale_overlay_ = false;
-    const gl::Texture* marked = marked_picture(); // draws, so it must come before begin()
-    live::Model model = overlay_model();
-    screen_->begin(target_on_show(), fresh);
-    if (marked)
-        marks_->draw(*marked, screen_->extent());
-    if (auto shown = screen_->finish(std::move(model), shown_moment()); !shown)
-        say(to_string(shown.error()));
-}
-
-ShownMoment Viewer::shown_moment() const {
-    return {shown_.seconds(), shown_.frame, stage_ && reads_keyboard(stage_->renderer()), shown_begun_};
-}
-
-/// Reports pixels that are not finite, once for each text: a window may show them as any colour.
-void Viewer::look_for_numbers(double now) {
-    if (!stage_ || now < finite_.due() || driver_is_at_work())
-        return;
-    if (const size_t count = finite_.look(stage_->renderer(), now); count > 0)
-        say(fmt::format("warning: {} not finite; find the origin with: {}",
-                        pixels_are(count, fmt::format("at {:.3f} s", shown_.seconds())),
-                        shell_words(trace_words())));
-}
-
-/// Returns the `check --trace` command for the frame on show, as far as options can express the user's input.
-std::vector<std::string> Viewer::trace_words() const {
-    render::FrameState state = shown_;
-    state.extent = stage_->renderer().extent();
-    state.fps = settings_.frames.state.fps;
-    state.date = settings_.frames.state.date;
-    return cli::trace_words(scene_.request(), settings_.frames, state);
+    carry_out_all(screen_->take_commands());
 }
 
 void Viewer::handle(const platform::KeyPressed& event) {
@@ -264,31 +178,50 @@ void Viewer::handle(const platform::KeyReleased& event) {
         control(event);
 }
 
+void Viewer::handle(const platform::FramebufferResized&) {
+    picture_.forget_times();
+    fit_drawing();
+}
+
+void Viewer::handle(const platform::RedrawNeeded&) {
+    pump_.ask();
+    overlay_.mark_changed();
+}
+
+/// Passes an event to the scene and draws a paused picture again if it has changed.
+void Viewer::control(const ControlEvent& event) {
+    const ControlEvent seen = picture_.in_picture(event, screen_->extent());
+    if (!controls_.handle(seen, drawn_extent().height))
+        return;
+    touched_at_ = now_seconds();
+    pump_.ask();
+    if (std::holds_alternative<KnobTurned>(event))
+        pump_.doubt(drawn_extent());
+    recorder_.note(timeline_.next_frame_number(), seen);
+}
+
 void Viewer::obey(Key key, double now) {
     const bool moves_time = key == Key::left || key == Key::right || key == Key::space || key == Key::home;
-    if (stepping_ && moves_time)
-        carry_out(live::GiveUpSeek{});
     const bool resizes =
         key == Key::minus || key == Key::equal || key == Key::keypad_subtract || key == Key::keypad_add;
-    if (moves_time)
-        drop_frame();
-    if (given_up_ && (moves_time || resizes)) {
-        given_up_ = false;
-        if (key == Key::space && !clock_.paused())
-            return;
+    if (moves_time) {
+        carry_out(live::GiveUpSeek{});
+        cancel_frame();
     }
+    if ((moves_time || resizes) && pump_.resume() && key == Key::space && !timeline_.paused())
+        return;
     switch (key) {
     case Key::left:
-        clock_.step(-1, settings_.frames.state.fps, now);
+        timeline_.step(-1, now);
         forget_what_follows();
         break;
-    case Key::right: clock_.step(1, settings_.frames.state.fps, now); break;
-    case Key::space: clock_.toggle_pause(now); break;
+    case Key::right: timeline_.step(1, now); break;
+    case Key::space: timeline_.toggle_pause(now); break;
     case Key::home:
         if (stage_)
-            stage_->renderer().reset();
-        has_frame_ = false;
-        clock_.restart(now);
+            stage_->reset();
+        shown_.current = false;
+        timeline_.restart(now);
         forget_what_follows();
         break;
     case Key::r: return control(CameraReset{});
@@ -300,55 +233,75 @@ void Viewer::obey(Key key, double now) {
     case Key::h:
     case Key::f1: return toggle_help();
     case Key::tab: return toggle_controls();
-    case Key::m: return toggle_magnifier();
+    case Key::m: picture_.toggle_magnifier(); return overlay_.mark_changed();
     case Key::n: return toggle_marks();
     case Key::enter: return trace_pixel();
     case Key::z: return toggle_freeze();
     case Key::a: return toggle_adaptive();
     case Key::minus:
-    case Key::keypad_subtract: return set_scale(scale_.stepped(-1));
+    case Key::keypad_subtract: return set_scale(picture_.scale().stepped(-1));
     case Key::equal:
-    case Key::keypad_add: return set_scale(scale_.stepped(1));
-    default: return show_picture_of(key);
+    case Key::keypad_add: return set_scale(picture_.scale().stepped(1));
+    default:
+        if (overlay_.shows(Overlay::Panel::controls) && key >= Key::digit_0 && key <= Key::digit_9) {
+            picture_.choose(int(key) - int(Key::digit_0));
+            overlay_.mark_changed();
+        }
+        return;
     }
-    stale_ = true;
+    pump_.ask();
 }
 
 /// Cancels seeking, slow frames or compiling, whichever is in progress; else closes the window.
 void Viewer::escape(double now) {
-    if (stepping_)
+    if (pump_.seeking())
         return carry_out(live::GiveUpSeek{});
-    if (given_up_ && now - given_up_at_ < k_hold_seconds)
-        return; // pressed again for the same frame
-    if (stage_ && (of_the_hold_ || draws_for_long(now) || (slow_ && (moving() || making_)))) {
-        give_frames_up(now);
-    } else if (stage_ && compiles_for_long(now)) {
+    if (pump_.just_stopped(now))
+        return;
+    if (stage_ && pump_.can_stop(around(), now))
+        stop_frames(now);
+    else if (stage_ && compiles_for_long(now))
         scene_.give_up();
-    } else {
-        closing_ = true;
-    }
+    else
+        end_ = End::closed;
 }
 
-/// Ends the recording at the next frame, because time went backwards.
-void Viewer::forget_what_follows() {
-    if (recording())
-        replay_->go_back(clock_.next_frame_number());
+FramePump::Around Viewer::around() const {
+    return {.watched = screen_->is_watched(),
+            .plays = stage_ && !timeline_.paused(),
+            .compiles = scene_.building_since().has_value(),
+            .panels_changed = overlay_.changed() || screen_->wants_frame()};
+}
+
+double Viewer::seconds_to_sleep(double now) const {
+    double until = pump_.due(around(), now);
+    if (scene_.building_since() || pump_.ending())
+        until = std::min(until, now + k_title_seconds);
+    if (!pump_.driver_held(now))
+        until = std::min(until, finite_.due());
+    if (const auto wake = scene_.wake_at())
+        until = std::min(until, *wake);
+    return std::max(0.0, until - now);
 }
 
 LiveScene::View Viewer::view() const {
     return {[this] { return screen_->create_context(); }, options_for(drawn_extent(), settings_),
-            inputs_on_show(), settings_.rehearsal};
+            inputs_of_shown(), settings_.rehearsal};
+}
+
+std::vector<std::filesystem::path> Viewer::scene_files() const {
+    return stage_ ? files_read(stage_->renderer().scene()) : std::vector<std::filesystem::path>{};
 }
 
 /// Takes over a finished reload. Waits while the driver is occupied, because the buffers cannot be copied
 /// then.
 Result<void> Viewer::follow_scene(double now) {
-    if (driver_is_held(now))
+    if (pump_.driver_held(now))
         return {};
     auto fresh = TRY(scene_.follow(view(), now));
-    stale_overlay_ |= errors_.show(scene_.failure());
+    overlay_.show_error(scene_.failure());
     if (scene_.failure())
-        going_to_.reset();
+        timeline_.begin_next_scene_at(std::nullopt);
     return fresh ? show(*std::move(fresh), now) : Result<void>();
 }
 
@@ -356,7 +309,7 @@ Result<void> Viewer::follow_scene(double now) {
 Result<void> Viewer::show(Stage fresh, double now) {
     const bool first = !stage_;
     if (first)
-        clock_ = clock_from(now);
+        timeline_.begin(now);
     TRY(swap_in(std::move(fresh)));
     if (stage_->share()) {
         say(fmt::format("background optimisation: frames take {:.0f} % less time, same bytes",
@@ -364,21 +317,19 @@ Result<void> Viewer::show(Stage fresh, double now) {
         return {};
     }
     play_sound();
-    defined_.reset();
-    origin_.show(nullptr);
+    overlay_.forget_scene();
     release_knobs();
     reloaded_ = scene_.take_times();
     settled_ = false;
-    given_up_ = slow_ = has_frame_ = false;
+    shown_.current = false;
+    pump_.begin_scene();
     finite_.begin_anew();
-    stale_ = true;
     touched_at_ = now;
-    if (first && going_to_ && has_feedback()) {
-        going_to_.reset(); // all earlier frames would be drawn before anything is visible
+    const auto begins_at = timeline_.take_next_scene_time();
+    if (begins_at && first && has_feedback()) // all earlier frames would be drawn before anything is visible
         say("starting at 0 s: the scene reads its own last frame");
-    }
-    if (going_to_)
-        seek(*std::exchange(going_to_, std::nullopt), now);
+    else if (begins_at)
+        seek(*begins_at, now);
     return {};
 }
 
@@ -396,31 +347,24 @@ void Viewer::release_knobs() {
 /// Replaces the Stage. The buffers keep their contents: an edited scene continues from where it was, as on
 /// ShaderToy.
 Result<void> Viewer::swap_in(Stage fresh) {
-    drop_frame();
-    ending_.reset();
-    parts_fail_ = false;
-    pace_.doubt();
-    part_size_ = {};
+    cancel_frame();
+    pump_.forget_scene();
     if (stage_)
-        glFinish(); // its drawings must be complete before they are copied
-    forget_looking();
+        stage_->finish(); // its drawings must be complete before they are copied
+    picture_.leave_context();
+    picture_.forget_times();
     costs_.forget();
-    if (adaptive_)
-        adaptive_->forget();
-    if (frozen_)
-        frozen_->target.framebuffer = {}; // deleted in the context that owns it
     const std::optional<Stage> before = std::exchange(stage_, std::nullopt);
     stage_.emplace(std::move(fresh));
     TRY(stage_->enter());
-    if (frozen_)
-        frozen_->target = gl::attach(std::move(frozen_->target.texture));
+    picture_.enter_context();
     if (before) {
         stage_->renderer().continue_from(before->renderer());
         for (const std::string& line : edits_of_turned(before->renderer().scene().knobs,
-                                                       stage_->renderer().scene().knobs, shown_.knobs))
+                                                       stage_->renderer().scene().knobs, shown_.state.knobs))
             say(line);
     }
-    if (drawn_extent() != stage_->renderer().extent())
+    if (drawn_extent() != stage_->extent())
         fit_drawing(); // the window was resized in the meantime
     return {};
 }
@@ -429,16 +373,30 @@ Result<void> Viewer::swap_in(Stage fresh) {
 /// for slow frames, because a trial draws them whole and occupies the driver.
 void Viewer::settle_after_rest(double now) {
     constexpr double k_longest_trial_frame = 0.25;
-    if (pace_.expected(drawn_extent()).value_or(0) > k_longest_trial_frame)
+    if (pump_.expected(drawn_extent()).value_or(0) > k_longest_trial_frame)
         return;
-    if (settings_.plain || settled_ || !moving() || scene_.building_since() || scene_.failure() ||
-        knobs_may_turn())
+    if (settings_.plain || settled_ || !pump_.moving(around()) || scene_.building_since() ||
+        scene_.failure() || knobs_may_turn())
         return;
     const auto rest = stage_->seconds_to_settle();
     if (!rest || now - touched_at_ < *rest)
         return;
     settled_ = true;
     scene_.build_anew(turned_scene(), view(), LiveScene::Settle::yes);
+}
+
+/// Returns whether knobs may change soon, which would make a program that contains their values useless.
+bool Viewer::knobs_may_turn() const {
+    return overlay_.shows(Overlay::Panel::controls) || (inputs_ && settings_.inputs->turns_knobs()) ||
+           recorder_.turns_knobs();
+}
+
+/// Returns the scene on show with the current values of its knobs.
+scene::Scene Viewer::turned_scene() const {
+    scene::Scene scene = stage_->renderer().scene();
+    for (scene::Knob& knob : scene.knobs)
+        knob.value = value_after(knob, shown_.state.knobs);
+    return scene;
 }
 
 void Viewer::play_sound() {
@@ -453,7 +411,7 @@ void Viewer::play_sound() {
 
 /// Prints the times of a reload: Tidemark's share (notice, load) and the driver's (compile, first draw).
 void Viewer::report_reload() {
-    glFinish(); // the picture is visible when drawing is complete
+    stage_->finish(); // the picture is visible when drawing is complete
     const double shown = now_seconds();
     const auto ms = [](double from, double to) { return (to - from) * 1000; };
     say(fmt::format("reloaded in {:.0f} ms: notice {:.0f}, load {:.1f}, compile {:.0f}, first draw {:.0f}",
@@ -461,6 +419,40 @@ void Viewer::report_reload() {
                     ms(reloaded_->seen, reloaded_->loaded), ms(reloaded_->loaded, reloaded_->compiled),
                     ms(reloaded_->compiled, shown)));
     reloaded_.reset();
+}
+
+bool Viewer::compiles_for_long(double now) const {
+    const auto since = scene_.building_since();
+    return since && now - *since > k_short_wait_seconds;
+}
+
+/// Sets the title: the compile time while compiling, else the error if there is one, else the state with the
+/// frame rate, which changes twice a second at most.
+void Viewer::show_title(double now) {
+    std::string state =
+        pump_.seeking() ? fmt::format("stepping to frame {}, Esc cancels", pump_.seek_progress().last)
+        : pump_.flow() == FramePump::Flow::cancelled ? "cancelled, space continues"
+        : timeline_.paused()                     ? fmt::format("paused at {:.3f} s", shown_.state.seconds())
+        : pump_.flow() == FramePump::Flow::still ? "still"
+                                                 : fmt::format("{:.0f} fps", timeline_.frame_rate());
+    if (const std::string words = pump_.progress(now, shown_.current); !words.empty())
+        state = words;
+    if (picture_.scale() != RenderScale())
+        state += fmt::format(", scale {}", picture_.scale().name());
+    if (picture_.frozen())
+        state += ", frozen";
+    if (finite_.found() > 0)
+        state += fmt::format(", {} pixel{} not finite", finite_.found(), finite_.found() > 1 ? "s" : "");
+    if (compiles_for_long(now))
+        state = fmt::format("compiling… {:.0f} s{}", now - *scene_.building_since(),
+                            stage_ ? ", Esc cancels" : "");
+    else if (!stage_ && !scene_.failure())
+        return;
+    const std::string title = scene_.failure() && !compiles_for_long(now)
+                                  ? (stage_ ? "" : "waiting: ") + headline(*scene_.failure())
+                                  : fmt::format("{} - tidemark - {}", scene_.name(), state);
+    if (overlay_.change_title(title))
+        screen_->set_title(title);
 }
 
 } // namespace tidemark::cli

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <utility>
 
 #define GLFW_EXPOSE_NATIVE_EGL
 #include <GLFW/glfw3.h>
@@ -93,6 +92,44 @@ void listen_to_frame(State& state) {
     });
 }
 
+std::function<void(std::string_view)> at_the_end; // global, because Xlib passes no user data to its handlers
+
+/// Calls the action once; if that returns, Xlib or the caller ends the process.
+void lose(std::string_view what) {
+    static std::atomic<bool> begun = false;
+    if (begun.exchange(true))
+        ::pause(); // another thread is doing it
+    if (at_the_end)
+        at_the_end(what);
+}
+
+/// Xlib's XErrorEvent.
+struct ErrorEvent {
+    int type;
+    void* display;
+    unsigned long resource;
+    unsigned long serial;
+    unsigned char code, request, minor;
+};
+
+using LossHandler = int (*)(void* display);
+using ErrorHandler = int (*)(void* display, ErrorEvent* error);
+ErrorHandler handler_before = nullptr;
+
+/// Xlib ends the process when this returns.
+int handle_loss(void*) {
+    lose("the connection to the display is lost");
+    return 0;
+}
+
+/// Handles errors that follow when another program has destroyed the window: all uses of it fail then.
+int handle_error(void* display, ErrorEvent* error) {
+    constexpr unsigned char k_bad_window = 3, k_bad_drawable = 9, k_first_of_extensions = 128;
+    if (error->code == k_bad_window || error->code == k_bad_drawable || error->code >= k_first_of_extensions)
+        lose("another program has destroyed the window");
+    return handler_before ? handler_before(display, error) : 0;
+}
+
 } // namespace
 
 /// Keeps its address when the Window moves, since GLFW's user pointer points to it.
@@ -116,53 +153,51 @@ struct Window::State {
     std::vector<InputEvent> take() { return std::exchange(events, {}); }
 
     static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
-    void listen();
-    void listen_to_people();
+
+    void listen() {
+        GLFWwindow* handle = window.get();
+        listen_to_frame(*this);
+        glfwGetWindowSize(handle, &screen.width, &screen.height);
+        glfwGetCursorPos(handle, &cursor_x, &cursor_y);
+        glfwSetWindowSizeCallback(handle, [](GLFWwindow* source, int width, int height) {
+            of(source).screen = {width, height};
+        });
+        glfwSetWindowFocusCallback(handle, [](GLFWwindow* source, int focused) {
+            if (!focused)
+                of(source).events.emplace_back(FocusLost{});
+        });
+        listen_to_user();
+    }
+
+    void listen_to_user() {
+        GLFWwindow* handle = window.get();
+        glfwSetCursorPosCallback(handle, [](GLFWwindow* source, double x, double y) {
+            State& state = of(source);
+            state.cursor_x = x;
+            state.cursor_y = y;
+            state.events.emplace_back(PointerMoved{state.pointer()});
+        });
+        glfwSetMouseButtonCallback(handle, [](GLFWwindow* source, int button, int action, int) {
+            State& state = of(source);
+            if (button > GLFW_MOUSE_BUTTON_MIDDLE)
+                return;
+            if (action == GLFW_PRESS)
+                state.events.emplace_back(ButtonPressed{button_from_glfw(button), state.pointer()});
+            else
+                state.events.emplace_back(ButtonReleased{button_from_glfw(button), state.pointer()});
+        });
+        glfwSetScrollCallback(handle, [](GLFWwindow* source, double right, double up) {
+            of(source).events.emplace_back(WheelTurned{right, up});
+        });
+        glfwSetCharCallback(handle, [](GLFWwindow* source, unsigned character) {
+            of(source).events.emplace_back(TextTyped{char32_t(character)});
+        });
+        glfwSetKeyCallback(handle, [](GLFWwindow* source, int glfw_key, int scancode, int action, int) {
+            if (const auto event = key_event(glfw_key, scancode, action))
+                of(source).events.push_back(*event);
+        });
+    }
 };
-
-void Window::State::listen() {
-    GLFWwindow* handle = window.get();
-    listen_to_frame(*this);
-    glfwGetWindowSize(handle, &screen.width, &screen.height);
-    glfwGetCursorPos(handle, &cursor_x, &cursor_y);
-    glfwSetWindowSizeCallback(handle, [](GLFWwindow* source, int width, int height) {
-        of(source).screen = {width, height};
-    });
-    glfwSetWindowFocusCallback(handle, [](GLFWwindow* source, int focused) {
-        if (!focused)
-            of(source).events.emplace_back(FocusLost{});
-    });
-    listen_to_people();
-}
-
-void Window::State::listen_to_people() {
-    GLFWwindow* handle = window.get();
-    glfwSetCursorPosCallback(handle, [](GLFWwindow* source, double x, double y) {
-        State& state = of(source);
-        state.cursor_x = x;
-        state.cursor_y = y;
-        state.events.emplace_back(PointerMoved{state.pointer()});
-    });
-    glfwSetMouseButtonCallback(handle, [](GLFWwindow* source, int button, int action, int) {
-        State& state = of(source);
-        if (button > GLFW_MOUSE_BUTTON_MIDDLE)
-            return;
-        if (action == GLFW_PRESS)
-            state.events.emplace_back(ButtonPressed{button_from_glfw(button), state.pointer()});
-        else
-            state.events.emplace_back(ButtonReleased{button_from_glfw(button), state.pointer()});
-    });
-    glfwSetScrollCallback(handle, [](GLFWwindow* source, double right, double up) {
-        of(source).events.emplace_back(WheelTurned{right, up});
-    });
-    glfwSetCharCallback(handle, [](GLFWwindow* source, unsigned character) {
-        of(source).events.emplace_back(TextTyped{char32_t(character)});
-    });
-    glfwSetKeyCallback(handle, [](GLFWwindow* source, int glfw_key, int scancode, int action, int) {
-        if (const auto event = key_event(glfw_key, scancode, action))
-            of(source).events.push_back(*event);
-    });
-}
 
 Window::Window(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Window::Window(Window&&) noexcept = default;
@@ -279,17 +314,6 @@ void Window::toggle_full_screen() {
                              monitor.refresh_rate);
 }
 
-} // namespace tidemark::platform
-
-#define GLFW_EXPOSE_NATIVE_EGL
-#include <GLFW/glfw3.h>
-#include <GLFW/glfw3native.h>
-#include <fmt/format.h>
-
-#include <utility>
-
-namespace tidemark::platform {
-
 /// Keeps its address when the OutputWindow moves, since GLFW's user pointer points to it.
 struct OutputWindow::State {
     GlfwWindow window;
@@ -297,16 +321,15 @@ struct OutputWindow::State {
     Extent framebuffer{};
 
     static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
-    void listen();
-};
 
-void OutputWindow::State::listen() {
-    listen_to_frame(*this);
-    glfwSetKeyCallback(window.get(), [](GLFWwindow* source, int key, int scancode, int action, int) {
-        if (const auto event = key_event(key, scancode, action))
-            of(source).events.push_back(*event);
-    });
-}
+    void listen() {
+        listen_to_frame(*this);
+        glfwSetKeyCallback(window.get(), [](GLFWwindow* source, int key, int scancode, int action, int) {
+            if (const auto event = key_event(key, scancode, action))
+                of(source).events.push_back(*event);
+        });
+    }
+};
 
 OutputWindow::OutputWindow(std::unique_ptr<State> state) : state_(std::move(state)) {}
 OutputWindow::OutputWindow(OutputWindow&&) noexcept = default;
@@ -356,48 +379,6 @@ Result<void> OutputWindow::make_current() {
 void OutputWindow::swap() {
     eglSwapBuffers(glfwGetEGLDisplay(), glfwGetEGLSurface(state_->window.get()));
 }
-
-namespace {
-
-std::function<void(std::string_view)> at_the_end; // global, because Xlib passes no user data to its handlers
-
-/// Calls the action once; if that returns, Xlib or the caller ends the process.
-void lose(std::string_view what) {
-    static std::atomic<bool> begun = false;
-    if (begun.exchange(true))
-        ::pause(); // another thread is doing it
-    if (at_the_end)
-        at_the_end(what);
-}
-
-/// Xlib's XErrorEvent.
-struct ErrorEvent {
-    int type;
-    void* display;
-    unsigned long resource;
-    unsigned long serial;
-    unsigned char code, request, minor;
-};
-
-using LossHandler = int (*)(void* display);
-using ErrorHandler = int (*)(void* display, ErrorEvent* error);
-ErrorHandler handler_before = nullptr;
-
-/// Xlib ends the process when this returns.
-int handle_loss(void*) {
-    lose("the connection to the display is lost");
-    return 0;
-}
-
-/// Handles errors that follow when another program has destroyed the window: all uses of it fail then.
-int handle_error(void* display, ErrorEvent* error) {
-    constexpr unsigned char k_bad_window = 3, k_bad_drawable = 9, k_first_of_extensions = 128;
-    if (error->code == k_bad_window || error->code == k_bad_drawable || error->code >= k_first_of_extensions)
-        lose("another program has destroyed the window");
-    return handler_before ? handler_before(display, error) : 0;
-}
-
-} // namespace
 
 WhenDisplayIsLost::WhenDisplayIsLost(std::function<void(std::string_view what)> act) {
     // The copy that GLFW has loaded, if any: the program itself does not need Xlib.

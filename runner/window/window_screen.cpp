@@ -24,7 +24,7 @@ Result<std::unique_ptr<Panels>> load_panels() {
 
 } // namespace
 
-Result<void> Overlay::show(Model model, const Surface& surface) {
+Result<void> PanelLayer::show(Model model, const Surface& surface) {
     const Model::Panels open = model.panels();
     const bool visible = open != Model::Panels{} && !failed_;
     if (std::exchange(open_, open) != open)
@@ -44,21 +44,21 @@ Result<void> Overlay::show(Model model, const Surface& surface) {
     return {};
 }
 
-bool Overlay::take(const platform::InputEvent& event) {
+bool PanelLayer::take(const platform::InputEvent& event) {
     if (!visible_)
         return false;
     frames_wanted_ = k_frames_to_settle;
     return panels_->take(event);
 }
 
-void Overlay::draw() {
+void PanelLayer::draw() {
     if (!visible_)
         return;
     panels_->draw();
     --frames_wanted_;
 }
 
-Commands Overlay::take_commands() {
+Commands PanelLayer::take_commands() {
     return panels_ ? panels_->take_commands() : Commands{};
 }
 
@@ -121,8 +121,8 @@ void WindowScreen::begin(const gl::RenderTarget* picture, bool) {
 }
 
 Result<void> WindowScreen::finish(live::Model model, const ShownMoment&) {
-    auto shown = overlay_.show(std::move(model), {extent(), window_.content_scale()});
-    overlay_.draw();
+    auto shown = panels_.show(std::move(model), {extent(), window_.content_scale()});
+    panels_.draw();
     window_.swap();
     return shown;
 }

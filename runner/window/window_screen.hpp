@@ -14,7 +14,7 @@
 
 namespace tidemark::live {
 
-class Overlay {
+class PanelLayer {
 public:
     /// Shows a model from now on; an empty model hides the overlay. All calls need the window's context to be
     /// current. Fails once if the plug-in cannot be loaded; from then on the overlay stays hidden.
@@ -58,13 +58,13 @@ public:
     Result<platform::SharedContext> create_context() override { return window_.create_context(); }
     std::vector<platform::InputEvent> wait(double seconds) override;
     void wake() override { platform::Window::wake(); }
-    bool take(const platform::InputEvent& event) override { return overlay_.take(event); }
-    live::Commands take_commands() override { return overlay_.take_commands(); }
+    bool take(const platform::InputEvent& event) override { return panels_.take(event); }
+    live::Commands take_commands() override { return panels_.take_commands(); }
     bool has(platform::Key) const override { return true; }
 
     Extent extent() const override { return window_.framebuffer_extent(); }
     bool is_watched() const override;
-    bool wants_frame() const override { return overlay_.wants_frame(); }
+    bool wants_frame() const override { return panels_.wants_frame(); }
     void begin(const gl::RenderTarget* picture, bool fresh) override;
     Result<void> finish(live::Model model, const ShownMoment& moment) override;
 
@@ -81,7 +81,7 @@ private:
 
     platform::Window window_;                      ///< owns the context, so it is destroyed last
     std::optional<platform::OutputWindow> output_; ///< none after the user has closed it
-    live::Overlay overlay_;
+    live::PanelLayer panels_;
 };
 
 } // namespace tidemark::cli

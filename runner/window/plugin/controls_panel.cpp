@@ -16,8 +16,10 @@
 #include <vector>
 
 namespace tidemark::live {
-
 namespace {
+
+/// The widgets' share of a row's width; the name gets the rest.
+constexpr float k_widget_share = 0.6F;
 
 /// Draws one field. A value is sent only when editing it ends, because each one is compiled.
 void draw_row(DefinitionField& field, Commands& commands) {
@@ -43,10 +45,7 @@ void draw_row(DefinitionField& field, Commands& commands) {
     ImGui::PopID();
 }
 
-} // namespace
-
 void draw_definitions(std::vector<DefinitionField>& fields, Commands& commands) {
-    constexpr float k_widget_share = 0.6F;
     if (fields.empty() || !ImGui::CollapsingHeader("Definitions"))
         return;
     ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * k_widget_share);
@@ -57,14 +56,9 @@ void draw_definitions(std::vector<DefinitionField>& fields, Commands& commands) 
 
 // Widgets for the knobs of a scene.
 
-namespace {
-
 /// Four digits: as precise as dragging by hand, and short in the file that values are written into.
 constexpr const char* k_number = "%.4g";
 constexpr const char* k_whole_number = "%.0f";
-
-/// The widgets' share of a row's width; the name gets the rest.
-constexpr float k_widget_share = 0.6F;
 
 bool draw_check_box(KnobField& field) {
     const auto& [low, high] = *field.knob.range;
@@ -167,8 +161,6 @@ void draw_row(KnobField& field, Commands& commands) {
     ImGui::PopID();
 }
 
-} // namespace
-
 void draw_knobs(std::vector<KnobField>& fields, Commands& commands) {
     if (fields.empty())
         return draw_wrapped("The scene has no knobs: it declares one with a line like\n"
@@ -207,8 +199,6 @@ void draw_views(const std::vector<std::string>& views, Commands& commands) {
 
 // Fields below the thumbnails: how the large picture is viewed.
 
-namespace {
-
 bool draw_channels(LookField& look) {
     bool changed = false;
     if (!ImGui::BeginCombo("channels", k_channel_choices[look.channels].name.data()))
@@ -244,8 +234,6 @@ bool draw_slice(LookField& look, int slices) {
     return turned;
 }
 
-} // namespace
-
 /// Draws nothing if no picture is large.
 void draw_look(const Model& model, Commands& commands) {
     if (!model.large)
@@ -262,8 +250,6 @@ void draw_look(const Model& model, Commands& commands) {
     if (changed)
         commands.emplace_back(LookAtPicture{look});
 }
-
-namespace {
 
 ImTextureID texture_of(const PictureField& picture) {
     // NOLINTNEXTLINE(performance-no-int-to-ptr): Dear ImGui has names travel as pointers.
@@ -294,8 +280,6 @@ void draw_thumbnail(const Model& model, size_t i, float width, Commands& command
     draw_text(fmt::format("{} {}\n{}", i + 1, picture.name, picture.size));
 }
 
-} // namespace
-
 void draw_thumbnails(const Model& model, const Surface& surface, Commands& commands) {
     constexpr double k_width = 120;
     if (model.pictures.empty() || !ImGui::CollapsingHeader("Passes and inputs"))
@@ -304,34 +288,6 @@ void draw_thumbnails(const Model& model, const Surface& surface, Commands& comma
         draw_thumbnail(model, i, float(k_width * surface.scale), commands);
     draw_look(model, commands);
 }
-
-void draw_large(const PictureField& picture, const Surface& surface) {
-    const ImVec2 all(float(surface.extent.width), float(surface.extent.height));
-    const float width = std::min(all.x, all.y * shape_of(picture));
-    const ImVec2 size(width, width / shape_of(picture));
-    const ImVec2 from((all.x - size.x) / 2, (all.y - size.y) / 2);
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    list.AddRectFilled({0, 0}, all, IM_COL32_BLACK);
-    draw_opaque(list, picture, from, {from.x + size.x, from.y + size.y});
-}
-
-void draw_controls(Model& model, const Surface& surface, Commands& commands) {
-    constexpr double k_margin = 8;
-    constexpr double k_width = 320;
-    const auto pixels = [&](double size) { return float(size * surface.scale); };
-    ImGui::SetNextWindowPos({pixels(k_margin), pixels(k_margin)}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSizeConstraints(
-        {pixels(k_width), 0}, {pixels(k_width), float(surface.extent.height) - 2 * pixels(k_margin)});
-    if (ImGui::Begin("Controls", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
-        draw_knobs(model.knobs, commands);
-        draw_definitions(model.definitions, commands);
-        draw_thumbnails(model, surface, commands);
-        draw_views(model.views, commands);
-    }
-    ImGui::End();
-}
-
-namespace {
 
 void draw_stepping(const Stepping& stepping, Commands& commands) {
     const std::string text = fmt::format("frame {} of {}", stepping.frame, stepping.last);
@@ -426,13 +382,37 @@ void draw_status(const Model& model) {
 
 } // namespace
 
+void draw_large(const PictureField& picture, const Surface& surface) {
+    const ImVec2 all(float(surface.extent.width), float(surface.extent.height));
+    const float width = std::min(all.x, all.y * shape_of(picture));
+    const ImVec2 size(width, width / shape_of(picture));
+    const ImVec2 from((all.x - size.x) / 2, (all.y - size.y) / 2);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRectFilled({0, 0}, all, IM_COL32_BLACK);
+    draw_opaque(list, picture, from, {from.x + size.x, from.y + size.y});
+}
+
+void draw_controls(Model& model, const Surface& surface, Commands& commands) {
+    constexpr double k_margin = 8;
+    constexpr double k_width = 320;
+    const auto pixels = [&](double size) { return float(size * surface.scale); };
+    ImGui::SetNextWindowPos({pixels(k_margin), pixels(k_margin)}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSizeConstraints(
+        {pixels(k_width), 0}, {pixels(k_width), float(surface.extent.height) - 2 * pixels(k_margin)});
+    if (ImGui::Begin("Controls", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
+        draw_knobs(model.knobs, commands);
+        draw_definitions(model.definitions, commands);
+        draw_thumbnails(model, surface, commands);
+        draw_views(model.views, commands);
+    }
+    ImGui::End();
+}
+
 float draw_time_bar(Model& model, const Surface& surface, Commands& commands) {
     const auto width = float(surface.extent.width);
     ImGui::SetNextWindowPos({0, float(surface.extent.height)}, ImGuiCond_Always, {0, 1});
     ImGui::SetNextWindowSizeConstraints({width, 0}, {width, float(surface.extent.height)});
-    constexpr auto k_plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                             ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
-    ImGui::Begin("Time", nullptr, k_plain);
+    ImGui::Begin("Time", nullptr, k_bare_panel | ImGuiWindowFlags_NoMove);
     if (model.time.stepping)
         draw_stepping(*model.time.stepping, commands);
     else

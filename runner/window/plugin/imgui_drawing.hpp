@@ -12,6 +12,10 @@
 
 namespace tidemark::live {
 
+/// The flags of a panel without title and border, as large as its contents.
+inline constexpr auto k_bare_panel =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
+
 /// Returns at most 2,000 bytes of a text, for a label or a line.
 inline std::string shown(std::string_view text) {
     constexpr size_t k_most_bytes = 2000;
@@ -40,9 +44,6 @@ inline void draw_coloured(const ImVec4& colour, std::string_view text) {
 /// Draws the panel. Applies edits to the model and adds a command for each.
 void draw_controls(Model& model, const Surface& surface, Commands& commands);
 
-// The pictures that passes draw and read: thumbnails to choose from, and one large picture.
-
-void draw_thumbnails(const Model& model, const Surface& surface, Commands& commands);
 /// Draws a picture below all panels, as large as the window allows.
 void draw_large(const PictureField& picture, const Surface& surface);
 
@@ -51,13 +52,7 @@ void draw_large(const PictureField& picture, const Surface& surface);
 /// Draws the bar and returns its height in pixels.
 float draw_time_bar(Model& model, const Surface& surface, Commands& commands);
 
-} // namespace tidemark::live
-
 // The panel at the bottom, with the errors of the scene.
-
-struct ImFont;
-
-namespace tidemark::live {
 
 struct ErrorLayout {
     ImFont* large;    ///< for the first error

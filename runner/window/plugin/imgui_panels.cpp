@@ -15,46 +15,7 @@
 #include <cmath>
 #include <utility>
 
-struct ImGuiIO;
-
 namespace tidemark::live {
-
-/// Releases all keys and buttons and moves the pointer outside.
-void release_all(ImGuiIO& io);
-
-} // namespace tidemark::live
-
-// The panels, drawn by Dear ImGui through its OpenGL 3 back end. Only one object may exist at a time.
-
-struct ImFont;
-
-namespace tidemark::live {
-
-class ImGuiPanels : public Panels {
-public:
-    ImGuiPanels();
-    ~ImGuiPanels() override;
-    ImGuiPanels(const ImGuiPanels&) = delete;
-    ImGuiPanels& operator=(const ImGuiPanels&) = delete;
-
-    void show(Model model, const Surface& surface) override;
-    bool take(const platform::InputEvent& event) override;
-    void draw() override;
-    Commands take_commands() override;
-    void release_all() override;
-
-private:
-    void run();
-    void adopt(double scale);
-
-    Model model_;
-    Surface surface_{{1, 1}, 0};
-    ImFont* large_ = nullptr;
-    Commands commands_;
-    EventOwner owner_;
-    std::chrono::steady_clock::time_point ran_at_ = std::chrono::steady_clock::now();
-};
-
 namespace {
 
 using platform::Key;
@@ -133,8 +94,6 @@ void set_key(ImGuiIO& io, Key key, bool down) {
         set_key_state(io, named->first, key, down && io.WantTextInput);
 }
 
-} // namespace
-
 /// Maps Tidemark's keys to those of Dear ImGui; called once, before the first frame.
 void set_up_input(ImGuiIO& io) {
 #if IMGUI_VERSION_NUM < 18700
@@ -185,8 +144,6 @@ void release_all(ImGuiIO& io) {
     set_pointer(io, -FLT_MAX, -FLT_MAX);
 }
 
-namespace {
-
 /// The size at which Dear ImGui's own font has whole pixels.
 constexpr double k_font_pixels = 13;
 
@@ -201,97 +158,107 @@ ImFont* add_font(double scale) {
 
 constexpr const char* k_glsl_version = "#version 450 core";
 
-} // namespace
+// The panels, drawn by Dear ImGui through its OpenGL 3 back end. Only one object may exist at a time.
 
-ImGuiPanels::ImGuiPanels() {
-    ImGui::CreateContext();
-    ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr; // no settings file
-    set_up_input(io);
-    ImGui_ImplOpenGL3_Init(k_glsl_version);
-}
-
-ImGuiPanels::~ImGuiPanels() {
-    ImGui_ImplOpenGL3_Shutdown();
-    ImGui::DestroyContext();
-}
-
-/// Scales the widgets and the font to another pixel density.
-void ImGuiPanels::adopt(double scale) {
-    ImGuiStyle style;
-    ImGui::StyleColorsDark(&style);
-    style.WindowRounding = style.FrameRounding = 3;
-    style.Colors[ImGuiCol_WindowBg].w = 0.85F;
-    style.ScaleAllSizes(float(scale));
-    ImGui::GetStyle() = style;
-    ImGuiIO& io = ImGui::GetIO();
-    io.Fonts->Clear();
-    add_font(scale);
-    large_ = add_font(k_large * scale);
-    ImGui_ImplOpenGL3_DestroyDeviceObjects(); // the next frame creates them again, with that font
-}
-
-void ImGuiPanels::show(Model model, const Surface& surface) {
-    if (surface.scale != surface_.scale)
-        adopt(surface.scale);
-    surface_ = surface;
-    keep_changing(model_.definitions, model.definitions);
-    model_ = std::move(model);
-}
-
-/// Runs Dear ImGui after each event, so that a press and its release within one frame are both seen, and hit
-/// tests use the current layout.
-bool ImGuiPanels::take(const platform::InputEvent& event) {
-    ImGuiIO& io = ImGui::GetIO();
-    const bool typing = io.WantTextInput; // the key that ends typing still belongs to the field
-    feed(io, event, surface_.extent.height);
-    run();
-    run(); // the result of the first run is needed to know whether a field has the keyboard
-    return owner_.take(event, {io.WantCaptureMouse, typing});
-}
-
-void ImGuiPanels::run() {
-    const auto now = std::chrono::steady_clock::now();
-    constexpr float k_shortest = 1e-5F; // Dear ImGui divides by it
-    ImGuiIO& io = ImGui::GetIO();
-    io.DeltaTime =
-        std::max(k_shortest, std::chrono::duration<float>(now - std::exchange(ran_at_, now)).count());
-    io.DisplaySize = {float(surface_.extent.width), float(surface_.extent.height)};
-    ImGui_ImplOpenGL3_NewFrame();
-    ImGui::NewFrame();
-    float bottom = 0;
-    if (model_.controls) {
-        if (model_.large)
-            draw_large(model_.pictures[*model_.large], surface_);
-        draw_controls(model_, surface_, commands_);
-        bottom = draw_time_bar(model_, surface_, commands_);
+class ImGuiPanels : public Panels {
+public:
+    ImGuiPanels() {
+        ImGui::CreateContext();
+        ImGuiIO& io = ImGui::GetIO();
+        io.IniFilename = nullptr; // no settings file
+        set_up_input(io);
+        ImGui_ImplOpenGL3_Init(k_glsl_version);
     }
-    if (!model_.errors.empty())
-        draw_errors(model_, surface_, {large_, bottom}, commands_);
-    if (!model_.help.empty())
-        draw_help(model_, surface_);
-    if (model_.magnifier)
-        draw_magnifier(*model_.magnifier, surface_);
-    if (!model_.clock.empty())
-        draw_clock(model_.clock, surface_);
-    ImGui::Render();
-}
 
-void ImGuiPanels::draw() {
-    run();
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-}
+    ~ImGuiPanels() override {
+        ImGui_ImplOpenGL3_Shutdown();
+        ImGui::DestroyContext();
+    }
 
-Commands ImGuiPanels::take_commands() {
-    return std::exchange(commands_, {});
-}
+    ImGuiPanels(const ImGuiPanels&) = delete;
+    ImGuiPanels& operator=(const ImGuiPanels&) = delete;
 
-void ImGuiPanels::release_all() {
-    live::release_all(ImGui::GetIO());
-    owner_.release_all();
-}
+    void show(Model model, const Surface& surface) override {
+        if (surface.scale != surface_.scale)
+            adopt(surface.scale);
+        surface_ = surface;
+        keep_changing(model_.definitions, model.definitions);
+        model_ = std::move(model);
+    }
 
-namespace {
+    /// Runs Dear ImGui after each event, so that a press and its release within one frame are both seen, and
+    /// hit tests use the current layout.
+    bool take(const platform::InputEvent& event) override {
+        ImGuiIO& io = ImGui::GetIO();
+        const bool typing = io.WantTextInput; // the key that ends typing still belongs to the field
+        feed(io, event, surface_.extent.height);
+        run();
+        run(); // the result of the first run is needed to know whether a field has the keyboard
+        return owner_.take(event, {io.WantCaptureMouse, typing});
+    }
+
+    void draw() override {
+        run();
+        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    }
+
+    Commands take_commands() override { return std::exchange(commands_, {}); }
+
+    void release_all() override {
+        live::release_all(ImGui::GetIO());
+        owner_.release_all();
+    }
+
+private:
+    void run() {
+        const auto now = std::chrono::steady_clock::now();
+        constexpr float k_shortest = 1e-5F; // Dear ImGui divides by it
+        ImGuiIO& io = ImGui::GetIO();
+        io.DeltaTime =
+            std::max(k_shortest, std::chrono::duration<float>(now - std::exchange(ran_at_, now)).count());
+        io.DisplaySize = {float(surface_.extent.width), float(surface_.extent.height)};
+        ImGui_ImplOpenGL3_NewFrame();
+        ImGui::NewFrame();
+        float bottom = 0;
+        if (model_.controls) {
+            if (model_.large)
+                draw_large(model_.pictures[*model_.large], surface_);
+            draw_controls(model_, surface_, commands_);
+            bottom = draw_time_bar(model_, surface_, commands_);
+        }
+        if (!model_.errors.empty())
+            draw_errors(model_, surface_, {large_, bottom}, commands_);
+        if (!model_.help.empty())
+            draw_help(model_, surface_);
+        if (model_.magnifier)
+            draw_magnifier(*model_.magnifier, surface_);
+        if (!model_.clock.empty())
+            draw_clock(model_.clock, surface_);
+        ImGui::Render();
+    }
+
+    /// Scales the widgets and the font to another pixel density.
+    void adopt(double scale) {
+        ImGuiStyle style;
+        ImGui::StyleColorsDark(&style);
+        style.WindowRounding = style.FrameRounding = 3;
+        style.Colors[ImGuiCol_WindowBg].w = 0.85F;
+        style.ScaleAllSizes(float(scale));
+        ImGui::GetStyle() = style;
+        ImGuiIO& io = ImGui::GetIO();
+        io.Fonts->Clear();
+        add_font(scale);
+        large_ = add_font(k_large * scale);
+        ImGui_ImplOpenGL3_DestroyDeviceObjects(); // the next frame creates them again, with that font
+    }
+
+    Model model_;
+    Surface surface_{{1, 1}, 0};
+    ImFont* large_ = nullptr;
+    Commands commands_;
+    EventOwner owner_;
+    std::chrono::steady_clock::time_point ran_at_ = std::chrono::steady_clock::now();
+};
 
 const PanelsPlugIn k_plug_in{k_panels_version,
                              []() -> std::unique_ptr<Panels> { return std::make_unique<ImGuiPanels>(); }};

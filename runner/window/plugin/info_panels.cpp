@@ -8,6 +8,8 @@
 namespace tidemark::live {
 namespace {
 
+constexpr auto k_scrolled_panel = (k_bare_panel | ImGuiWindowFlags_NoMove) & ~ImGuiWindowFlags_NoScrollbar;
+
 const ImVec4 k_red{1, 0.45F, 0.4F, 1};
 const ImVec4 k_grey{0.7F, 0.7F, 0.7F, 1};
 
@@ -56,51 +58,6 @@ void draw_others(const std::vector<ErrorField>& errors, Commands& commands) {
     }
     ImGui::TreePop();
 }
-
-} // namespace
-
-void draw_errors(const Model& model, const Surface& surface, const ErrorLayout& layout, Commands& commands) {
-    constexpr double k_margin = 8;
-    const auto margin = float(k_margin * surface.scale);
-    const auto width = float(surface.extent.width) - 2 * margin;
-    const auto bottom = float(surface.extent.height) - layout.bottom - margin;
-    ImGui::SetNextWindowPos({margin, bottom}, ImGuiCond_Always, {0, 1});
-    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, bottom - margin});
-    constexpr auto k_plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                             ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
-    if (ImGui::Begin("Errors", nullptr, k_plain & ~ImGuiWindowFlags_NoScrollbar)) {
-        draw_first(model.errors.front(), layout.large, commands);
-        draw_others(model.errors, commands);
-    }
-    ImGui::End();
-}
-
-void draw_help(const Model& model, const Surface& surface) {
-    constexpr double k_width = 620; // the longest row takes two lines
-    const ImVec2 all(float(surface.extent.width), float(surface.extent.height));
-    ImGui::SetNextWindowPos({all.x / 2, all.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
-    const float width = std::min(all.x, float(k_width * surface.scale));
-    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, all.y});
-    constexpr auto k_plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                             ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
-    if (ImGui::Begin("Help", nullptr, k_plain & ~ImGuiWindowFlags_NoScrollbar)) {
-        if (ImGui::BeginTable("keys", 2)) {
-            ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed);
-            ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthStretch);
-            for (const HelpRow& row : model.help) {
-                ImGui::TableNextColumn();
-                draw_text(row.keys);
-                ImGui::TableNextColumn();
-                draw_wrapped(row.meaning);
-            }
-            ImGui::EndTable();
-        }
-        draw_wrapped(model.help_footer);
-    }
-    ImGui::End();
-}
-
-namespace {
 
 constexpr double k_cell = 12;
 
@@ -154,11 +111,46 @@ ImVec2 place_of(const MagnifierField& magnifier, const Surface& surface, ImVec2 
 
 } // namespace
 
+void draw_errors(const Model& model, const Surface& surface, const ErrorLayout& layout, Commands& commands) {
+    constexpr double k_margin = 8;
+    const auto margin = float(k_margin * surface.scale);
+    const auto width = float(surface.extent.width) - 2 * margin;
+    const auto bottom = float(surface.extent.height) - layout.bottom - margin;
+    ImGui::SetNextWindowPos({margin, bottom}, ImGuiCond_Always, {0, 1});
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, bottom - margin});
+    if (ImGui::Begin("Errors", nullptr, k_scrolled_panel)) {
+        draw_first(model.errors.front(), layout.large, commands);
+        draw_others(model.errors, commands);
+    }
+    ImGui::End();
+}
+
+void draw_help(const Model& model, const Surface& surface) {
+    constexpr double k_width = 620; // the longest row takes two lines
+    const ImVec2 all(float(surface.extent.width), float(surface.extent.height));
+    ImGui::SetNextWindowPos({all.x / 2, all.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+    const float width = std::min(all.x, float(k_width * surface.scale));
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, all.y});
+    if (ImGui::Begin("Help", nullptr, k_scrolled_panel)) {
+        if (ImGui::BeginTable("keys", 2)) {
+            ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed);
+            ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthStretch);
+            for (const HelpRow& row : model.help) {
+                ImGui::TableNextColumn();
+                draw_text(row.keys);
+                ImGui::TableNextColumn();
+                draw_wrapped(row.meaning);
+            }
+            ImGui::EndTable();
+        }
+        draw_wrapped(model.help_footer);
+    }
+    ImGui::End();
+}
+
 void draw_magnifier(const MagnifierField& magnifier, const Surface& surface) {
-    constexpr auto k_plain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                             ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
     const float column = ImGui::CalcTextSize("-1.234567e-05 ").x;
-    if (ImGui::Begin("Magnifier", nullptr, k_plain)) {
+    if (ImGui::Begin("Magnifier", nullptr, k_bare_panel | ImGuiWindowFlags_NoInputs)) {
         draw_cells(magnifier, float(k_cell * surface.scale));
         ImGui::TextUnformatted(fmt::format("pixel {},{}", magnifier.x, magnifier.y).c_str());
         for (const PixelValue& value : magnifier.values)
@@ -171,9 +163,7 @@ void draw_magnifier(const MagnifierField& magnifier, const Surface& surface) {
 void draw_clock(const std::string& text, const Surface& surface) {
     const auto margin = float(8 * surface.scale);
     ImGui::SetNextWindowPos({float(surface.extent.width) - margin, margin}, ImGuiCond_Always, {1, 0});
-    constexpr auto k_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                             ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
-    if (ImGui::Begin("Clock", nullptr, k_flags))
+    if (ImGui::Begin("Clock", nullptr, k_bare_panel | ImGuiWindowFlags_NoInputs))
         draw_text(text);
     ImGui::End();
 }

@@ -1,5 +1,5 @@
 // How editors are told a place.
-#include "window/source_errors.hpp"
+#include "window/overlay.hpp"
 
 #include <gmock/gmock.h>
 

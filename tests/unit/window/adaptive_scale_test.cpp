@@ -1,4 +1,4 @@
-#include "window/frame_pacing.hpp"
+#include "window/picture_view.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-namespace tidemark::render::adaptive_scale_test {
+namespace tidemark::cli::adaptive_scale_test {
 
 /// Milliseconds of a frame in a scale, `frame` frames after the start.
 using Cost = std::function<double(RenderScale scale, int frame)>;
@@ -99,4 +99,4 @@ TEST(AdaptiveScale, tries_again_after_forgetting) {
     EXPECT_EQ(run(adaptive, scale_of("1/2"), 500, cost_of(11)).scale.name(), "1");
 }
 
-} // namespace tidemark::render::adaptive_scale_test
+} // namespace tidemark::cli::adaptive_scale_test

@@ -1,8 +1,8 @@
-#include "window/frame_pacing.hpp"
+#include "window/frame_pump.hpp"
 
 #include <gmock/gmock.h>
 
-namespace tidemark::render::frame_pace_test {
+namespace tidemark::cli::frame_pace_test {
 
 using Way = FramePace::Way;
 constexpr Extent k_extent{100, 100};
@@ -45,4 +45,4 @@ TEST(FramePaceTest, more_pixels_take_longer) {
     EXPECT_EQ(pace.way(k_extent), Way::whole) << "nothing is known of a picture without pixels";
 }
 
-} // namespace tidemark::render::frame_pace_test
+} // namespace tidemark::cli::frame_pace_test

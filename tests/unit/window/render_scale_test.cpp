@@ -1,8 +1,8 @@
-#include "window/frame_pacing.hpp"
+#include "window/picture_view.hpp"
 
 #include <gtest/gtest.h>
 
-namespace tidemark::render::render_scale_test {
+namespace tidemark::cli::render_scale_test {
 
 TEST(RenderScale, is_known_by_its_name) {
     std::vector<std::string> names;
@@ -29,4 +29,4 @@ TEST(RenderScale, steps_end_where_there_are_no_more) {
     EXPECT_EQ(RenderScale().stepped(1).steps_from(RenderScale().stepped(-3)), 4);
 }
 
-} // namespace tidemark::render::render_scale_test
+} // namespace tidemark::cli::render_scale_test

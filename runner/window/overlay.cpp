@@ -1,9 +1,12 @@
-#include "window/source_errors.hpp"
+#include "window/overlay.hpp"
 
 #include "base/encoding.hpp"
 #include "base/file.hpp"
 #include "base/mapped_text.hpp"
 #include "base/process.hpp"
+#include "scene/knob.hpp"
+#include "shader/definitions.hpp"
+#include "window/window_keys.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -56,18 +59,25 @@ std::vector<live::ErrorField> fields_of(const Error& error) {
     return fields;
 }
 
-} // namespace
-
-bool ErrorBoard::show(const Error* error) {
-    std::string text = error ? to_string(*error) : "";
-    if (text == text_)
-        return false;
-    text_ = std::move(text);
-    fields_ = error ? fields_of(*error) : std::vector<live::ErrorField>{};
-    return true;
+/// Adds the MIDI binding of each component to the fields.
+void add_controllers(std::vector<live::KnobField>& fields, const live::ControllerMap& map) {
+    for (live::KnobField& field : fields)
+        for (size_t i = 0; i < size_t(info(field.knob.type).components); ++i) {
+            const live::KnobPart part{field.knob.name, i};
+            const auto controller = map.controller_of(part);
+            field.controllers.push_back({to_string(part, field.knob),
+                                         controller ? to_string(*controller) : "", map.learning() == part});
+        }
 }
 
-namespace {
+/// Returns a label such as `2.500 s, height = 2`.
+std::string label_of(const Moment& view) {
+    const render::FrameState& state = view.sequence.state;
+    std::string label = fmt::format("{:.3f} s", state.seconds());
+    for (const scene::KnobSetting& knob : state.knobs)
+        label += fmt::format(", {} = {}", knob.name, scene::to_string(knob.value));
+    return label;
+}
 
 /// The argument formats for a line and a column.
 enum class Form { plus_line, file_colon, goto_file_colon, options };
@@ -116,7 +126,7 @@ std::vector<std::string> place_words(Form form, const SourceLocation& where) {
 }
 
 /// Starts the program in a session of its own, without access to our terminal. Returns 0 or an errno value.
-int spawn(const std::vector<std::string>& words, pid_t& child) {
+int spawn_editor(const std::vector<std::string>& words, pid_t& child) {
     const std::vector<char*> arguments = argument_pointers(words);
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
@@ -140,6 +150,101 @@ const char* chosen_editor() {
 
 } // namespace
 
+bool ErrorBoard::show(const Error* error) {
+    std::string text = error ? to_string(*error) : "";
+    if (text == text_)
+        return false;
+    text_ = std::move(text);
+    fields_ = error ? fields_of(*error) : std::vector<live::ErrorField>{};
+    return true;
+}
+
+std::vector<live::KnobField> knob_fields(const scene::Scene& scene,
+                                         const std::vector<scene::KnobSetting>& turned) {
+    std::vector<live::KnobField> fields;
+    for (const scene::Knob& knob : scene.knobs)
+        fields.push_back({knob, value_after(knob, turned)});
+    return fields;
+}
+
+std::vector<live::DefinitionField> definition_fields(const scene::Scene& scene, const SceneRequest& request) {
+    std::vector<scene::Setting> held;
+    for (const std::string& text : request.defines)
+        if (const auto split = scene::split_setting(text, "--define"))
+            set(held, {std::string(split->first), std::string(split->second)});
+    std::vector<live::DefinitionField> fields;
+    for (const glsl::NamedText& definition : glsl::plain_numbers(scene)) {
+        const auto other = std::ranges::find(held, definition.name, &scene::Setting::name);
+        const bool is_held = other != held.end();
+        if (auto field =
+                live::definition_field(definition.name, is_held ? other->value : definition.text, is_held))
+            fields.push_back(*std::move(field));
+    }
+    return fields;
+}
+
+void Overlay::toggle(Panel panel) {
+    bool& open = panel == Panel::help ? help_open_ : controls_open_;
+    open = !open;
+    mark_changed();
+}
+
+bool Overlay::show_origin(const Error* origin) {
+    const bool differs = origin_.show(origin);
+    mark_changed_if(differs);
+    return differs;
+}
+
+void Overlay::forget_scene() {
+    definitions_.reset();
+    show_origin(nullptr);
+}
+
+std::string Overlay::keep(Moment view) {
+    views_.push_back(std::move(view));
+    mark_changed();
+    return label_of(views_.back());
+}
+
+void Overlay::forget_view(size_t index) {
+    if (index < views_.size())
+        views_.erase(views_.begin() + std::ptrdiff_t(index));
+    mark_changed();
+}
+
+void Overlay::restore(bool controls_open, std::vector<Moment> views, std::vector<live::Binding> controllers) {
+    controls_open_ = controls_open;
+    views_ = std::move(views);
+    controllers_ = live::ControllerMap(std::move(controllers));
+}
+
+live::Model Overlay::model(const scene::Scene* scene, const SceneRequest& request,
+                           const std::vector<scene::KnobSetting>& turned, bool midi) {
+    changed_ = false;
+    live::Model model{.controls = controls_open_ && scene,
+                      .errors = errors_.fields().empty() ? origin_.fields() : errors_.fields()};
+    if (model.controls) {
+        if (!definitions_)
+            definitions_ = definition_fields(*scene, request);
+        model.definitions = *definitions_;
+        model.knobs = knob_fields(*scene, turned);
+        if (midi)
+            add_controllers(model.knobs, controllers_);
+        for (const Moment& view : views_)
+            model.views.push_back(label_of(view));
+    }
+    if (help_open_) {
+        for (const KeyRow& row : key_rows())
+            model.help.push_back({std::string(row.keys), std::string(row.meaning)});
+        model.help_footer = k_keys_of_scenes;
+    }
+    return model;
+}
+
+bool Overlay::change_title(const std::string& title) {
+    return std::exchange(title_, title) != title;
+}
+
 std::vector<std::string> editor_words(std::string_view editor, const SourceLocation& where) {
     std::vector<std::string> words = split_words(editor);
     if (words.empty())
@@ -158,7 +263,7 @@ Result<void> open_editor(const SourceLocation& where) {
     if (words.empty())
         return fail(ErrorCode::usage, "no editor to open: set VISUAL or EDITOR, as in VISUAL='code --wait'");
     pid_t child = 0;
-    if (const int error = spawn(words, child); error != 0)
+    if (const int error = spawn_editor(words, child); error != 0)
         return fail(ErrorCode::usage,
                     fmt::format("cannot start the editor '{}': {}", words.front(), std::strerror(error)));
     std::thread([child] { ::waitpid(child, nullptr, 0); }).detach(); // prevents a zombie

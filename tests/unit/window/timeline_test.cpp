@@ -1,13 +1,20 @@
-#include "window/frame_pacing.hpp"
+#include "window/timeline.hpp"
 
 #include <gtest/gtest.h>
 
-namespace tidemark::render::live_clock_test {
+#include <cmath>
+
+namespace tidemark::cli::timeline_test {
+
+using render::FrameInputs;
+using render::FrameState;
+using render::inputs_of;
+using render::inputs_of_frame;
 
 constexpr double k_delta = 1 / 60.0;
 
-TEST(LiveClock, starts_at_frame_0_and_time_0_whatever_the_clock_says) {
-    LiveClock clock(1000);
+TEST(Timeline, starts_at_frame_0_and_time_0_whatever_the_clock_says) {
+    Timeline clock(1000);
     const FrameInputs first = inputs_of(clock.next_frame(1000));
     EXPECT_EQ(first.frame, 0);
     EXPECT_EQ(first.time, 0);
@@ -15,8 +22,8 @@ TEST(LiveClock, starts_at_frame_0_and_time_0_whatever_the_clock_says) {
     EXPECT_EQ(first.frame_rate, 60);
 }
 
-TEST(LiveClock, runs_with_the_wall_clock) {
-    LiveClock clock(1000);
+TEST(Timeline, runs_with_the_wall_clock) {
+    Timeline clock(1000);
     (void)clock.next_frame(1000.25);
     const FrameInputs second = inputs_of(clock.next_frame(1000.75));
     EXPECT_EQ(second.frame, 1);
@@ -24,8 +31,8 @@ TEST(LiveClock, runs_with_the_wall_clock) {
     EXPECT_EQ(second.time_delta, 0.5);
 }
 
-TEST(LiveClock, follows_frames_where_it_is_told_to) {
-    LiveClock clock(1000, 25.0);
+TEST(Timeline, follows_frames_where_it_is_told_to) {
+    Timeline clock(1000, 25, Timeline::Source::frames);
     (void)clock.next_frame(1000);
     const auto expect_frame = [&](int number) {
         const FrameInputs shown = inputs_of(clock.next_frame(1003.5 + number));
@@ -39,17 +46,17 @@ TEST(LiveClock, follows_frames_where_it_is_told_to) {
     expect_frame(2);
     clock.toggle_pause(1010);
     expect_frame(3); // drawn because somebody drags
-    clock.step(-1, 25, 1011);
+    clock.step(-1, 1011);
     expect_frame(2);
-    clock.step(1, 25, 1012);
+    clock.step(1, 1012);
     EXPECT_EQ(clock.time(1020), 3 / 25.0);
     expect_frame(3);
     clock.restart(1020);
     expect_frame(0);
 }
 
-TEST(LiveClock, pause_freezes_time) {
-    LiveClock clock(0);
+TEST(Timeline, pause_freezes_time) {
+    Timeline clock(0);
     (void)clock.next_frame(1);
     EXPECT_FALSE(clock.paused());
     clock.toggle_pause(2);
@@ -59,8 +66,8 @@ TEST(LiveClock, pause_freezes_time) {
     EXPECT_EQ(frozen.time_delta, k_delta);
 }
 
-TEST(LiveClock, frames_drawn_in_a_pause_still_count) {
-    LiveClock clock(0);
+TEST(Timeline, frames_drawn_in_a_pause_still_count) {
+    Timeline clock(0);
     (void)clock.next_frame(0);
     clock.toggle_pause(1);
     EXPECT_EQ(clock.next_frame(2).frame, 1);
@@ -70,8 +77,8 @@ TEST(LiveClock, frames_drawn_in_a_pause_still_count) {
     EXPECT_EQ(later.time_delta, k_delta) << "in every frame of the pause";
 }
 
-TEST(LiveClock, resumes_where_it_stood) {
-    LiveClock clock(0);
+TEST(Timeline, resumes_where_it_stood) {
+    Timeline clock(0);
     (void)clock.next_frame(1);
     clock.toggle_pause(2);
     (void)clock.next_frame(50);
@@ -83,8 +90,8 @@ TEST(LiveClock, resumes_where_it_stood) {
     EXPECT_EQ(clock.next_frame(100.75).time_delta, 0.25);
 }
 
-TEST(LiveClock, a_rest_is_no_frames_delta) {
-    LiveClock clock(0);
+TEST(Timeline, a_rest_is_no_frames_delta) {
+    Timeline clock(0);
     (void)clock.next_frame(1);
     clock.rest();
     const FrameInputs woken = inputs_of(clock.next_frame(9));
@@ -95,8 +102,8 @@ TEST(LiveClock, a_rest_is_no_frames_delta) {
     EXPECT_EQ(clock.next_frame(9.25).time_delta, 0.25);
 }
 
-TEST(LiveClock, restart_begins_anew) {
-    LiveClock clock(0);
+TEST(Timeline, restart_begins_anew) {
+    Timeline clock(0);
     (void)clock.next_frame(1);
     (void)clock.next_frame(2);
     clock.restart(3);
@@ -106,8 +113,8 @@ TEST(LiveClock, restart_begins_anew) {
     EXPECT_EQ(first.time_delta, k_delta);
 }
 
-TEST(LiveClock, restart_keeps_a_pause) {
-    LiveClock clock(0);
+TEST(Timeline, restart_keeps_a_pause) {
+    Timeline clock(0);
     (void)clock.next_frame(1);
     clock.toggle_pause(2);
     clock.restart(3);
@@ -117,41 +124,41 @@ TEST(LiveClock, restart_keeps_a_pause) {
     EXPECT_EQ(clock.next_frame(6).time, 1);
 }
 
-TEST(LiveClock, a_step_pauses_and_goes_on_by_one_frame) {
-    LiveClock clock(0);
+TEST(Timeline, a_step_pauses_and_goes_on_by_one_frame) {
+    Timeline clock(0, 50);
     for (int i = 0; i < 3; ++i)
         (void)clock.next_frame(1);
-    clock.step(1, 50, 1.5);
+    clock.step(1, 1.5);
     EXPECT_TRUE(clock.paused());
     const FrameInputs next = inputs_of(clock.next_frame(7));
     EXPECT_EQ(next.frame, 3) << "frame 2 was on show";
     EXPECT_EQ(next.time, 1.52);
     EXPECT_EQ(next.time_delta, k_delta);
-    clock.step(1, 50, 8);
+    clock.step(1, 8);
     EXPECT_EQ(clock.next_frame(8).frame, 4);
 }
 
-TEST(LiveClock, a_step_back_shows_the_frame_before) {
-    LiveClock clock(0);
+TEST(Timeline, a_step_back_shows_the_frame_before) {
+    Timeline clock(0, 50);
     for (int i = 0; i < 3; ++i)
         (void)clock.next_frame(1);
-    clock.step(-1, 50, 1.5);
+    clock.step(-1, 1.5);
     const FrameInputs back = inputs_of(clock.next_frame(7));
     EXPECT_EQ(back.frame, 1);
     EXPECT_EQ(back.time, 1.48);
 }
 
-TEST(LiveClock, no_step_goes_before_the_start) {
-    LiveClock clock(0);
+TEST(Timeline, no_step_goes_before_the_start) {
+    Timeline clock(0, 50);
     (void)clock.next_frame(0);
-    clock.step(-10, 50, 0.1);
+    clock.step(-10, 0.1);
     const FrameInputs first = inputs_of(clock.next_frame(1));
     EXPECT_EQ(first.frame, 0);
     EXPECT_EQ(first.time, 0);
 }
 
-TEST(LiveClock, the_rate_is_a_mean_over_half_a_second) {
-    LiveClock clock(0);
+TEST(Timeline, the_rate_is_a_mean_over_half_a_second) {
+    Timeline clock(0);
     for (int i = 0; i < 50; ++i) // the last one at 0.49 s
         EXPECT_EQ(clock.next_frame(i * 0.01).fps, 60);
     EXPECT_NEAR(clock.next_frame(0.5).fps, 100, 1e-9);
@@ -161,8 +168,8 @@ TEST(LiveClock, the_rate_is_a_mean_over_half_a_second) {
     EXPECT_NEAR(clock.next_frame(1.0001).fps, 20, 0.01);
 }
 
-TEST(LiveClock, the_time_of_a_pause_is_no_part_of_the_rate) {
-    LiveClock clock(0);
+TEST(Timeline, the_time_of_a_pause_is_no_part_of_the_rate) {
+    Timeline clock(0);
     for (int i = 0; i < 20; ++i)
         (void)clock.next_frame(i * 0.01);
     clock.toggle_pause(0.2);
@@ -172,8 +179,8 @@ TEST(LiveClock, the_time_of_a_pause_is_no_part_of_the_rate) {
     EXPECT_EQ(clock.next_frame(100.5).fps, 4);
 }
 
-TEST(LiveClock, goes_to_a_frame_and_on_from_there) {
-    LiveClock clock(1000);
+TEST(Timeline, goes_to_a_frame_and_on_from_there) {
+    Timeline clock(1000);
     (void)clock.next_frame(1000);
     clock.seek(5, 300, 1001);
     const FrameInputs there = inputs_of(clock.next_frame(1001));
@@ -183,8 +190,8 @@ TEST(LiveClock, goes_to_a_frame_and_on_from_there) {
     EXPECT_EQ(inputs_of(clock.next_frame(1001.5)).time, 5.5);
 }
 
-TEST(LiveClock, runs_at_another_speed_and_back_to_0) {
-    LiveClock clock(1000);
+TEST(Timeline, runs_at_another_speed_and_back_to_0) {
+    Timeline clock(1000);
     clock.set_speed(2, 1001);
     EXPECT_EQ(clock.time(1002), 3);
     (void)clock.next_frame(1002);
@@ -195,8 +202,8 @@ TEST(LiveClock, runs_at_another_speed_and_back_to_0) {
     EXPECT_EQ(clock.time(1010), 0);
 }
 
-TEST(LiveClockTest, a_frame_that_is_given_back_was_none) {
-    LiveClock clock(0);
+TEST(Timeline, a_frame_that_is_given_back_was_none) {
+    Timeline clock(0);
     clock.next_frame(0);
     clock.next_frame(1);
     clock.give_frame_back();
@@ -205,18 +212,117 @@ TEST(LiveClockTest, a_frame_that_is_given_back_was_none) {
     EXPECT_EQ(next.frame, 1);
     EXPECT_EQ(next.seconds(), 3);
     EXPECT_EQ(next.time_delta, 1 / 60.0) << "as behind a rest";
-    LiveClock counted(0, 10);
+    Timeline counted(0, 10, Timeline::Source::frames);
     counted.next_frame(0);
     counted.give_frame_back();
     EXPECT_EQ(counted.next_frame(0).seconds(), 0);
 }
 
-TEST(LiveClock, keeps_what_the_clock_does_not_set) {
-    LiveClock clock(0);
+TEST(Timeline, keeps_what_the_clock_does_not_set) {
+    Timeline clock(0);
     const FrameState state = clock.next_frame(0.5, {.frame = 7, .fps = 24, .bpm = 90});
     EXPECT_EQ(state.bpm, 90);
     EXPECT_EQ(state.frame, 0);
     EXPECT_EQ(state.fps, 60);
 }
 
-} // namespace tidemark::render::live_clock_test
+TEST(Timeline, finds_the_frame_at_a_time) {
+    const Timeline clock(0, 25);
+    EXPECT_EQ(clock.frame_at(0), 0);
+    EXPECT_EQ(clock.frame_at(2), 50);
+    EXPECT_EQ(clock.frame_at(-0.1), std::nullopt);
+    EXPECT_EQ(clock.frame_at(std::nan("")), std::nullopt);
+    EXPECT_EQ(clock.frame_at(1e9), std::nullopt) << "beyond the last frame";
+}
+
+TEST(Timeline, a_seek_keeps_a_pause) {
+    Timeline clock(0, 50);
+    clock.toggle_pause(1);
+    clock.seek(7, 350, 2);
+    EXPECT_TRUE(clock.paused());
+    EXPECT_EQ(clock.time(20), 7);
+    EXPECT_EQ(clock.next_frame(20).frame, 350);
+}
+
+TEST(Timeline, stays_at_the_frame_where_a_seek_was_cancelled) {
+    Timeline clock(0, 50);
+    clock.pause_at(75, 3);
+    EXPECT_TRUE(clock.paused());
+    EXPECT_EQ(clock.time(9), 1.5);
+    clock.pause_at(100, 4);
+    EXPECT_TRUE(clock.paused()) << "a second one does not resume";
+    EXPECT_EQ(clock.next_frame(9).frame, 100);
+}
+
+TEST(Timeline, jumps_to_the_start_of_the_loop_at_its_end) {
+    Timeline clock(0);
+    EXPECT_EQ(clock.loop_jump(5), std::nullopt);
+    clock.set_loop({.from = 1, .to = 3});
+    EXPECT_EQ(clock.loop_jump(0.5), std::nullopt) << "before the loop it runs into it";
+    EXPECT_EQ(clock.loop_jump(2.9), std::nullopt);
+    EXPECT_EQ(clock.loop_jump(3), 1);
+    clock.seek(3.5, 0, 3);
+    EXPECT_EQ(clock.loop_jump(3), 1);
+}
+
+TEST(Timeline, a_loop_backwards_jumps_to_its_end) {
+    Timeline clock(0);
+    clock.set_loop({.from = 1, .to = 3});
+    clock.seek(2, 0, 0);
+    clock.set_speed(-1, 0);
+    EXPECT_EQ(clock.loop_jump(0.5), std::nullopt);
+    EXPECT_EQ(clock.loop_jump(1), 3);
+}
+
+TEST(Timeline, a_loop_needs_two_ends_in_order) {
+    Timeline clock(0);
+    for (const live::SetLoop& none : {live::SetLoop{.from = 1}, {.to = 1}, {.from = 2, .to = 1}, {1, 1}}) {
+        clock.set_loop(none);
+        EXPECT_EQ(clock.loop_jump(5), std::nullopt);
+    }
+}
+
+TEST(Timeline, a_time_without_a_viewer_is_no_frames_delta) {
+    Timeline clock(0);
+    (void)clock.next_frame(1);
+    clock.watch(false, 1);
+    clock.watch(false, 1.5);
+    clock.watch(true, 1.75);
+    EXPECT_EQ(clock.next_frame(1.75).time_delta, 0.75) << "half a second is too short to be left out";
+    clock.watch(false, 2);
+    clock.watch(true, 9);
+    EXPECT_EQ(clock.next_frame(9).time_delta, k_delta);
+}
+
+TEST(Timeline, begins_again_with_the_first_picture) {
+    Timeline clock(0, 50);
+    clock.set_loop({.from = 1, .to = 3});
+    clock.begin_next_scene_at(2);
+    clock.set_speed(4, 1);
+    clock.toggle_pause(1);
+    clock.begin(10);
+    EXPECT_FALSE(clock.paused());
+    EXPECT_EQ(clock.speed(), 1);
+    EXPECT_EQ(clock.time(10.5), 0.5);
+    EXPECT_EQ(clock.loop_jump(13), 1) << "the loop stays";
+    EXPECT_EQ(clock.take_next_scene_time(), 2);
+    EXPECT_EQ(clock.take_next_scene_time(), std::nullopt) << "once";
+}
+
+TEST(Timeline, fills_the_time_bar) {
+    Timeline clock(0, 25, Timeline::Source::frames);
+    clock.set_loop({.from = 1});
+    clock.set_speed(0.5, 0);
+    clock.toggle_pause(0);
+    const live::TimeField field = clock.field({.frame = 7, .time = 3.5});
+    EXPECT_EQ(field.seconds, 3.5);
+    EXPECT_EQ(field.frame, 7);
+    EXPECT_TRUE(field.paused);
+    EXPECT_EQ(field.speed, 0.5);
+    EXPECT_FALSE(field.has_speed);
+    EXPECT_EQ(field.loop_from, 1);
+    EXPECT_EQ(field.loop_to, std::nullopt);
+    EXPECT_TRUE(Timeline(0).field({}).has_speed);
+}
+
+} // namespace tidemark::cli::timeline_test

@@ -1,0 +1,113 @@
+// The error on show, with the source lines it refers to.
+#pragma once
+
+#include "base/error.hpp"
+#include "host/moment.hpp"
+#include "host/overlay_model.hpp"
+#include "host/requests.hpp"
+#include "scene/scene.hpp"
+#include "window/midi.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tidemark::cli {
+
+class ErrorBoard {
+public:
+    /// Sets the error; null: there is none. Reads the files if the error differs from the last one. Returns
+    /// whether it differs.
+    bool show(const Error* error);
+    const std::vector<live::ErrorField>& fields() const { return fields_; }
+
+private:
+    std::string text_; ///< of the error
+    std::vector<live::ErrorField> fields_;
+};
+
+// Opens the user's own editor at a place in a file. Uses no shell and does not wait for it.
+
+/// Returns the command that opens the editor ("code --wait": split at blanks) at that place. A terminal
+/// editor is opened in x-terminal-emulator.
+std::vector<std::string> editor_words(std::string_view editor, const SourceLocation& where);
+
+/// Opens $VISUAL, else $EDITOR. Fails (ErrorCode::usage) if neither is set or it does not start.
+Result<void> open_editor(const SourceLocation& where);
+
+// The contents of the panels over the picture, apart from the picture and its time. The window carries out
+// the panels' commands.
+
+/// Returns the scene's knobs with their current values: the defaults after `turned`.
+std::vector<live::KnobField> knob_fields(const scene::Scene& scene,
+                                         const std::vector<scene::KnobSetting>& turned);
+
+/// Returns the numeric definitions in the scene's texts, with the overrides of `request`.
+std::vector<live::DefinitionField> definition_fields(const scene::Scene& scene, const SceneRequest& request);
+
+class Overlay {
+public:
+    enum class Panel { controls, help };
+
+    explicit Overlay(bool controls_open) : controls_open_(controls_open) {}
+
+    bool shows(Panel panel) const { return panel == Panel::help ? help_open_ : controls_open_; }
+    /// Opens or closes a panel.
+    void toggle(Panel panel);
+    /// Requests to show the panels again, because they are out of date.
+    void mark_changed() { changed_ = true; }
+    /// Requests it if `changed` is true.
+    void mark_changed_if(bool changed) { changed_ |= changed; }
+    bool changed() const { return changed_; }
+
+    /// Sets the error of the scene's files; null: none.
+    void show_error(const Error* error) { mark_changed_if(errors_.show(error)); }
+    /// Sets the origin of a NaN, shown while the files have no error; null: none. Returns whether it differs.
+    bool show_origin(const Error* origin);
+    /// Forgets the texts of the scene on show: another one is on show from now on.
+    void forget_scene();
+
+    /// Adds a view that the user keeps. Returns its label.
+    std::string keep(Moment view);
+    void forget_view(size_t index);
+    const std::vector<Moment>& views() const { return views_; }
+
+    /// Bindings of MIDI controllers, of this scene, also without a device.
+    live::ControllerMap& controllers() { return controllers_; }
+    const live::ControllerMap& controllers() const { return controllers_; }
+
+    /// Restores what the last window kept.
+    void restore(bool controls_open, std::vector<Moment> views, std::vector<live::Binding> controllers);
+
+    /// Returns the panels' contents, which are up to date from then on. `scene`: on show; null: none yet, and
+    /// the controls stay closed. `turned`: values of its knobs. `midi`: there is a MIDI device.
+    live::Model model(const scene::Scene* scene, const SceneRequest& request,
+                      const std::vector<scene::KnobSetting>& turned, bool midi);
+
+    /// Sets the window's title; returns whether it differs from the last one.
+    bool change_title(const std::string& title);
+
+private:
+    bool controls_open_;
+    bool help_open_ = false;
+    bool changed_ = false;
+    ErrorBoard errors_;
+    ErrorBoard origin_;
+    std::vector<Moment> views_;
+    live::ControllerMap controllers_;
+    std::optional<std::vector<live::DefinitionField>>
+        definitions_; ///< of the scene on show; none: not read yet
+    std::string title_;
+};
+
+// Opens the user's own editor at a place in a file. Uses no shell and does not wait for it.
+
+/// Returns the command that opens the editor ("code --wait": split at blanks) at that place. A terminal
+/// editor is opened in x-terminal-emulator.
+std::vector<std::string> editor_words(std::string_view editor, const SourceLocation& where);
+
+/// Opens $VISUAL, else $EDITOR. Fails (ErrorCode::usage) if neither is set or it does not start.
+Result<void> open_editor(const SourceLocation& where);
+
+} // namespace tidemark::cli
