@@ -200,6 +200,8 @@ void add_check(Command app, Action& chosen) {
                   "Also replaces hashes of large sines: the same numbers on every GPU, but another picture")
         .needs(fix);
     add_trace_options(command, options->trace);
+    command.add_flag("--all", probes.all,
+                     "Also prints notes, what each probe found, and why probes do not apply");
     command.add_flag("--json", probes.json, "Prints one JSON object");
     command.on_call([options, &chosen] {
         if (!options->list && options->probes.scene.path.empty())

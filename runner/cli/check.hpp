@@ -18,6 +18,7 @@ struct ProbesRequest {
     platform::DeviceChoice device{};
     double budget = 60; ///< seconds after which no further probe is started
     bool json = false;
+    bool all = false; ///< also print notes, each probe's sentence, and why probes do not apply
 };
 
 /// Reads the promises from the check.json of a scene.

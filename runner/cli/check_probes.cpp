@@ -120,7 +120,7 @@ Result<std::vector<const lab::Probe*>> chosen_probes(const std::vector<std::stri
 }
 
 Result<void> keep_picture(const OutputPath& folder, ProbeResult& asked) {
-    if (folder.empty() || !asked.answer.picture || !is_finding(asked.answer))
+    if (folder.empty() || !asked.answer.picture || !is_finding(asked.answer.verdict))
         return {};
     const OutputPath picture = folder / fmt::format("{}.png", asked.probe->name);
     asked.picture = picture.path();
@@ -152,6 +152,11 @@ Result<ProbeResult> ask(const lab::Probe& probe, lab::ProbeBench& bench, bool by
     return asked;
 }
 
+/// Returns the failure for a driver that crashed or was reset.
+lab::Answer broken_driver(const std::string& message) {
+    return {.verdict = Verdict::fail, .sentence = message, .effect = message};
+}
+
 using Probes = std::span<const lab::Probe* const>;
 
 /// Runs in a child process and sends one line for each probe. If the driver was reset or out of memory, that
@@ -170,7 +175,7 @@ Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, co
         auto asked = TRY(ask(*probe, bench, !request.probes.empty(), seconds_since(start) < request.budget));
         const auto driver = gl::check_work("drawing");
         if (!driver)
-            asked.answer = {Verdict::fail, driver.error().message};
+            asked.answer = broken_driver(driver.error().message);
         if (auto kept = keep_picture(OutputPath::typed(request.output).sparing(files_read(scene)), asked);
             !kept)
             return kept;
@@ -238,7 +243,7 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
             continue;
         ProbeResult last{probes.front(), {Verdict::cut, k_not_finished}};
         if (!run->crash.empty())
-            last.answer = {Verdict::fail, run->crash};
+            last.answer = broken_driver(run->crash);
         last.seconds = seconds_since(began) - seconds;
         TRY(take(std::move(last)));
         probes = probes.subspan(1);
@@ -293,24 +298,21 @@ Result<int> check_probes(const ProbesRequest& request) {
     if (!(request.budget > 0))
         return fail(ErrorCode::usage, "--budget: give a number of seconds above 0");
     const Clock::time_point start = Clock::now();
+    // Probes compile many texts and draw each in few small pictures. Without LLVM's optimisation llvmpipe
+    // draws the same bytes and compiles faster; it does not mix such code with other code in its cache.
+    ::setenv("GALLIVM_PERF", "nopt", 0);
     auto scene = TRY(load(request.scene));
     const auto promises = TRY(promises_of(request.scene, scene));
     const OutputPath folder = OutputPath::typed(request.output).sparing(files_read(scene));
     if (!request.output.empty())
         TRY(make_folder(folder)); // before the probes, whose time would be lost if the folder cannot be made
-    const bool verdicts_tell = !request.json && ::isatty(STDERR_FILENO) != 1;
-    Progress progress("probes", verdicts_tell ? 0 : probes.size(), {.limit = request.budget});
+    const bool shown = request.json || ::isatty(STDERR_FILENO) == 1;
+    Progress progress("probes", shown ? probes.size() : 0, {.limit = request.budget});
     std::vector<ProbeResult> all;
     const auto done =
         answer_all(request, scene, promises, probes, start, [&](ProbeResult asked) -> Result<void> {
-            // Before the next probe, so that the finding is shown with its origin.
             if (asked.answer.non_finite)
                 trace(request, scene, asked, k_share_of_trace * (request.budget - seconds_since(start)));
-            progress.step_aside();
-            if (findings_are_diagnostics() && is_finding(asked.answer))
-                say(finding(scene, asked));
-            const bool as_row = !request.json && !findings_are_diagnostics();
-            TRY(put(as_row ? row(request, asked) : ""));
             all.push_back(std::move(asked));
             progress.advance();
             return {};
@@ -320,10 +322,14 @@ Result<int> check_probes(const ProbesRequest& request) {
     progress.step_aside();
     if (!request.output.empty())
         TRY(keep_page(folder, request, all, seconds_since(start)));
-    const std::string last = request.json                 ? report(request, all)
+    if (findings_are_diagnostics())
+        for (const JoinedFinding& joined : joined_findings(request, all))
+            if (joined.level != Verdict::note || request.all)
+                say(finding(scene, joined));
+    const std::string text = request.json                 ? report(request, all)
                              : findings_are_diagnostics() ? ""
-                                                          : summary(all, seconds_since(start));
-    return put(last).map([&all] { return exit_code(all); });
+                                                          : printed(request, all, seconds_since(start));
+    return put(text).map([&all] { return exit_code(all); });
 }
 
 } // namespace tidemark::cli

@@ -242,10 +242,24 @@ Result<TraceFound> trace_apart(const scene::Scene& scene, const TraceJob& job, d
     return result;
 }
 
+namespace {
+
+Json lines_of(std::span<const SourceLocation> places) {
+    Json lines = Json::array();
+    for (const SourceLocation& where : places)
+        lines.push_back({{"file", where.file}, {"line", where.line}});
+    return lines;
+}
+
+} // namespace
+
 Json to_json(const ProbeResult& asked) {
     Json json = {{"probe", asked.probe->name},        {"verdict", int(asked.answer.verdict)},
                  {"sentence", asked.answer.sentence}, {"non_finite", asked.answer.non_finite},
                  {"seconds", asked.seconds},          {"picture", asked.picture.string()}};
+    json["effect"] = asked.answer.effect;
+    json["cause"] = asked.answer.cause;
+    json["places"] = lines_of(asked.answer.places);
     if (asked.answer.where)
         json["where"] = to_json(*asked.answer.where);
     return json;
@@ -257,6 +271,10 @@ Result<ProbeResult> result_of(const Json& line) {
     asked.answer.verdict = lab::Verdict(line.at("verdict").get<int>());
     line.at("sentence").get_to(asked.answer.sentence);
     line.at("non_finite").get_to(asked.answer.non_finite);
+    line.at("effect").get_to(asked.answer.effect);
+    line.at("cause").get_to(asked.answer.cause);
+    for (const Json& where : line.at("places"))
+        asked.answer.places.push_back({where.at("file").get<std::string>(), where.at("line").get<int>()});
     line.at("seconds").get_to(asked.seconds);
     asked.picture = line.at("picture").get<std::string>();
     if (line.contains("where"))
@@ -268,51 +286,15 @@ namespace {
 
 using lab::Verdict;
 
-/// The column in which sentences begin.
-constexpr int k_margin = 18;
-
-bool waits(const ProbeResult& asked) {
-    return asked.answer.verdict == Verdict::not_applicable || asked.answer.verdict == Verdict::cut;
-}
-
 size_t count(std::span<const ProbeResult> all, Verdict verdict) {
     return size_t(
         std::ranges::count(all, verdict, [](const ProbeResult& asked) { return asked.answer.verdict; }));
 }
 
-std::string line(Verdict verdict, const std::string& probes, const std::string& sentence) {
-    return fmt::format("{:4}  {:10}  {}\n", lab::to_string(verdict), probes, sentence);
-}
-
-/// Indents each line to the margin.
-std::string indented(const std::string& text) {
-    std::string result;
-    std::istringstream lines(text);
-    for (std::string each; std::getline(lines, each);)
-        result += std::string(k_margin, ' ') + each + '\n';
-    return result;
-}
-
-/// Returns for example `: horizon 40 %, rays 22 %`: the probes that took at least 1 % of the time, the
-/// largest first.
-std::string shares(std::span<const ProbeResult> all, double seconds) {
-    std::vector<ProbeResult> dear(all.begin(), all.end());
-    std::ranges::stable_sort(dear, std::greater(), &ProbeResult::seconds);
-    std::string text;
-    for (const ProbeResult& asked : dear)
-        if (const double share = 100 * asked.seconds / seconds; share >= 1)
-            text += fmt::format("{} {} {:.0f} %", text.empty() ? ":" : ",", asked.probe->name, share);
-    return text;
-}
-
 } // namespace
 
-bool is_finding(const lab::Answer& answer) {
-    return answer.verdict == Verdict::fail || answer.verdict == Verdict::warn;
-}
-
 std::string reproduction(const ProbesRequest& request, const ProbeResult& asked) {
-    if (!is_finding(asked.answer) || !asked.answer.where)
+    if (!is_finding(asked.answer.verdict) || !asked.answer.where)
         return {};
     const std::filesystem::path& scene = request.scene.path;
     std::vector<std::string> words{"tidemark", "capture", file_word(scene)};
@@ -322,55 +304,21 @@ std::string reproduction(const ProbesRequest& request, const ProbeResult& asked)
     return shell_words(words);
 }
 
-std::string counted(std::span<const ProbeResult> all) {
-    std::string text;
-    for (const Verdict verdict :
-         {Verdict::fail, Verdict::warn, Verdict::pass, Verdict::not_applicable, Verdict::cut})
-        if (const size_t number = count(all, verdict); number > 0)
-            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", number, lab::to_string(verdict));
-    return text;
+namespace {
+
+Json to_json(const JoinedFinding& finding) {
+    Json json = {{"level", lab::to_string(finding.level)},
+                 {"message", finding.message},
+                 {"places", lines_of(finding.places)},
+                 {"probes", Json::array()}};
+    for (const ProbeResult* result : finding.results)
+        json["probes"].push_back(result->probe->name);
+    if (!finding.command.empty())
+        json[finding.remedy == lab::Remedy::show ? "see" : "try"] = finding.command;
+    return json;
 }
 
-std::string row(const ProbesRequest& request, const ProbeResult& asked) {
-    if (waits(asked))
-        return {};
-    std::string text = line(asked.answer.verdict, std::string(asked.probe->name), asked.answer.sentence) +
-                       indented(asked.trace);
-    text += indented(reproduction(request, asked));
-    if (!asked.picture.empty())
-        text += indented(asked.picture.string());
-    return text;
-}
-
-Finding finding(const scene::Scene& scene, const ProbeResult& asked) {
-    auto where = origin_in(asked.trace_json);
-    if (!where)
-        where = glsl::PassReading(scene, scene.image()).place_of("mainImage");
-    const Severity severity = asked.answer.verdict == Verdict::fail ? Severity::error : Severity::warning;
-    return finding_of({where.value_or(SourceLocation{scene.file.string()}), severity, asked.answer.sentence},
-                      {std::string(asked.probe->name), std::string(asked.probe->about)});
-}
-
-std::string summary(std::span<const ProbeResult> all, double seconds) {
-    struct Group {
-        const lab::Answer* answer;
-        std::string probes;
-    };
-    std::vector<Group> groups;
-    for (const ProbeResult& asked : all)
-        if (waits(asked)) {
-            const auto same = std::ranges::find(groups, asked.answer.sentence,
-                                                [](const Group& group) { return group.answer->sentence; });
-            if (same == groups.end())
-                groups.push_back({&asked.answer, std::string(asked.probe->name)});
-            else
-                same->probes += fmt::format(", {}", asked.probe->name);
-        }
-    std::string text;
-    for (const Group& group : groups)
-        text += line(group.answer->verdict, group.probes, group.answer->sentence);
-    return text + fmt::format("{}; {:.1f} s{}\n", counted(all), seconds, shares(all, seconds));
-}
+} // namespace
 
 std::string report(const ProbesRequest& request, std::span<const ProbeResult> all) {
     Json json = {{"tidemark", k_version}, {"scene", request.scene.path.string()}};
@@ -390,6 +338,9 @@ std::string report(const ProbesRequest& request, std::span<const ProbeResult> al
         }
         json["probes"].push_back(std::move(entry));
     }
+    json["findings"] = Json::array();
+    for (const JoinedFinding& finding : joined_findings(request, all))
+        json["findings"].push_back(to_json(finding));
     return dump(json, 2) + "\n";
 }
 
@@ -411,11 +362,10 @@ struct Group {
 };
 
 /// The most urgent group first.
-constexpr Group k_groups[] = {{Verdict::fail, "fail", "Failures"},
-                              {Verdict::warn, "warn", "Warnings"},
-                              {Verdict::cut, "cut", "Cut off by --budget"},
-                              {Verdict::pass, "pass", "Passed"},
-                              {Verdict::not_applicable, "not-applicable", "Not applicable"}};
+constexpr Group k_groups[] = {
+    {Verdict::fail, "fail", "Failures"}, {Verdict::warn, "warn", "Warnings"},
+    {Verdict::note, "remark", "Notes"},  {Verdict::cut, "cut", "Cut off by --budget"},
+    {Verdict::pass, "pass", "Passed"},   {Verdict::not_applicable, "not-applicable", "Not applicable"}};
 
 using Results = std::vector<const ProbeResult*>;
 
@@ -438,9 +388,10 @@ std::string picture(const ProbeResult& asked) {
                        base64(*bytes), escaped(asked.probe->name));
 }
 
+/// Returns what one probe says of a finding.
 std::string words(const ProbesRequest& request, const ProbeResult& asked) {
     std::string html =
-        fmt::format("<h3>{} <span class=\"badge\">{}</span></h3>\n<p>{}</p>\n<p class=\"note\">{}.</p>\n",
+        fmt::format("<h4>{} <span class=\"badge\">{}</span></h4>\n<p>{}</p>\n<p class=\"note\">{}.</p>\n",
                     escaped(asked.probe->name), lab::to_string(asked.answer.verdict),
                     escaped(asked.answer.sentence), escaped(asked.probe->about));
     if (!asked.trace.empty())
@@ -450,11 +401,18 @@ std::string words(const ProbesRequest& request, const ProbeResult& asked) {
     return html;
 }
 
-std::string article(const ProbesRequest& request, const ProbeResult& asked, const char* style) {
-    const std::string shown = picture(asked);
-    return fmt::format("<article class=\"finding {}{}\" id=\"{}\">\n<div>\n{}</div>\n{}</article>\n", style,
-                       shown.empty() ? "" : " pictured", escaped(asked.probe->name), words(request, asked),
-                       shown);
+std::string article(const ProbesRequest& request, const JoinedFinding& finding, const char* style) {
+    std::string shown, text = fmt::format("<h3>{}</h3>\n", escaped(finding.message));
+    if (!finding.places.empty())
+        text += fmt::format("<p>{}</p>\n", escaped(places_in_words(finding.places)));
+    if (!finding.command.empty() && finding.remedy != lab::Remedy::show)
+        text += report::command(finding.command);
+    for (const ProbeResult* result : finding.results) {
+        text += words(request, *result);
+        shown += picture(*result);
+    }
+    return fmt::format("<article class=\"finding {}{}\">\n<div>\n{}</div>\n<div>{}</div></article>\n", style,
+                       shown.empty() ? "" : " pictured", text, shown);
 }
 
 /// Lists results, with probes that have the same sentence in one row.
@@ -474,31 +432,42 @@ std::string short_rows(const Results& results) {
     return html + "</dl>\n";
 }
 
-std::string section(const ProbesRequest& request, const Group& group, const Results& results) {
-    std::string html = fmt::format("<h2 id=\"{}\">{}</h2>\n", group.style, group.heading);
-    if (!is_finding(results.front()->answer))
-        return html + short_rows(results);
-    for (const ProbeResult* asked : results)
-        html += article(request, *asked, group.style);
-    return html;
+std::string heading(const Group& group) {
+    return fmt::format("<h2 id=\"{}\">{}</h2>\n", group.style, group.heading);
+}
+
+std::string link(const Group& group, const std::string& number) {
+    return fmt::format("<li><a class=\"{0}\" href=\"#{0}\"><b>{1}</b> {2}</a></li>\n", group.style, number,
+                       lab::to_string(group.verdict));
 }
 
 } // namespace
 
 std::string verdict_page(const ProbesRequest& request, std::span<const ProbeResult> all, double seconds) {
+    const std::vector<JoinedFinding> findings = joined_findings(request, all);
     std::string counts, sections;
     for (const Group& group : k_groups) {
-        const Results results = of_verdict(all, group.verdict);
-        if (results.empty())
+        std::string body;
+        size_t number = 0;
+        if (is_finding(group.verdict)) {
+            for (const JoinedFinding& finding : findings)
+                if (finding.level == group.verdict) {
+                    body += article(request, finding, group.style);
+                    ++number;
+                }
+        } else if (const Results results = of_verdict(all, group.verdict); !results.empty()) {
+            body = short_rows(results);
+            number = results.size();
+        }
+        if (number == 0)
             continue;
-        counts += fmt::format("<li><a class=\"{0}\" href=\"#{0}\"><b>{1}</b> {2}</a></li>\n", group.style,
-                              results.size(), lab::to_string(group.verdict));
-        sections += section(request, group, results);
+        counts += link(group, std::to_string(number));
+        sections += heading(group) + body;
     }
     const std::string name = name_after_scene(request.scene.path, "");
     return report::make_page({name + ": can its numbers be trusted?", name,
                               fmt::format("Can its numbers be trusted? {} probes in {:.1f} s: {}.",
-                                          all.size(), seconds, counted(all)),
+                                          all.size(), seconds, counted(findings)),
                               "<ul class=\"counts\">\n" + counts + "</ul>\n" + sections});
 }
 

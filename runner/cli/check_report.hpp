@@ -65,26 +65,36 @@ Result<ProbeResult> result_of(const Json& line);
 
 // Formats the results of probes as text, as JSON and as findings.
 
-/// Returns true for a failure or a warning.
-bool is_finding(const lab::Answer& answer);
-
 /// Returns the command that draws the frame in which a probe found something; empty if it found nothing, or
 /// in no particular frame.
 std::string reproduction(const ProbesRequest& request, const ProbeResult& asked);
 
-/// Returns the counts, for example `2 fail, 1 warn, 14 pass, 12 n/a`.
-std::string counted(std::span<const ProbeResult> all);
+/// One cause, and all that probes found of it.
+struct JoinedFinding {
+    lab::Verdict level = lab::Verdict::note;   ///< of its most serious result
+    std::string message{};                     ///< what a viewer sees and why, as a sentence
+    std::vector<SourceLocation> places{};      ///< the lines to change; empty: not known
+    std::vector<const ProbeResult*> results{}; ///< the most serious first
+    lab::Remedy remedy = lab::Remedy::none;    ///< what `command` does
+    std::string command{};                     ///< mends it or shows it; empty: there is none
+};
 
-/// Returns a result with all its details; empty for those that are listed in `summary`.
-std::string row(const ProbesRequest& request, const ProbeResult& asked);
+/// Joins the findings of one family that name a common line, or no line. The most serious comes first. The
+/// results must outlive the answer.
+std::vector<JoinedFinding> joined_findings(const ProbesRequest& request, std::span<const ProbeResult> all);
 
-/// Returns the same for --diagnostics, placed at the operation that a trace found, otherwise at the pass's
-/// mainImage.
-Finding finding(const scene::Scene& scene, const ProbeResult& asked);
+/// Returns for example `foam.glsl:9, 12 and 2 more`; empty without places.
+std::string places_in_words(std::span<const SourceLocation> places);
 
-/// Returns the probes that did not apply or were cut, one line for each reason, and the counts; `seconds` is
-/// the total time.
-std::string summary(std::span<const ProbeResult> all, double seconds);
+/// Returns for example `2 failures, 1 warning, 3 notes`, or `nothing found`.
+std::string counted(std::span<const JoinedFinding> findings);
+
+/// Returns what the command prints: the findings, one line for the probes that passed, and the counts; with
+/// `all` also notes and each probe's sentence. `seconds` is the total time.
+std::string printed(const ProbesRequest& request, std::span<const ProbeResult> all, double seconds);
+
+/// Returns a finding for --diagnostics, placed at its first line, otherwise at mainImage.
+Finding finding(const scene::Scene& scene, const JoinedFinding& joined);
 
 /// Returns all results as JSON.
 std::string report(const ProbesRequest& request, std::span<const ProbeResult> all);

@@ -198,15 +198,17 @@ private:
             result_.outside.emplace_back(Outside{at, grid, is_bound(watch.sites[site], reading), {}});
         if (pass.text.pass != bench_.scene().image_index())
             seen.where.pass = bench_.scene().passes[pass.text.pass].name;
+        seen.place = location_of_site(*pass.text.text, watch.sites[site]);
+        seen.is_texel = watch.sites[site].kind == glsl::DomainKind::fetch;
         if (!seen.bound)
             return;
         const glm::ivec2 pixel = pass.watched.pixel(grid, reading.pixel);
         const auto alone = reading_of(watch, pass.watched.draw(preview, {0, pixel.x, pixel.y}), site);
         if (alone.count > 0)
             reading = alone;
-        seen.sentence = fmt::format("{}: {}, at pixel {},{} at {:.6g} s", place,
-                                    domain_sentence(*pass.text.text, watch.sites[site], reading), pixel.x,
-                                    pixel.y, at.seconds());
+        seen.what = domain_sentence(*pass.text.text, watch.sites[site], reading);
+        seen.sentence = fmt::format("{}: {}, at pixel {},{} at {:.6g} s", place, seen.what, pixel.x, pixel.y,
+                                    at.seconds());
     }
 
     /// Draws the scene's own text, all of its pixels, to confirm that a pass is not finite.

@@ -64,6 +64,8 @@ Result<std::vector<PictureView>> usual_views(ProbeBench& bench);
 /// An undefined call and its effect.
 struct UndefinedCall {
     std::string sentence;
+    std::string what; ///< "pow of a negative number"
+    SourceLocation place;
     size_t pass = 0; ///< index in the scene
     glsl::NodeId node = glsl::k_no_node;
     double percent = 0; ///< of the pixels that depend on it; 0: none

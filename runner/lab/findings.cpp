@@ -210,7 +210,7 @@ private:
         if (const PassText* const text = text_of(pass)) {
             // If rays run out of steps in float only, the threshold is below the rounding error.
             const Verdict epsilon = TRY(ask_epsilon(bench_)).verdict;
-            if (epsilon == Verdict::fail || epsilon == Verdict::warn)
+            if (is_finding(epsilon))
                 cures = glsl::larger_threshold(*text->text, text->facts, place_of_march(lines));
             std::ranges::move(glsl::more_turns(*text->text, place_of_march(lines)),
                               std::back_inserter(cures));

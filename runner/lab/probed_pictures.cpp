@@ -124,6 +124,48 @@ Result<std::optional<Answer>> known_before(ProbeBench& bench) {
 
 } // namespace
 
+std::string duration_in_words(double seconds) {
+    constexpr std::pair<double, const char*> units[] = {{86400, "days"}, {3600, "hours"}, {60, "minutes"}};
+    for (const auto& [length, name] : units)
+        if (seconds >= 1.5 * length)
+            return fmt::format("{:.2g} {}", seconds / length, name);
+    return fmt::format("{:.3g} s", seconds);
+}
+
+Verdict severity_in(const ProbeBench& bench, const FrameState& state) {
+    const auto outside = [&](const glm::vec2& place) {
+        return place.x < 0 || place.y < 0 || place.x > float(state.extent.width) ||
+               place.y > float(state.extent.height);
+    };
+    if (state.seconds() < 0 || std::min(state.extent.width, state.extent.height) < 2)
+        return Verdict::note;
+    if (state.seconds() > bench.promises().time_horizon || !state.channels.empty() ||
+        outside(state.mouse.position) || outside(state.mouse.pressed_at))
+        return Verdict::warn;
+    return Verdict::fail;
+}
+
+namespace {
+
+/// Returns what is unusual about a state, to follow a clause: " at 2.8 hours".
+std::string situation(const FrameState& state) {
+    std::string words;
+    if (!state.channels.empty())
+        words += " with --channel " + state.channels.front();
+    if (!state.knobs.empty())
+        words += " with " + to_string(state.knobs);
+    if (state.mouse != render::Mouse{})
+        words += fmt::format(" with the mouse at {:.0f},{:.0f} of {}x{}", state.mouse.position.x,
+                             state.mouse.position.y, state.extent.width, state.extent.height);
+    else if (state.extent.width % 2 != 0 || state.extent.height % 2 != 0)
+        words += fmt::format(" in a picture of {}x{}", state.extent.width, state.extent.height);
+    if (const double seconds = state.seconds(); seconds < 0 || seconds > 1)
+        words += " at " + duration_in_words(seconds);
+    return words;
+}
+
+} // namespace
+
 std::optional<Answer> not_finite(const ProbeBench& bench, const FrameState& state,
                                  const std::vector<PassPicture>& passes) {
     for (const PassPicture& pass : passes) {
@@ -131,12 +173,15 @@ std::optional<Answer> not_finite(const ProbeBench& bench, const FrameState& stat
         if (census.non_finite() == 0)
             continue;
         Marked shown = marked(pass.picture);
-        Answer answer{Verdict::fail,
+        Answer answer{severity_in(bench, state),
                       fmt::format("{} in {} of {} pixels of {}, first at pixel {},{}", kinds(census),
                                   shown.bad, pass.picture.extent.pixels(), pass.pass,
                                   census.first_non_finite->x, census.first_non_finite->y),
                       state, std::move(shown.map), true};
-        answer.where->pass = pass.pass == bench.scene().image().name ? "" : pass.pass;
+        const bool image = pass.pass == bench.scene().image().name;
+        answer.where->pass = image ? "" : pass.pass;
+        answer.effect = fmt::format("some pixels {}are NaN or infinite{}",
+                                    image ? "" : fmt::format("of {} ", pass.pass), situation(state));
         return answer;
     }
     return std::nullopt;
@@ -154,7 +199,7 @@ Result<Answer> look(ProbeBench& bench, const std::vector<FrameState>& states) {
         }
         auto fault = not_finite(bench, state, passes);
         bad += fault.has_value();
-        if (fault && !answer.where)
+        if (fault && (!answer.where || fault->verdict > answer.verdict))
             answer = *std::move(fault);
     }
     answer.sentence += bad > 0 ? fmt::format("; in {} of {} situations", bad, states.size())

@@ -14,6 +14,8 @@ namespace tidemark::lab {
 
 /// Two pictures look the same if 99 % of their pixels differ by no more than this: one step of 8 bits.
 inline constexpr double k_visible_gap = 1.0 / 255;
+/// The difference of 1 % of the pixels from which other rounding is a warning; a smaller one is a note.
+inline constexpr double k_noticeable_gap = 0.05;
 
 /// Returns the 99th percentile, over the pixels, of each pixel's largest sample difference. A sample that is
 /// NaN or infinite in one picture only counts as 1. Pictures of floats, of one size.
@@ -32,12 +34,20 @@ size_t different_pixels(const image::Image& left, const image::Image& right);
 
 // Checks whether all numbers of a scene are finite in given situations. Counts by bits on the CPU.
 
+/// Returns a duration in words: "40 minutes".
+std::string duration_in_words(double seconds);
+
+/// Returns how serious a fault is that shows in that state: `fail` with what a viewer meets in the promised
+/// time, `warn` later, with other pictures in the channels or with the mouse outside, `note` before 0 s and
+/// in pictures one pixel wide or high.
+Verdict severity_in(const ProbeBench& bench, const FrameState& state);
+
 /// Returns the fault of the first pass that has a NaN or an infinity, with the number of such pixels and a
 /// picture that marks them; nothing if all passes are finite.
 std::optional<Answer> not_finite(const ProbeBench& bench, const FrameState& state,
                                  const std::vector<PassPicture>& passes);
 
-/// Checks every situation; the answer reports the first that fails, and how many do.
+/// Checks every situation; the answer reports the first of the most serious that fail, and how many do.
 Result<Answer> look(ProbeBench& bench, const std::vector<FrameState>& states);
 
 /// Like `look`, but not applicable if the scene is not finite in the plain state already.

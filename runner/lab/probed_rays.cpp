@@ -74,7 +74,8 @@ image::Image ray_map(const Hits& hits, Extent extent, const std::function<bool(s
 Answer without_hits(const ProbeBench& bench, bool warns) {
     if (!bench.has_main_hit())
         return {Verdict::not_applicable, "no mainHit, and the march is not recorded: " + bench.hit_problem()};
-    return warns ? Answer{Verdict::warn, "mainHit does not compile: " + bench.hit_problem()}
+    const std::string broken = "mainHit does not compile: " + bench.hit_problem();
+    return warns ? Answer{.verdict = Verdict::warn, .sentence = broken, .effect = broken}
                  : Answer{Verdict::not_applicable, "mainHit does not compile: see overstep"};
 }
 
@@ -85,7 +86,7 @@ Answer without_sign() {
 }
 
 Verdict fault(const ProbeBench& bench) {
-    return bench.has_main_hit() ? Verdict::fail : Verdict::warn;
+    return bench.has_main_hit() ? Verdict::fail : Verdict::note;
 }
 
 Result<FloatMismatch> float_mismatch(ProbeBench& bench, const FrameState& state) {

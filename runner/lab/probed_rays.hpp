@@ -52,8 +52,8 @@ Answer without_hits(const ProbeBench& bench, bool warns = false);
 /// Returns the answer for a recorded march for which ProbeBench::sees_below is false.
 Answer without_sign();
 
-/// Returns the verdict for faulty hits: `fail` for a mainHit, `warn` for a recorded march, whose author
-/// promised nothing.
+/// Returns the verdict for faulty hits: `fail` for a mainHit, `note` for a recorded march, whose picture may
+/// be right all the same.
 Verdict fault(const ProbeBench& bench);
 
 /// The hits of one view in float and in double.
@@ -82,6 +82,8 @@ inline constexpr double k_ray_moments[] = {1.0 / 3, 10};
 inline constexpr uint64_t k_most_of_a_ray = 20'000;
 /// Percent of the decided rays that may be wrong: the last ones are a matter of silhouettes.
 inline constexpr double k_most_wrong_percent = 0.5;
+/// Percent of the decided rays from which wrong ones are a failure; fewer are a note.
+inline constexpr double k_wrong_percent_of_failure = 5;
 
 struct MarchingPass {
     size_t index;

@@ -9,28 +9,63 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tidemark::lab {
 
-/// `cut`: the time budget ran out before or while the probe ran.
-enum class Verdict { pass, warn, fail, not_applicable, cut };
+/// `fail`: the picture is wrong on this device, or proved wrong. `warn`: it is wrong on a named other device,
+/// with a named input or at a named time. `note`: anything else worth knowing. `cut`: the time budget ran out
+/// before or while the probe ran.
+enum class Verdict { pass, note, warn, fail, not_applicable, cut };
 std::string_view to_string(Verdict verdict);
+
+/// Returns true for `note`, `warn` and `fail`.
+bool is_finding(Verdict verdict);
+
+/// What a probe's findings are about. Findings of one family that name a common line, or no line, have one
+/// cause.
+enum class Family { alone, numbers, sines, clock, steps, iterations };
+
+/// The command that a finding offers to its reader.
+enum class Remedy {
+    none,
+    show,       ///< `capture`: draws the frame that shows it
+    fix,        ///< `check --fix`
+    fix_hashes, ///< `check --fix --hashes`
+};
+
+/// A finding in the words of a shader's author.
+struct PlainWords {
+    Family family = Family::alone;
+    std::string_view effect; ///< what a viewer sees: a clause without a full stop
+    std::string_view cause;  ///< why, as a clause; empty: the effect says it
+    Remedy remedy = Remedy::show;
+};
 
 struct Answer {
     Verdict verdict = Verdict::pass;
-    std::string sentence; ///< what was found, or why the probe does not apply
+    std::string sentence{}; ///< what was found, or why the probe does not apply
     /// The first situation that shows the finding and its picture, with the affected pixels or rays in
     /// magenta.
     std::optional<FrameState> where{};
     std::optional<image::Image> picture{};
     bool non_finite = false; ///< there is a NaN or an infinity, whose origin can be traced
+    /// Instead of the words in Probe::plain; no effect: those.
+    std::string effect{};
+    std::string cause{};
+    /// The lines to change, the most important first; empty: not known.
+    std::vector<SourceLocation> places{};
 };
+
+/// Adds a line, once and without its column; not one that Tidemark added to the text.
+void add_place(Answer& answer, SourceLocation where);
 
 struct Probe {
     std::string_view name;
     std::string_view about; ///< what it checks and when it fails
     /// Fails if the scene does not compile in the way that the probe needs; faulty numbers are an Answer.
     Result<Answer> (*ask)(ProbeBench& bench);
+    PlainWords plain{};
 };
 
 /// Returns all probes in the order in which they run: the cheap ones first.

@@ -83,6 +83,7 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
         return Answer{Verdict::pass, "float and double agree up to 1e6 s"};
     const double good = horizon->good, time = horizon->mismatch->seconds;
     const bool kept = good >= bench.promises().time_horizon;
+    const double gap = horizon->mismatch->difference;
     const std::string found =
         good == 0
             ? fmt::format("float and double differ already at 1 s, by {:.3g} or more in 1 % of the pixels: "
@@ -92,27 +93,40 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
                           "{:.2g} s, 1 % of the pixels are off by {:.3g} or more",
                           good, time, double(std::nextafter(float(time), 1e9f)) - double(float(time)),
                           horizon->mismatch->difference);
-    return Answer{kept        ? Verdict::pass
-                  : good == 0 ? Verdict::warn
-                              : Verdict::fail,
+    const bool noticeable = gap > k_noticeable_gap;
+    Answer answer{kept                                               ? Verdict::pass
+                  : bench.promises().stated.contains("time_horizon") ? Verdict::fail
+                  : noticeable                                       ? Verdict::warn
+                                                                     : Verdict::note,
                   found, horizon->mismatch->state, horizon->mismatch->floats};
+    const char* const effect = noticeable ? "the picture breaks up" : "the picture changes a little";
+    answer.effect = good == 0 ? fmt::format("{} through the rounding of floats, from the start", effect)
+                              : fmt::format("{} within {}: floats have too few digits for iTime", effect,
+                                            duration_in_words(time));
+    return answer;
 }
 
 namespace {
 
-/// A jump fails if the clock restarts or the file promises smoothness; otherwise it is a warning, since a cut
-/// may be intended.
+/// A jump fails if the file promises smoothness and is a warning if the clock restarts; otherwise it is a
+/// note, since a cut may be intended.
 Answer answer_of(const Jump& jump, double moment, bool promised) {
     const std::string elsewhere =
         std::isinf(jump.elsewhere) ? "no change" : fmt::format("{:.1f} dB", jump.elsewhere);
     const char* const consequence = jump.wraps ? " back to the picture of 0 s"
                                     : promised ? ""
                                                : "; if the cut is intended, add \"skip\" to its .check.json";
-    return {jump.wraps || promised ? Verdict::fail : Verdict::warn,
+    return {promised     ? Verdict::fail
+            : jump.wraps ? Verdict::warn
+                         : Verdict::note,
             fmt::format("the picture jumps at {:g} s (PSNR {:.1f} dB between neighbouring instants, {} "
                         "elsewhere){}",
                         moment, jump.psnr, elsewhere, consequence),
-            state_at(moment + instant(moment) / 2), jump.after};
+            state_at(moment + instant(moment) / 2),
+            jump.after,
+            false,
+            fmt::format("the picture jumps at {:g} s{}", moment,
+                        jump.wraps ? ": the clock starts again from 0 there" : "")};
 }
 
 } // namespace
@@ -143,16 +157,19 @@ Result<Answer> ask_hashes(ProbeBench& bench) {
         return Answer{Verdict::not_applicable,
                       "the scene cannot be promoted to double: " + to_string(hashes.error())};
     std::vector<std::string> found; // Common is part of every pass, so list each once
+    Answer answer{Verdict::note};
     for (const glsl::KeptHash& hash : *hashes) {
         const std::string said = fmt::format("{}:{}{}", hash.where.file, hash.where.line,
                                              hash.function.empty() ? "" : " " + hash.function);
-        if (hash.kind == glsl::HashKind::sine && std::ranges::find(found, said) == found.end())
-            found.push_back(said);
+        if (hash.kind != glsl::HashKind::sine || std::ranges::find(found, said) != found.end())
+            continue;
+        found.push_back(said);
+        add_place(answer, hash.where);
     }
     if (found.empty())
         return Answer{Verdict::pass, "no random numbers from large sines"};
-    return Answer{Verdict::warn,
-                  "fract of a large sine gives different numbers on each GPU: " + listed(found)};
+    answer.sentence = "fract of a large sine gives different numbers on each GPU: " + listed(found);
+    return answer;
 }
 
 // Checks whether a picture repeats exactly, with one thread too, and whether it changes evenly with the
@@ -253,22 +270,25 @@ Result<Swept> swept(ProbeBench& bench, const Sweep& sweep) {
 
 /// Returns the answer if the sweep shows a fault.
 Result<std::optional<Answer>> fault(ProbeBench& bench, const Sweep& sweep, const Swept& found) {
-    const auto show = [&](int pixel, std::string sentence) -> Result<std::optional<Answer>> {
+    const auto show = [&](Verdict verdict, int pixel, std::string sentence) -> Result<std::optional<Answer>> {
         const FrameState where = sweep.at(pixel);
         auto picture = TRY(bench.picture(where));
-        return Answer{Verdict::fail, std::move(sentence), where, std::move(picture)};
+        return Answer{verdict, std::move(sentence), where, std::move(picture)};
     };
     if (found.not_finite) {
         const auto untouched = TRY(bench.picture(plain_state(sweep.extent)));
         if (image::census(untouched).non_finite() > 0)
             return Answer{Verdict::not_applicable, "NaN or infinity without the mouse, too: see times"};
-        return show(*found.not_finite,
-                    fmt::format("NaN or infinity in the picture with the mouse at {} = {} of {}", sweep.axis,
-                                *found.not_finite, sweep.length));
+        auto shown = TRY(show(Verdict::fail, *found.not_finite,
+                              fmt::format("NaN or infinity in the picture with the mouse at {} = {} of {}",
+                                          sweep.axis, *found.not_finite, sweep.length)));
+        shown->effect = fmt::format("some pixels are NaN or infinite with the mouse at {} = {} of {}",
+                                    sweep.axis, *found.not_finite, sweep.length);
+        return shown;
     }
     if (found.most > k_turn)
         return show(
-            found.step + 1,
+            Verdict::warn, found.step + 1,
             fmt::format(
                 "the picture jumps where the mouse goes from {} = {} to {} of {}: PSNR {:.1f} dB, {:.1f} "
                 "dB less than for the steps beside it",
@@ -318,7 +338,7 @@ Result<Answer> ask_mouse_edge(ProbeBench& bench) {
         const double next = std::min(image::compare(pictures[1], pictures[2])->psnr, k_alike);
         if (next - edge > k_turn)
             return Answer{
-                Verdict::fail,
+                Verdict::warn,
                 fmt::format("a click in {0} 0 shows another view than in {0} 1: PSNR {1:.1f} dB, from {0} 1 "
                             "to 2 {2:.1f} dB",
                             name, edge, next),

@@ -105,11 +105,13 @@ Result<Answer> ask_search(ProbeBench& bench) {
             : "; at random only, as the text cannot be analysed: " + (explored)->left_out;
     if ((explored)->not_finite.empty())
         return Answer{Verdict::pass, "no NaN or infinity; " + (explored)->sentence + unread};
-    const FrameState& where = (explored)->not_finite.front();
+    // The first of the most serious.
+    const FrameState& where = *std::ranges::max_element(
+        (explored)->not_finite, {}, [&](const FrameState& state) { return severity_in(bench, state); });
     const auto passes = TRY(bench.passes(where));
     auto fault = not_finite(bench, where, passes);
     if (!fault)
-        return Answer{Verdict::warn, "a pixel was NaN or infinite, but finite when drawn again", where};
+        return Answer{Verdict::note, "a pixel was NaN or infinite, but finite when drawn again", where};
     fault->sentence += "; " + (explored)->sentence + unread;
     return *std::move(fault);
 }

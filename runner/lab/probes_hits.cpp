@@ -131,20 +131,24 @@ Result<Answer> ask_lipschitz_sweep(ProbeBench& bench) {
         const auto hits = TRY(bench.hits(state));
         if (const double nothing = unanswered(hits); nothing > 0)
             return Answer{
-                fault(bench),
-                fmt::format("{}: {:.3g} % of the distances are NaN, infinite or negative", set, nothing),
-                state};
+                .verdict = fault(bench),
+                .sentence =
+                    fmt::format("{}: {:.3g} % of the distances are NaN, infinite or negative", set, nothing),
+                .where = state,
+                .effect = fmt::format("with {} rays have no distance: it is NaN, infinite or negative", set)};
         const double overstepping = flagged(hits, glsl::k_hit_negative);
         if (overstepping <= most)
             continue;
         most = overstepping;
-        answer = {overstepping > bench.promises().most_overstep_percent ? Verdict::warn : Verdict::pass,
+        answer = {overstepping <= bench.promises().most_overstep_percent ? Verdict::pass
+                  : bench.has_main_hit()                                 ? Verdict::warn
+                                                                         : Verdict::note,
                   fmt::format("at worst, with {}: {:.3g} % of the rays take a sample below the surface, "
                               "{:.3g} % run out of steps",
                               set, overstepping, flagged(hits, glsl::k_hit_exhausted)),
                   {},
                   {}};
-        if (answer.verdict == Verdict::warn)
+        if (answer.verdict != Verdict::pass)
             answer.where = state;
     }
     return answer;
@@ -178,9 +182,9 @@ Result<Answer> ask_rays(ProbeBench& bench) {
         }
         const bool kept = good >= bench.promises().time_horizon;
         return Answer{
-            kept        ? Verdict::pass
-            : good == 0 ? Verdict::warn
-                        : fault(bench),
+            kept                                                           ? Verdict::pass
+            : good > 0 && bench.promises().stated.contains("time_horizon") ? Verdict::fail
+                                                                           : Verdict::warn,
             fmt::format(
                 "{}; at {:g} s {:.3g} % of the rays hit something else in float, by more than a pixel",
                 good == 0 ? std::string("float and double never agree")
@@ -277,8 +281,10 @@ Result<Answer> ask_count(ProbeBench& bench, const Count& count) {
         const FrameState state = with_octaves(count, octaves);
         const auto hits = bench.hits(state);
         if (!hits)
-            return Answer{Verdict::warn,
-                          fmt::format("{} = {:g}: {}", count.name, octaves, to_string(hits.error()))};
+            return Answer{
+                .verdict = extremes.stated ? Verdict::warn : Verdict::note,
+                .sentence = fmt::format("{} = {:g}: {}", count.name, octaves, to_string(hits.error())),
+                .effect = fmt::format("the scene cannot be drawn with {} = {:g}", count.name, octaves)};
         if (const double lost = unanswered(*hits); lost > 0)
             return Answer{fault(bench),
                           fmt::format("{} = {:g}: {:.3g} % of the distances are NaN, infinite or negative",
@@ -294,7 +300,7 @@ Result<Answer> ask_count(ProbeBench& bench, const Count& count) {
         fmt::format("with {} = {:g} {:.3g} % of the rays hit something else in float than in double",
                     count.name, extremes.most, both->mismatched_percent)};
     if (both->mismatched_percent > k_same) {
-        answer.verdict = extremes.stated ? fault(bench) : Verdict::warn;
+        answer.verdict = extremes.stated ? fault(bench) : Verdict::note;
         answer.sentence += ": the coordinates of the finest octave are beyond float precision";
         answer.where = state;
         answer.picture = both->map;
@@ -355,7 +361,7 @@ Result<Answer> ask_self_intersection(ProbeBench& bench) {
             continue;
         }
         return Answer{
-            inside || steepness < 1 ? fault(bench) : Verdict::warn,
+            inside || steepness < 1 ? fault(bench) : Verdict::note,
             fmt::format(
                 "waves whose steepness adds up to {:g}{} intersect themselves: {:.3g} % of the rays hit "
                 "something else in float than in double, {:.3g} % of the distances are NaN, infinite or "

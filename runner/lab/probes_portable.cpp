@@ -23,6 +23,7 @@ const FrameState k_state = state_at(10);
 struct Mode {
     int number;
     const char* name;
+    bool of_devices = true; ///< there are devices that compute so
 };
 
 /// A way to rewrite a text, with the modes that it offers.
@@ -53,10 +54,12 @@ public:
         std::vector<std::string> visible, hardly;
         for (const Seen& seen : seen_)
             (seen.gap > k_visible_gap ? visible : hardly).push_back(seen.sentence);
+        const bool devices = std::ranges::any_of(
+            seen_, [](const Seen& seen) { return seen.of_devices && seen.gap > k_noticeable_gap; });
         if (visible.empty())
             return {Verdict::pass, sound + ": " + (hardly.empty() ? "the same picture" : listed(hardly))};
-        Answer answer{Verdict::warn, "the picture changes visibly with " + listed(visible), k_state,
-                      std::move(picture_)};
+        Answer answer{devices ? Verdict::warn : Verdict::note,
+                      "the picture changes visibly with " + listed(visible), k_state, std::move(picture_)};
         answer.where->pass = pass_ == bench_.scene().image_index() ? "" : bench_.scene().passes[pass_].name;
         return answer;
     }
@@ -96,7 +99,7 @@ private:
         std::string said = fmt::format("{}: {}", mode.name, alikeness(plain, other));
         if (gap > k_visible_gap)
             said += fmt::format(", 1 % of the pixels by {:.2g} or more", gap);
-        seen_.push_back({std::move(said), gap});
+        seen_.push_back({std::move(said), gap, mode.of_devices});
         if (gap <= std::max(worst_, k_visible_gap))
             return;
         worst_ = gap;
@@ -110,6 +113,7 @@ private:
     struct Seen {
         std::string sentence;
         double gap;
+        bool of_devices;
     };
     std::vector<Seen> seen_;
     double worst_ = 0;
@@ -136,10 +140,10 @@ Result<Answer> ask_sine(ProbeBench& bench) {
 Result<Answer> ask_rounding(ProbeBench& bench) {
     PortabilityProbe probe(bench);
     const Manner manners[] = {
-        {glsl::vary_inputs, {{1, "iTime, iResolution and iMouse a unit in the last place larger"}}},
-        {glsl::vary_precision, {{0, "everything `precise`"}}},
+        {glsl::vary_inputs, {{1, "iTime, iResolution and iMouse a unit in the last place larger", false}}},
+        {glsl::vary_precision, {{0, "everything `precise`", false}}},
         {glsl::vary_contraction, {{1, "fused multiply-add"}}},
-        {glsl::vary_order, {{0, "sums added in reverse order"}}},
+        {glsl::vary_order, {{0, "sums added in reverse order", false}}},
         {glsl::vary_rounding, {{1, "quotients, roots, powers and logarithms a unit off"}}},
     };
     std::vector<std::string> left_out;

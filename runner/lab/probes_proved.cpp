@@ -62,8 +62,16 @@ Result<Answer> ask_first_hit(ProbeBench& bench) {
     if (counts.contradicted > 0)
         return none(
             fmt::format("{} rays contradict their proof: please report this scene", counts.contradicted));
-    const bool wrong = wrong_percent(counts) > k_most_wrong_percent;
-    return Answer{wrong ? Verdict::warn : Verdict::pass, sentence_of(*pass->function, counts)};
+    const double wrong = wrong_percent(counts);
+    Answer answer{wrong > k_wrong_percent_of_failure ? Verdict::fail
+                  : wrong > k_most_wrong_percent     ? Verdict::note
+                                                     : Verdict::pass,
+                  sentence_of(*pass->function, counts)};
+    if (counts.wrong_loop)
+        add_place(answer, pass->function->locate(pass->function->loops()[*counts.wrong_loop].line));
+    if (counts.step_over == 0)
+        answer.effect = "rays end before they reach a surface: the march has too few iterations";
+    return answer;
 }
 
 namespace {
@@ -193,7 +201,8 @@ Result<Answer> ask_step_scale(ProbeBench& bench) {
         loops[scales.loop].stops_before && median(scales.own) > scales.least.unsafe * k_rounded;
     if (!scales.bounded() && !too_long)
         return none(scales_sentence(scales));
-    Answer answer{too_long ? Verdict::warn : Verdict::pass, scales_sentence(scales)};
+    Answer answer{too_long ? Verdict::note : Verdict::pass, scales_sentence(scales)};
+    add_place(answer, pass->function->locate(loops[scales.loop].line));
     if (too_long)
         answer.where = scales.state;
     return answer;
@@ -385,8 +394,9 @@ Result<Answer> ask_turns(ProbeBench& bench) {
             fmt::format("{} rays contradict their proof: please report this scene", counts.contradicted)};
     Answer answer{Verdict::pass, turns_sentence(*pass->function, counts)};
     if (share(double(counts.out), double(counts.rays)) > bench.promises().most_exhausted_percent) {
-        answer.verdict = Verdict::warn;
+        answer.verdict = Verdict::note;
         answer.sentence += "; take more steps, or longer ones";
+        add_place(answer, pass->function->locate(counts.line));
         answer.where = counts.state;
     }
     return answer;

@@ -139,33 +139,69 @@ std::string domain_sentence(const glsl::ParsedText& text, const glsl::DomainSite
     return fmt::format("{} {} ({}", name, glsl::domain_fault(name, number), to_shortest(number));
 }
 
-std::string place_of_site(const glsl::ParsedText& text, const glsl::DomainSite& site) {
+namespace {
+
+size_t word_of_site(const glsl::ParsedText& text, const glsl::DomainSite& site) {
     const glsl::Node& node = text.tree()[site.node];
     const bool has_sign = node.kind == glsl::NodeKind::binary || node.kind == glsl::NodeKind::assign;
-    return place_of(text, has_sign ? node.word : node.begin);
+    return has_sign ? node.word : node.begin;
+}
+
+} // namespace
+
+std::string place_of_site(const glsl::ParsedText& text, const glsl::DomainSite& site) {
+    return place_of(text, word_of_site(text, site));
+}
+
+SourceLocation location_of_site(const glsl::ParsedText& text, const glsl::DomainSite& site) {
+    return text.spelled(word_of_site(text, site));
 }
 
 // Probes that only read the text.
+
+namespace {
+
+/// Returns whether the variable is read by its own update, as in `sum += x`: then the first update reads no
+/// value.
+bool is_read_by_update(const glsl::ParsedText& text, const glsl::Unassigned& each) {
+    constexpr std::string_view k_updates[] = {"+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "++", "--"};
+    const size_t next = text.tree()[each.at].word + 1;
+    return each.why == glsl::Unassigned::Why::on_some_way && next < text.words().size() &&
+           std::ranges::find(k_updates, text.word(next)) != std::end(k_updates);
+}
+
+} // namespace
 
 Result<Answer> ask_unassigned(ProbeBench& bench) {
     const auto texts = read_texts(bench, true);
     if (!texts)
         return Answer{Verdict::not_applicable, "the text cannot be analysed: " + to_string(texts.error())};
     std::vector<std::string> found;
+    Answer answer{Verdict::note};
     for (const PassText& pass : *texts)
         for (const glsl::Unassigned& each : glsl::find_unassigned(*pass.text, pass.facts)) {
             std::string said = sentence_for(*pass.text, each);
-            if (!said.empty() && std::ranges::find(found, said) == found.end())
-                found.push_back(std::move(said));
+            if (said.empty() || std::ranges::find(found, said) != found.end())
+                continue;
+            found.push_back(std::move(said));
+            add_place(answer, pass.text->spelled(word_without_value(*pass.text, each)));
+            // A path to the others may never be taken.
+            if (each.why == glsl::Unassigned::Why::never || each.why == glsl::Unassigned::Why::not_given ||
+                is_read_by_update(*pass.text, each))
+                answer.verdict = Verdict::warn;
         }
     const std::string_view looked =
         "all paths through the functions that run were checked, whatever the conditions";
     if (found.empty())
         return Answer{Verdict::pass, fmt::format("nothing is read without a value: {}", looked)};
-    return Answer{
-        Verdict::warn,
+    answer.sentence =
         fmt::format("read without a value (0 on ShaderToy's site and here, undefined elsewhere): {}; {}",
-                    listed(found), looked)};
+                    listed(found), looked);
+    answer.effect = fmt::format("some hosts {}draw garbage: {} {} read before it has a value",
+                                answer.verdict == Verdict::warn ? "" : "may ",
+                                found.front().substr(0, found.front().find(' ')),
+                                answer.verdict == Verdict::warn ? "is" : "may be");
+    return answer;
 }
 
 Result<Answer> ask_divergence(ProbeBench& bench) {
@@ -173,20 +209,23 @@ Result<Answer> ask_divergence(ProbeBench& bench) {
     if (!texts)
         return Answer{Verdict::not_applicable, "the text cannot be analysed: " + to_string(texts.error())};
     std::vector<std::string> found;
+    Answer answer{Verdict::warn};
     for (const PassText& pass : *texts) {
         const glsl::ParsedText& text = *pass.text;
         for (const glsl::Divergent& each :
              glsl::find_divergent(text, pass.facts, which_have_mipmaps(bench.scene().passes[pass.pass]))) {
             const std::string place = place_of(text, text.tree()[each.call].begin);
-            if (!place.empty())
-                found.push_back(fmt::format("{} ({}, {})", glsl::called_name(text, each.call), place,
-                                            words_for(text, each.branch)));
+            if (place.empty())
+                continue;
+            found.push_back(fmt::format("{} ({}, {})", glsl::called_name(text, each.call), place,
+                                        words_for(text, each.branch)));
+            add_place(answer, text.spelled(text.tree()[each.call].begin));
         }
     }
     if (found.empty())
         return Answer{Verdict::pass, "derivatives and mipmaps only in uniform control flow"};
-    return Answer{Verdict::warn,
-                  "needs neighbouring pixels, which may have taken another branch: " + listed(found)};
+    answer.sentence = "needs neighbouring pixels, which may have taken another branch: " + listed(found);
+    return answer;
 }
 
 Result<Answer> ask_counters(ProbeBench& bench) {
@@ -194,16 +233,24 @@ Result<Answer> ask_counters(ProbeBench& bench) {
     if (!texts)
         return Answer{Verdict::not_applicable, "the text cannot be analysed: " + to_string(texts.error())};
     std::vector<std::string> found;
+    Answer answer{Verdict::warn};
     for (const PassText& pass : *texts)
         for (const glsl::FloatCounter& each : glsl::miscounting_loops(*pass.text, pass.facts)) {
             const std::string place = place_of(*pass.text, pass.text->tree()[each.loop].begin);
             std::string said = fmt::format("{}: {}", place, words_for(each));
-            if (!place.empty() && std::ranges::find(found, said) == found.end())
-                found.push_back(std::move(said));
+            if (place.empty() || std::ranges::find(found, said) != found.end())
+                continue;
+            found.push_back(std::move(said));
+            add_place(answer, pass.text->spelled(pass.text->tree()[each.loop].begin));
+            if (answer.effect.empty() || std::isinf(each.turns))
+                answer.effect = words_for(each);
+            if (std::isinf(each.turns))
+                answer.verdict = Verdict::fail;
         }
     if (found.empty())
         return Answer{Verdict::pass, "no float loop counter gains or loses an iteration through rounding"};
-    return Answer{Verdict::warn, listed(found)};
+    answer.sentence = listed(found);
+    return answer;
 }
 
 } // namespace tidemark::lab

@@ -71,5 +71,6 @@ std::string domain_sentence(const glsl::ParsedText& text, const glsl::DomainSite
 
 /// Returns `waves.glsl:12`; empty for a line that Tidemark generated.
 std::string place_of_site(const glsl::ParsedText& text, const glsl::DomainSite& site);
+SourceLocation location_of_site(const glsl::ParsedText& text, const glsl::DomainSite& site);
 
 } // namespace tidemark::lab

@@ -101,10 +101,11 @@ private:
                 seen_.size() >= k_most_calls || !seen_.insert(i).second)
                 continue;
             const glm::ivec2 pixel = watched_->pixel(view.grid, reading.pixel);
-            UndefinedCall& each = found.emplace_back(UndefinedCall{
-                fmt::format("{}, first at pixel {},{}) at {}",
-                            domain_sentence(*pass_.text, watch.sites[i], reading), pixel.x, pixel.y, place),
-                pass_.pass, watch.sites[i].node, 0, view.state, image::Image()});
+            const std::string what = domain_sentence(*pass_.text, watch.sites[i], reading);
+            UndefinedCall& each = found.emplace_back(
+                UndefinedCall{fmt::format("{}, first at pixel {},{}) at {}", what, pixel.x, pixel.y, place),
+                              what.substr(0, what.rfind(" (")), location_of_site(*pass_.text, watch.sites[i]),
+                              pass_.pass, watch.sites[i].node, 0, view.state, image::Image()});
             if (pass_.pass != bench_.scene().image_index())
                 each.where.pass = bench_.scene().passes[pass_.pass].name;
             if (!zero)
@@ -175,9 +176,12 @@ Result<Answer> ask_undefined(ProbeBench& bench) {
         return Answer{Verdict::not_applicable, to_string(found.error())};
     std::vector<UndefinedCall>& all = *found;
     std::vector<std::string> sentences;
+    Answer answer{Verdict::warn};
     for (const UndefinedCall& each : all)
-        if (each.percent > 0)
+        if (each.percent > 0) {
             sentences.push_back(fmt::format("{}: {:.3g} % of the pixels", each.sentence, each.percent));
+            add_place(answer, each.place);
+        }
     if (sentences.empty())
         return Answer{
             Verdict::pass,
@@ -185,8 +189,11 @@ Result<Answer> ask_undefined(ProbeBench& bench) {
                 ? "no function is called outside of its domain"
                 : fmt::format("{} calls outside of a function's domain, none of which changes a pixel",
                               all.size())};
-    return Answer{Verdict::warn, "undefined, and visible in the picture: " + listed(sentences), all[0].where,
-                  std::move(all[0].picture)};
+    answer.sentence = "undefined, and visible in the picture: " + listed(sentences);
+    answer.effect = "other GPUs may draw other pixels: " + all[0].what;
+    answer.where = all[0].where;
+    answer.picture = std::move(all[0].picture);
+    return answer;
 }
 
 Result<Answer> ask_bounds(ProbeBench& bench) {
@@ -194,16 +201,27 @@ Result<Answer> ask_bounds(ProbeBench& bench) {
     if (!(explored)->left_out.empty())
         return Answer{Verdict::not_applicable, "the text cannot be analysed: " + (explored)->left_out};
     std::vector<std::string> sentences;
-    std::optional<FrameState> where;
+    Answer answer{Verdict::note};
     for (const Outside& outside : (explored)->outside)
         if (outside.bound) {
             sentences.push_back(outside.sentence);
-            where = where ? where : outside.where;
+            const Verdict level = outside.is_texel ? Verdict::note : Verdict::warn;
+            if (level > answer.verdict || !answer.where) {
+                answer.effect =
+                    (outside.is_texel ? "other hosts may draw garbage: " : "other GPUs may draw garbage: ") +
+                    outside.what;
+                answer.where = outside.where;
+                answer.places.clear();
+            }
+            answer.verdict = std::max(answer.verdict, level);
+            if (level == answer.verdict)
+                add_place(answer, outside.place);
         }
     if (sentences.empty())
         return Answer{Verdict::pass, "no index, shift, divisor, texel or conversion is out of bounds; " +
                                          (explored)->sentence};
-    return Answer{Verdict::warn, listed(sentences), where};
+    answer.sentence = listed(sentences);
+    return answer;
 }
 
 } // namespace tidemark::lab

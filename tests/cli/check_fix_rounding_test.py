@@ -104,7 +104,7 @@ class CheckFixRounding(ProgramTest):
     def test_phases_go_on_after_hours(self):
         scene = self.write("time.glsl", BODY % "float t = 25.0 * iTime; c = vec4(fract(uv.x + 7.3 * iTime), "
                            "0.5 + 0.5 * sin(6.0 * uv.x + t), 0.5 + 0.5 * cos(3.0 * (uv.y - 40.0 * iTime)), 1.0);")
-        self.assertEqual(self.probe("time.glsl", "horizon"), "fail")
+        self.assertEqual(self.probe("time.glsl", "horizon"), "warn")
         cure, = self.fix("time.glsl", "--write")["cures"]
         self.assertEqual(cure["fault"]["of"], VISIBLE)
         self.assertEqual(self.probe("time.glsl", "horizon"), "pass")

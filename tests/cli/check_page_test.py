@@ -36,12 +36,15 @@ class Page(ProgramTest):
         self.assertEqual(self.texts("h1"), ["waves"])
         self.assertEqual(self.texts("h2"), ["Failures", "Passed", "Not applicable"])
         self.assertEqual(self.texts(".counts a"), ["1 fail", "1 pass", "1 n/a"])
-        self.assertEqual(self.texts(".fail h3"), ["times fail"])
-        sentence = self.texts(".fail p")[0]
+        fix, command = self.texts(".command code")
+        self.assertIn("tidemark check --fix 'broken & co/waves.glsl'", fix)
+        self.assertEqual(self.texts(".fail h3"), ["Some pixels are NaN or infinite: sqrt of a negative number"])
+        self.assertEqual(self.texts(".fail h4"), ["times fail"])
+        place, sentence = self.texts(".fail p")[:2]
+        self.assertRegex(place, r"waves\.glsl:3$")
         self.assertRegex(sentence, r"^NaN in 1080 of 2304 pixels of Image")
         self.assertIn(sentence, printed)
         self.assertRegex(self.texts(".fail pre")[0], r"waves\.glsl:3:\d+: .*sqrt of a negative number")
-        command = self.texts(".command code")[0]
         self.assertIn(command, printed)
         self.succeed(*shlex.split(command)[1:-1], "again.png")
         self.assertEqual(len(png.read(self.folder / "again.png").rows), 36)

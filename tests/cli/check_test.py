@@ -56,6 +56,11 @@ MARCH = ("float map(vec3 p) { return length(p) - 1.0; }\n"
          "    c = vec4(0.1 * t);\n}\n")
 
 
+# Faults that need another input or a late time are warnings; those that nobody meets are notes.
+MILDER = {"mouse": "warn", "inputs": "warn", "inputs, white": "warn", "inputs, texel": "warn", "camera": "warn",
+          "time_discontinuity": "warn", "horizon": "warn", "sizes": "note"}
+
+
 class Check(ProgramTest):
     def verdicts(self, scene, *options: str) -> dict[str, dict]:
         if "--budget" not in options:  # else a busy machine cuts probes
@@ -76,10 +81,10 @@ class Check(ProgramTest):
             with self.subTest(fault):
                 probe = fault.split(",")[0]
                 entry = self.verdicts(self.write(f"{probe}.glsl", text), "--probe", probe)[probe]
-                self.assertEqual(entry["verdict"], "fail", entry["found"])
+                self.assertEqual(entry["verdict"], MILDER.get(fault, "fail"), entry["found"])
 
     def test_the_first_hits_of_a_march_are_proved(self):
-        for step, verdict, wrong in (("max(d, 0.4)", "warn", r"[1-9][\d.]*"), ("d", "pass", "0")):
+        for step, verdict, wrong in (("max(d, 0.4)", "fail", r"[1-9][\d.]*"), ("d", "pass", "0")):
             with self.subTest(step):
                 scene = self.write("march.glsl", MARCH.replace("max(d, 0.4)", step))
                 entry = self.verdicts(scene, "--probe", "first_hit")["first_hit"]
@@ -89,7 +94,7 @@ class Check(ProgramTest):
         self.assertRegex(said, r"(?m)^  march     \S*march.glsl:5: steps by the distance \(sphere tracing\)")
 
     def test_how_long_a_step_may_be_is_proved(self):
-        for field, verdict, scale in (("length(p) - 1.0", "pass", 1), ("1.6 * (length(p) - 1.0)", "warn", 1 / 1.6)):
+        for field, verdict, scale in (("length(p) - 1.0", "pass", 1), ("1.6 * (length(p) - 1.0)", "note", 1 / 1.6)):
             with self.subTest(field):
                 scene = self.write("march.glsl", MARCH.replace("max(d, 0.4)", "d").replace("length(p) - 1.0", field))
                 entry = self.verdicts(scene, "--probe", "step_scale")["step_scale"]
@@ -124,7 +129,7 @@ class Check(ProgramTest):
         self.assertGreater(float(said[2]), 90)
         self.assertGreater(float(said[3]), 90)
         entry = self.verdicts(self.write("march.glsl", march.replace("i < 99", "i < 4")), "--probe", "turns")["turns"]
-        self.assertEqual(entry["verdict"], "warn", entry["found"])
+        self.assertEqual(entry["verdict"], "note", entry["found"])
         self.assertRegex(entry["found"], r"^[1-9][\d.]* % of 288 rays run out of the loop's 4 iterations, as pixel \d+,\d+ at .* s: \S*march.glsl:5 tests")
 
     def test_the_far_plane_is_the_definition_that_limits_the_march(self):
@@ -154,7 +159,7 @@ class Check(ProgramTest):
             with self.subTest(probe):
                 text = MARCH.replace("max(d, 0.4)", step).replace("i < 99", f"i < {turns}")
                 entry = self.verdicts(self.write("march.glsl", text), "--probe", probe)[probe]
-                self.assertEqual(entry["verdict"], "warn", entry["found"])
+                self.assertEqual(entry["verdict"], "note", entry["found"])
                 self.assertRegex(entry["found"], "^" + found)
         self.write("march.check.json", '{ "largest_slope": 1 }')
         for field, verdict in (("length(p) - 1.0", "pass"), ("1.3 * (length(p) - 1.0)", "fail")):
@@ -168,19 +173,19 @@ class Check(ProgramTest):
         probes = ("overstep", "budget", "lipschitz_sweep", "far", "rays", "epsilon", "places", "gradient")
         options = [option for probe in probes for option in ("--probe", probe)]
         for probe, entry in self.verdicts(self.write("sound.glsl", sound), *options).items():
-            self.assertIn(entry["verdict"], ("pass", "warn"), f"{probe}: {entry['found']}")
+            self.assertIn(entry["verdict"], ("pass", "note"), f"{probe}: {entry['found']}")
 
     def test_the_field_of_the_text_is_followed_along_its_rays(self):
         ball = MARCH.replace("max(d, 0.4)", "d").replace("t > 9.0", "t > 9e6")
         # Repeated every thousandth: 1e3 units out a float has no digits for that.
         fine = ball.replace("length(p) - 1.0", "0.02 + 0.01 * abs(fract(1000.0 * p.z) - 0.5)")
         for text, verdict, found in ((ball, "pass", "^float and double agree to 1e6 units along the rays$"),
-                                     (fine, "warn", r"^float and double agree to 100+ units along the rays; at 100+ units \S+ % of the "),
+                                     (fine, "note", r"^float and double agree to 100+ units along the rays; at 100+ units \S+ % of the "),
                                      (ball.replace("i < 99", "i < 99 && t < 9.0"), "n/a", "further out no ray is marched$")):
             entry = self.verdicts(self.write("far.glsl", text), "--probe", "places")["places"]
             self.assertEqual(entry["verdict"], verdict, entry["found"])
             self.assertRegex(entry["found"], found)
-        for step, field, verdict in (("1e-3", "length(p) - 1.0", "pass"), ("1e-7", "length(p) - 1.0", "warn"),
+        for step, field, verdict in (("1e-3", "length(p) - 1.0", "pass"), ("1e-7", "length(p) - 1.0", "note"),
                                      ("1e-3", "length(p) - 1.0 + 0.001 * fract(43758.5 * sin(91.7 * p.z))", "n/a")):
             scene = self.write("slope.glsl", f"#define normal_eps {step}\n" + ball.replace("length(p) - 1.0", field).replace("9e6", "9.0"))
             entry = self.verdicts(scene, "--probe", "normals")["normals"]
@@ -257,7 +262,7 @@ class Check(ProgramTest):
                                          "NaN in iChannel1 of Buffer A spreads to 100 % of the pixels")
         (folder / "buffer_a.glsl").write_text(buffer % "1.0 /")
         entry = self.verdicts(folder, "--probe", "inputs")["inputs"]
-        self.assertEqual(entry["verdict"], "fail")
+        self.assertEqual(entry["verdict"], "warn")
         command = shlex.split(entry["reproduction"])
         self.assertEqual(command[-6:-2], ["--channel", "Buffer A:1=none", "--pass", "Buffer A"])
         self.assertEqual(entry["trace"]["first"]["line"], 3)
@@ -294,7 +299,7 @@ class Check(ProgramTest):
                                         "    return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453);\n}\n"
                                         "void mainImage(out vec4 c, in vec2 p) { c = vec4(hash(floor(p / 8.0))); }\n")
         entry = self.verdicts(scene, "--probe", "hashes")["hashes"]
-        self.assertEqual(entry["verdict"], "warn")
+        self.assertEqual(entry["verdict"], "note")
         self.assertIn("hash.glsl:1 hash", entry["found"])
 
     def test_a_function_outside_of_its_domain_is_named_where_it_shows(self):
@@ -360,9 +365,10 @@ class Check(ProgramTest):
                              ("fract(1e6 * sqrt(p.x))", "quotients, roots, powers and logarithms a unit off"),
                              ("fract(iTime * 1e5 + p.x)", "iTime, iResolution and iMouse a unit in the last place")):
             with self.subTest(manner):
+                verdict = "note" if manner.startswith(("sums", "iTime")) else "warn"  # no device computes so
                 scene = self.write("bits.glsl", f"void mainImage(out vec4 c, in vec2 p) {{ c = vec4({text}); }}\n")
                 entry = self.verdicts(scene, "--probe", "rounding")["rounding"]
-                self.assertEqual(entry["verdict"], "warn", entry["found"])
+                self.assertEqual(entry["verdict"], verdict, entry["found"])
                 self.assertRegex(entry["found"], "^the picture changes visibly with " + manner)
                 self.assertRegex(entry["found"], manner + r"[^,]*: \d+\.\d dB, 1 % of the pixels by 0\.\d+ or more")
 
@@ -399,7 +405,7 @@ class Check(ProgramTest):
                                         "    c = vec4(surface().n.x, march(p.x, hit), side(p.y),\n"
                                         "        branch); }\n")
         entry = self.verdicts(scene, "--probe", "unassigned")["unassigned"]
-        self.assertEqual(entry["verdict"], "warn")
+        self.assertEqual(entry["verdict"], "note")
         for said in (f"s ({scene}:3, on some path)", f"branch ({scene}:12, on some path)",
                      f"hit ({scene}:4, an `out` that some path does not write)",
                      f"side ({scene}:7, on some path without a `return`)"):
@@ -460,7 +466,7 @@ class Check(ProgramTest):
     def test_a_probe_asked_for_by_name_is_asked(self):
         scene = self.write("turn.glsl", FAULTS["camera"])
         self.write("turn.check.json", '{"skip": {"camera": "it has none"}}')
-        self.assertEqual(self.verdicts(scene, "--probe", "camera")["camera"]["verdict"], "fail")
+        self.assertEqual(self.verdicts(scene, "--probe", "camera")["camera"]["verdict"], "warn")
 
     def test_our_scenes_keep_what_they_promise(self):
         """`./dev soak` takes all of them, which is a minute and a half of CPU time, this test the fastest; documents_test
@@ -487,13 +493,13 @@ class Check(ProgramTest):
                 self.assertIn(f"{file}: {wrong}", result.stderr)
 
     def test_the_documents_own_marching_has_its_known_faults(self):
-        faulty = ("time_discontinuity", "camera", "overstep", "horizon", "budget")
+        faulty = {"time_discontinuity": "warn", "camera": "warn", "overstep": "fail", "horizon": "fail", "budget": "fail"}
         probes = [word for probe in (*faulty, "hashes") for word in ("--probe", probe)]
         entries = self.verdicts(ROOT / "shaders" / "water_surface.glsl", "--define", "DOCUMENT=1", *probes)
-        for probe in faulty:
-            self.assertEqual(entries[probe]["verdict"], "fail", entries[probe]["found"])
+        for probe, verdict in faulty.items():
+            self.assertEqual(entries[probe]["verdict"], verdict, entries[probe]["found"])
         self.assertIn("62.83 s", entries["time_discontinuity"]["found"])
-        self.assertEqual(entries["hashes"]["verdict"], "warn")
+        self.assertEqual(entries["hashes"]["verdict"], "note")
 
     def test_an_unknown_probe_names_those_there_are(self):
         result = self.run_program("check", str(self.write("sound.glsl", SOUND)), "--probe", "luck")

@@ -185,7 +185,7 @@ class Explained(unittest.TestCase):
     def test_every_probe_has_its_row(self) -> None:
         listed = subprocess.run([PROGRAM, "check", "--list"], check=True, capture_output=True, text=True).stdout
         probes = [line.split()[0] for line in listed.splitlines()]
-        rows = re.findall(r"^\| `(\w+)`(?: \(w\))? \|.*\| (proved|measured|sampled|modelled|the text) \|$",
+        rows = re.findall(r"^\| `(\w+)`(?: \([wn]\))? \|.*\| (proved|measured|sampled|modelled|the text) \|$",
                           PROBES.read_text(), re.MULTILINE)
         self.assertEqual(sorted(name for name, _ in rows), sorted(probes))
 
