@@ -198,6 +198,8 @@ private:
             result_.outside.emplace_back(Outside{at, grid, is_bound(watch.sites[site], reading), {}});
         if (pass.text.pass != bench_.scene().image_index())
             seen.where.pass = bench_.scene().passes[pass.text.pass].name;
+        seen.pass = pass.text.pass;
+        seen.site = watch.sites[site];
         if (!seen.bound)
             return;
         const glm::ivec2 pixel = pass.watched.pixel(grid, reading.pixel);

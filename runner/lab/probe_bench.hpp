@@ -6,6 +6,7 @@
 #include "lab/probe_inputs.hpp"
 #include "render/frame_stepper.hpp"
 #include "scene/scene.hpp"
+#include "shader/undefined_behaviour.hpp"
 
 #include <functional>
 #include <map>
@@ -32,6 +33,8 @@ struct Outside {
     PixelGrid grid;       ///< of the pixels that showed it
     bool bound = false;   ///< index, shift, whole-number divisor, texel or conversion
     std::string sentence; ///< only if `bound`: place, operand, pixel and moment
+    size_t pass = 0;      ///< index in the scene
+    glsl::DomainSite site{};
 };
 
 struct Explored {

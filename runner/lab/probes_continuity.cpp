@@ -92,10 +92,12 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
                           "{:.2g} s, 1 % of the pixels are off by {:.3g} or more",
                           good, time, double(std::nextafter(float(time), 1e9f)) - double(float(time)),
                           horizon->mismatch->difference);
+    const std::string line = where_digits_are_lost(bench, *horizon->mismatch);
     return Answer{kept        ? Verdict::pass
                   : good == 0 ? Verdict::warn
                               : Verdict::fail,
-                  found, horizon->mismatch->state, horizon->mismatch->floats};
+                  found + (line.empty() ? "" : "; " + line), horizon->mismatch->state,
+                  horizon->mismatch->floats};
 }
 
 namespace {
@@ -142,17 +144,28 @@ Result<Answer> ask_hashes(ProbeBench& bench) {
     if (!hashes)
         return Answer{Verdict::not_applicable,
                       "the scene cannot be promoted to double: " + to_string(hashes.error())};
-    std::vector<std::string> found; // Common is part of every pass, so list each once
+    std::vector<std::string> sines, products; // Common is part of every pass, so list each once
     for (const glsl::KeptHash& hash : *hashes) {
         const std::string said = fmt::format("{}:{}{}", hash.where.file, hash.where.line,
                                              hash.function.empty() ? "" : " " + hash.function);
-        if (hash.kind == glsl::HashKind::sine && std::ranges::find(found, said) == found.end())
-            found.push_back(said);
+        const bool product = hash.kind == glsl::HashKind::product && !hash.function.empty();
+        auto& list = product ? products : sines;
+        if ((!product && hash.kind != glsl::HashKind::sine) || std::ranges::find(list, said) != list.end())
+            continue;
+        if (!product || depends_on_contraction(bench, {hash.function}).value_or(false))
+            list.push_back(said);
     }
-    if (found.empty())
-        return Answer{Verdict::pass, "no random numbers from large sines"};
-    return Answer{Verdict::warn,
-                  "fract of a large sine gives different numbers on each GPU: " + listed(found)};
+    std::string sentence;
+    if (!sines.empty())
+        sentence = "fract of a large sine gives different numbers on each GPU: " + listed(sines);
+    if (!products.empty())
+        sentence += fmt::format("{}fract of a large product gives different numbers on a GPU with fused "
+                                "multiply-add: {}",
+                                sines.empty() ? "" : "; ", listed(products));
+    if (sentence.empty())
+        return Answer{Verdict::pass,
+                      "no random numbers from large sines, nor from products that rounding changes"};
+    return Answer{Verdict::warn, sentence};
 }
 
 // Checks whether a picture repeats exactly, with one thread too, and whether it changes evenly with the

@@ -102,9 +102,11 @@ private:
                 continue;
             const glm::ivec2 pixel = watched_->pixel(view.grid, reading.pixel);
             UndefinedCall& each = found.emplace_back(UndefinedCall{
-                fmt::format("{}, first at pixel {},{}) at {}",
-                            domain_sentence(*pass_.text, watch.sites[i], reading), pixel.x, pixel.y, place),
-                pass_.pass, watch.sites[i].node, 0, view.state, image::Image()});
+                fmt::format("{}, first at pixel {},{}{}) at {}",
+                            domain_sentence(*pass_.text, watch.sites[i], reading), pixel.x, pixel.y,
+                            view.state.extent == k_probe_extent ? "" : " of " + scene::to_string(view.state.extent),
+                            place),
+                pass_.pass, watch.sites[i], 0, view.state, image::Image()});
             if (pass_.pass != bench_.scene().image_index())
                 each.where.pass = bench_.scene().passes[pass_.pass].name;
             if (!zero)
@@ -133,10 +135,12 @@ Result<std::vector<PictureView>> usual_views(ProbeBench& bench) {
     std::vector<PictureView> all{
         {plain_state()},
         {state_at(0)},
-        {with_mouse(render::Mouse::clicked({size.width / 3, size.height / 4}, false), state_at(10))}};
+        {with_mouse(render::Mouse::clicked({size.width / 3, size.height / 4}, false), state_at(10))},
+        {plain_state({2 * size.width - 1, 2 * size.height + 1}), {1, size.width / 2, size.height / 2}}};
+    const size_t ordinary = all.size();
     const auto explored = TRY(explore(bench));
     for (const Outside& outside : (explored)->outside) {
-        if (outside.bound || all.size() >= 3 + k_most_explored)
+        if (outside.bound || all.size() >= ordinary + k_most_explored)
             continue;
         // Use as many pixels as in the ordinary views, at the same place.
         const Extent whole = outside.where.extent;

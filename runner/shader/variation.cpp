@@ -278,10 +278,16 @@ public:
     Contraction(const ParsedText& text, const TreeFacts& facts)
         : text_(text), tree_(text.tree()), facts_(facts), edits_(text), prefix_(fresh_prefix(text)) {}
 
-    Variation run() {
+    /// `functions`: those to vary; nullptr: all of the text.
+    Variation run(const std::set<std::string>* functions = nullptr) {
         Variation result{{}, prefix_ + "mode"};
+        const auto varied = [&](NodeId id) {
+            const NodeId function = functions ? tree_.around(id, NodeKind::function) : k_no_node;
+            return !functions ||
+                   (function != k_no_node && functions->contains(std::string(text_.word_of(function))));
+        };
         for (NodeId id = 1; id < tree_.nodes.size(); ++id)
-            result.places += contracted(id) ? 1 : 0;
+            result.places += varied(id) && contracted(id) ? 1 : 0;
         result.text = headers_with_buffers(text_) +
                       "#extension GL_ARB_gpu_shader_fp64 : enable\n"
                       "#extension GL_ARB_gpu_shader5 : enable\n" +
@@ -378,6 +384,11 @@ void reverse(const ParsedText& text, NodeId chain, SourceRewriter& edits) {
 
 Variation vary_contraction(const ParsedText& text, const TreeFacts& facts) {
     return Contraction(text, facts).run();
+}
+
+Variation vary_contraction_in(const ParsedText& text, const TreeFacts& facts,
+                              const std::set<std::string>& functions) {
+    return Contraction(text, facts).run(&functions);
 }
 
 Variation vary_order(const ParsedText& text, const TreeFacts& facts) {
