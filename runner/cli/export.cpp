@@ -8,6 +8,7 @@
 #include "host/version.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/project_exchange.hpp"
+#include "shader/pass_reading.hpp"
 #include "web/page.hpp"
 
 #include <fmt/format.h>
@@ -40,9 +41,20 @@ fs::path project_folder(const fs::path& scene) {
     return scene.filename() == scene::k_project_file ? folder : fs::path();
 }
 
+/// Loads the scene. Fails as drawing it would if the text has characters that GLSL does not have, which some
+/// compilers take for blanks.
+Result<scene::Scene> load_plain(const SceneRequest& request) {
+    scene::Scene scene = TRY(load(request));
+    for (const scene::Pass& pass : scene.passes)
+        if (const glsl::PassReading reading(scene, pass); reading.may_be_drawn_wrong())
+            return fail(Error{ErrorCode::load, fmt::format("'{}' does not compile", scene.file.string()),
+                              reading.problems()});
+    return scene;
+}
+
 /// Returns a page, or a page's fragment. Sets `read` to the files it is made of.
 Result<std::string> page_of(const ExportOptions& options, std::vector<fs::path>& read) {
-    const auto scene = TRY(load(options.scene));
+    const auto scene = TRY(load_plain(options.scene));
     const auto frames = TRY(resolve(options.frames));
     read = files_read(scene);
     return web::make_page(scene, options.embed ? web::PageForm::fragment : web::PageForm::whole,
@@ -60,7 +72,7 @@ Result<std::string> project_of(const ExportOptions& options, std::vector<fs::pat
     }
     if (request.path.extension() == ".json")
         return fail(ErrorCode::usage, fmt::format("'{}' is already ShaderToy's JSON", request.path.string()));
-    const auto scene = load(request);
+    const auto scene = load_plain(request);
     if (!scene)
         return fail(scene.error());
     read = files_read(*scene);

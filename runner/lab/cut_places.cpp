@@ -180,7 +180,7 @@ private:
             const PassPreview preview = render::FrameStepper(renderer, state).preview(state.frame, pass);
             if (!stand_in)
                 stand_in = TRY(StandIn::link(preview, seen.text, "the text that shows its values"));
-            for (size_t i = 0; i < means.size(); ++i) {
+            for (size_t i = 0; i < means.size() && keep_going_(); ++i) {
                 stand_in->set(seen.which_uniform, double(i));
                 stand_in->draw(preview);
                 means[i].add(stand_in->picture());

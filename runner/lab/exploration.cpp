@@ -199,7 +199,8 @@ private:
         if (pass.text.pass != bench_.scene().image_index())
             seen.where.pass = bench_.scene().passes[pass.text.pass].name;
         seen.place = location_of_site(*pass.text.text, watch.sites[site]);
-        seen.is_texel = watch.sites[site].kind == glsl::DomainKind::fetch;
+        seen.pass = pass.text.pass;
+        seen.site = watch.sites[site];
         if (!seen.bound)
             return;
         const glm::ivec2 pixel = pass.watched.pixel(grid, reading.pixel);

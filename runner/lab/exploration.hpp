@@ -58,7 +58,8 @@ struct PictureView {
     PixelGrid grid{};
 };
 
-/// Returns three ordinary views, and up to six in which the search saw floats leave a function's domain.
+/// Returns three ordinary views, the middle of a picture of odd size, whose pixel is on both axes, and up to
+/// six in which the search saw floats leave a function's domain.
 Result<std::vector<PictureView>> usual_views(ProbeBench& bench);
 
 /// An undefined call and its effect.
@@ -67,7 +68,7 @@ struct UndefinedCall {
     std::string what; ///< "pow of a negative number"
     SourceLocation place;
     size_t pass = 0; ///< index in the scene
-    glsl::NodeId node = glsl::k_no_node;
+    glsl::DomainSite site{};
     double percent = 0; ///< of the pixels that depend on it; 0: none
     FrameState where;
     image::Image picture; ///< the difference that those pixels show

@@ -38,6 +38,14 @@ glsl::Cure all_of(const std::vector<glsl::Cure>& cures) {
     return all;
 }
 
+/// Returns a finding of a text, with at most one fix.
+Finding found_in_text(Finding::Kind kind, std::string sentence, std::optional<glsl::Cure> cure) {
+    Finding finding{kind, std::move(sentence), {}, {}};
+    if (cure)
+        finding.cures.push_back(*std::move(cure));
+    return finding;
+}
+
 class Finder {
 public:
     Finder(ProbeBench& bench, const std::vector<PassText>& texts) : bench_(bench), texts_(texts) {}
@@ -53,6 +61,9 @@ public:
             for (const UndefinedCall& each : *calls)
                 if (each.percent > 0)
                     add_call(each);
+        for (const Outside& outside : TRY(explore(bench_))->outside)
+            if (outside.bound)
+                add_bound(outside);
         return std::move(found_);
     }
 
@@ -64,8 +75,24 @@ private:
 
     void add_call(const UndefinedCall& call) {
         const PassText* const pass = text_of(call.pass);
-        add_once(found_, {Finding::Kind::undefined, call.sentence, call.where,
-                          glsl::domain_guards(*pass->text, pass->facts, call.node)});
+        Finding finding{Finding::Kind::undefined, call.sentence, call.where, {}};
+        if (call.site.kind == glsl::DomainKind::whole)
+            if (auto cure = glsl::between_whole_quotients(*pass->text, pass->facts, call.site.node))
+                finding.cures.push_back(*std::move(cure));
+        std::ranges::move(glsl::domain_guards(*pass->text, pass->facts, call.site.node),
+                          std::back_inserter(finding.cures));
+        add_once(found_, std::move(finding));
+    }
+
+    void add_bound(const Outside& outside) {
+        const PassText* const pass = text_of(outside.pass);
+        if (!pass)
+            return;
+        add_once(found_,
+                 found_in_text(Finding::Kind::bounds, outside.sentence,
+                               outside.site.kind == glsl::DomainKind::negative
+                                   ? glsl::unsigned_dividend(*pass->text, pass->facts, outside.site.node)
+                                   : std::nullopt));
     }
 
     /// Traces a picture that is not finite. Adds the first operation that was not finite and the one whose
@@ -128,14 +155,6 @@ private:
     CurableFindings found_{};
 };
 
-/// Returns a finding of a text, with at most one fix.
-Finding found_in_text(Finding::Kind kind, std::string sentence, std::optional<glsl::Cure> cure) {
-    Finding finding{kind, std::move(sentence), {}, {}};
-    if (cure)
-        finding.cures.push_back(*std::move(cure));
-    return finding;
-}
-
 void add_without_value(CurableFindings& found, const PassText& pass) {
     for (const glsl::Unassigned& each : glsl::find_unassigned(*pass.text, pass.facts))
         if (const std::string sentence = sentence_for(*pass.text, each); !sentence.empty())
@@ -163,6 +182,13 @@ void add_divergent(CurableFindings& found, const PassText& pass, const scene::Pa
         }
 }
 
+void add_wrong_edges(CurableFindings& found, const PassText& pass) {
+    for (const glsl::WrongEdges& each : glsl::find_wrong_edges(*pass.text, pass.facts))
+        if (const std::string sentence = sentence_for(*pass.text, each); !sentence.empty())
+            add_once(found, found_in_text(Finding::Kind::edges, sentence,
+                                          glsl::ordered_edges(*pass.text, pass.facts, each)));
+}
+
 /// Finds faults of a marching scene's rays: wrong first hits, by proof, and rays that run out of steps.
 class RayFinder {
 public:
@@ -186,7 +212,8 @@ private:
         std::vector<glsl::Cure> cures;
         if (const PassText* const text = text_of(pass)) {
             if (counts.step_over > 0)
-                cures = glsl::shorter_steps(*text->text, place_of_march(lines));
+                cures = glsl::shorter_steps(*text->text, place_of_march(lines),
+                                            TRY(safe_step(bench_, pass)).value_or(1));
             std::ranges::move(glsl::more_turns(*text->text, place_of_march(lines)),
                               std::back_inserter(cures));
         }
@@ -300,6 +327,11 @@ Result<CurableFindings> find_curable(ProbeBench& bench, bool hashes) {
         add_without_value(found, pass);
         add_miscounting(found, pass);
         add_divergent(found, pass, bench.scene().passes[pass.pass]);
+        add_wrong_edges(found, pass);
+    }
+    for (Seam& seam : TRY(find_seams(bench, *written))) {
+        found.all.push_back({Finding::Kind::seam, seam.sentence, seam.where, {}});
+        found.all.back().cures.push_back(std::move(seam.cure));
     }
     TRY(RayFinder(bench, *written, found).run());
     add_rounding(bench, found, *written);

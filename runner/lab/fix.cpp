@@ -4,17 +4,21 @@
 #include "base/measurement.hpp"
 #include "lab/probed_pictures.hpp"
 #include "lab/probed_rays.hpp"
+#include "lab/probes.hpp"
 #include "lab/scene_numbers.hpp"
 #include "lab/text_findings.hpp"
 #include "media/comparison.hpp"
 #include "media/image.hpp"
 #include "shader/undefined_behaviour.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
 
 namespace tidemark::lab {
@@ -77,6 +81,21 @@ Result<double> count_divergent(ProbeBench& bench) {
     return double(count);
 }
 
+Result<double> count_out_of_bounds(ProbeBench& bench) {
+    return double(std::ranges::count(TRY(explore(bench))->outside, true, &Outside::bound));
+}
+
+Result<double> count_wrong_edges(ProbeBench& bench) {
+    size_t count = 0;
+    for (const PassText& pass : TRY(read_texts(bench, true)))
+        count += glsl::find_wrong_edges(*pass.text, pass.facts).size();
+    return double(count);
+}
+
+Result<double> count_seams(ProbeBench& bench) {
+    return double(TRY(find_seams(bench, TRY(read_texts(bench, true)))).size());
+}
+
 Result<double> undefined_percent(ProbeBench& bench, const std::vector<PictureView>& views) {
     const auto texts = TRY(read_texts(bench, false));
     double percent = 0;
@@ -102,6 +121,9 @@ std::string name_of(Kind kind) {
     case Kind::hash: return "hashes of large sines";
     case Kind::counter: return "loops that miscount";
     case Kind::divergence: return "derivatives where neighbours may have taken another branch";
+    case Kind::bounds: return "places out of bounds";
+    case Kind::edges: return "calls with edges in the wrong order";
+    case Kind::seam: return "look-ups whose mipmap is chosen across a jump";
     case Kind::rounding: return "percent of the pixels that visibly differ from double precision";
     }
     return {};
@@ -124,10 +146,12 @@ bool is_of_rays(Kind kind) {
 /// Returns whether the fault is fixed. For rays the probes' limits suffice: the last wrong rays are a matter
 /// of silhouettes, and of run time.
 bool is_mended(Kind kind, const Fault& fault, const Promises& promises) {
+    if (!(fault.after < fault.before))
+        return false;
     if (kind == Kind::rounding)
         return fault.after <= k_most_left * fault.before;
     if (!is_of_rays(kind))
-        return fault.after < fault.before;
+        return true;
     return fault.after <= (kind == Kind::first_hit ? k_most_wrong_percent : promises.most_exhausted_percent);
 }
 
@@ -208,7 +232,7 @@ bool compare_errors(DrawnScene& before, DrawnScene& after, const FrameState& sta
 
 /// Returns whether the fix changed the picture. Pixels that showed something undefined may change.
 bool is_another(const Judgement& judgement, Kind kind) {
-    if (kind == Kind::no_value)
+    if (kind == Kind::no_value || kind == Kind::bounds)
         return judgement.changed > 0;
     if (kind == Kind::hash || kind == Kind::rounding) // their fixes are meant to change it
         return false;
@@ -286,6 +310,9 @@ Result<double> DrawnScene::fault_of_scene(Kind kind, const std::vector<PictureVi
     case Kind::hash: return count_sine_hashes(bench_);
     case Kind::counter: return count_miscounting(bench_);
     case Kind::divergence: return count_divergent(bench_);
+    case Kind::bounds: return count_out_of_bounds(bench_);
+    case Kind::edges: return count_wrong_edges(bench_);
+    case Kind::seam: return count_seams(bench_);
     case Kind::not_finite:
     case Kind::rounding: // both depend on a situation
     case Kind::undefined: break;
@@ -319,6 +346,25 @@ namespace {
 
 constexpr int k_most_rounds = 8;
 
+/// A probe, and the findings that repeat it.
+struct Covered {
+    std::string_view probe;
+    Kind kind;
+};
+constexpr Covered k_covered[] = {
+    {"times", Kind::not_finite},      {"frames", Kind::not_finite},
+    {"mouse", Kind::not_finite},      {"sizes", Kind::not_finite},
+    {"inputs", Kind::not_finite},     {"knobs", Kind::not_finite},
+    {"search", Kind::not_finite},     {"unassigned", Kind::no_value},
+    {"undefined", Kind::undefined},   {"bounds", Kind::bounds},
+    {"divergence", Kind::divergence}, {"counters", Kind::counter},
+    {"edges", Kind::edges},           {"seams", Kind::seam},
+    {"first_hit", Kind::first_hit},   {"step_scale", Kind::first_hit},
+    {"overstep", Kind::first_hit},    {"budget", Kind::budget},
+    {"turns", Kind::budget},          {"grazing", Kind::budget},
+    {"horizon", Kind::rounding},      {"hashes", Kind::hash},
+};
+
 class Mender {
 public:
     Mender(const scene::Scene& scene, const Promises& promises, const Mending& mending)
@@ -329,6 +375,7 @@ public:
         TRY(now_->bench().compiled()); // a compile error is the result
         for (int round = 0; round < k_most_rounds; ++round) {
             refused_.clear();
+            refused_kinds_.clear();
             const CurableFindings found = TRY(find_curable(now_->bench(), mending_.hashes));
             if (!found.left_out.empty())
                 refused_[found.left_out] = "nothing was searched";
@@ -337,10 +384,29 @@ public:
         }
         for (const auto& [finding, why] : refused_)
             mending_.remains({finding, why});
-        return {};
+        return report_others();
     }
 
 private:
+    /// Reports what the probes of `check` find in the fixed scene and no fix exists for.
+    Result<void> report_others() {
+        for (const Probe& probe : all_probes()) {
+            if (promises_.skip.contains(std::string(probe.name)))
+                continue;
+            const auto covered = std::ranges::find(k_covered, probe.name, &Covered::probe);
+            if (covered != std::end(k_covered) && refused_kinds_.contains(covered->kind))
+                continue;
+            const auto answer = probe.ask(now_->bench());
+            if (!answer || (answer->verdict != Verdict::fail && answer->verdict != Verdict::warn))
+                continue;
+            const bool hashes = probe.name == "hashes" && !mending_.hashes;
+            mending_.remains({fmt::format("{}: {}", probe.name, answer->sentence),
+                              hashes ? "--hashes replaces them, which gives another picture"
+                                     : "no fix is known for this probe's findings"});
+        }
+        return {};
+    }
+
     /// Tries to fix all findings; returns whether any was fixed.
     Result<bool> mend_all(const CurableFindings& found) {
         bool mended = false;
@@ -359,6 +425,7 @@ private:
 
     Result<std::optional<Offer>> first_better(const Finding& finding, const std::vector<PictureView>& views) {
         std::string& why = refused_[finding.sentence];
+        refused_kinds_.insert(finding.kind);
         why = finding.cures.empty() ? "no fix is known, or its text cannot be changed" : "";
         for (const glsl::Cure& cure : finding.cures) {
             cures_.push_back(cure);
@@ -380,8 +447,6 @@ private:
             }
             cures_.pop_back();
         }
-        if (finding.only_a_warning)
-            refused_.erase(finding.sentence);
         return std::optional<Offer>();
     }
 
@@ -391,6 +456,7 @@ private:
     std::unique_ptr<DrawnScene> now_;
     std::vector<glsl::Cure> cures_{};
     std::map<std::string, std::string> refused_{};
+    std::set<Kind> refused_kinds_{}; ///< of the findings of the last round
 };
 
 } // namespace

@@ -28,6 +28,9 @@ struct Finding {
         divergence, ///< a derivative where neighbouring pixels may have taken another branch
         rounding,   ///< a picture in float that differs from that in double
         hash,       ///< random numbers from large sines
+        bounds,     ///< an index, a shift, an integer division, a texel or a conversion out of bounds
+        edges,      ///< clamp or smoothstep with edges in the wrong order
+        seam,       ///< a mipmap chosen across a jump of the coordinates
     };
     Kind kind = Kind::no_value;
     std::string sentence;              ///< the fault and its place

@@ -524,6 +524,15 @@ Result<PixelTrace> trace_pixel(const render::Renderer& renderer, const render::F
     return trace;
 }
 
+const TracedLine* most_lossy(const PixelTrace& trace) {
+    constexpr double k_least = 2;
+    const auto most = std::ranges::max_element(trace.lines, {}, &TracedLine::lost);
+    if (most != trace.lines.end() && most->lost >= k_least)
+        return &*most;
+    const auto fewest = std::ranges::min_element(trace.lines, {}, &TracedLine::digits);
+    return fewest != trace.lines.end() && fewest->digits < ir::k_most_digits - k_least ? &*fewest : nullptr;
+}
+
 bool is_as_drawn(const PixelTrace& trace) {
     constexpr double k_margin = 10; // functions of a device round worse than its operations
     for (size_t i = 0; i < trace.in_float.size(); ++i) {

@@ -107,6 +107,10 @@ struct PixelRequest {
 Result<PixelTrace> trace_pixel(const render::Renderer& renderer, const render::FrameInputs& inputs,
                                const PixelRequest& request);
 
+/// Returns the line of a pixel whose digits rounding loses most at once; nothing if no line loses two or
+/// more.
+const TracedLine* most_lossy(const PixelTrace& trace);
+
 /// Returns whether the colour in float equals the device's, up to rounding.
 bool is_as_drawn(const PixelTrace& trace);
 

@@ -6,6 +6,7 @@
 #include "lab/probe_inputs.hpp"
 #include "render/frame_stepper.hpp"
 #include "scene/scene.hpp"
+#include "shader/undefined_behaviour.hpp"
 
 #include <functional>
 #include <map>
@@ -33,8 +34,12 @@ struct Outside {
     bool bound = false;   ///< index, shift, whole-number divisor, texel or conversion
     std::string sentence; ///< only if `bound`: place, operand, pixel and moment
     SourceLocation place{};
-    bool is_texel = false; ///< a texel outside of its texture or level, which is 0 on ShaderToy's site and here
-    std::string what{};    ///< only if `bound`: the operand and its value
+    std::string what{}; ///< only if `bound`: the operand and its value
+    size_t pass = 0;    ///< index in the scene
+    glsl::DomainSite site{};
+
+    /// Returns whether it is a texel outside of its texture or level, which is 0 on ShaderToy's site and here.
+    bool is_texel() const { return site.kind == glsl::DomainKind::fetch; }
 };
 
 struct Explored {

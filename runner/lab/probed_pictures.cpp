@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/measurement.hpp"
+#include "lab/pixel_trace.hpp"
 #include "media/comparison.hpp"
 #include "media/image.hpp"
 
@@ -222,6 +223,28 @@ namespace {
 constexpr double k_third = 1.0 / 3;
 
 } // namespace
+
+std::string where_digits_are_lost(ProbeBench& bench, const Mismatch& mismatch) {
+    const auto truth = bench.picture(mismatch.state, glsl::Precision::promoted);
+    if (!truth)
+        return {};
+    const std::vector<double> largest = largest_differences(mismatch.floats, *truth);
+    const auto worst = int(std::ranges::max_element(largest) - largest.begin());
+    const int width = mismatch.floats.extent.width, height = mismatch.floats.extent.height;
+    const auto renderer = bench.drawn(mismatch.state);
+    if (!renderer)
+        return {};
+    // Pictures begin with their top row, pixels are counted from the bottom.
+    const auto trace = trace_pixel(**renderer, render::inputs_of(mismatch.state),
+                                   {.pixel = {worst % width, height - 1 - worst / width}});
+    const TracedLine* const line = trace ? most_lossy(*trace) : nullptr;
+    if (!line)
+        return {};
+    const SourceLocation& where = line->line.where;
+    return line->lost > 0
+               ? fmt::format("{}:{} loses {:.1f} digits at once", where.file, where.line, line->lost)
+               : fmt::format("{}:{} has {:.1f} digits left", where.file, where.line, line->digits);
+}
 
 Result<Horizon> find_horizon(ProbeBench& bench) {
     Horizon horizon;

@@ -103,6 +103,10 @@ void look_at_rays(Extent whole, const std::function<uint64_t(glm::ivec2 pixel)>&
 /// Proves the first hits of the sampled rays of `pass` at both moments, and counts the outcomes.
 Result<RayCounts> count_proved(ProbeBench& bench, const MarchingPass& pass);
 
+/// Returns the longest step, as a multiple of the distance, that passes no first hit of the sampled rays;
+/// nothing if that is not proved for most of those that hit.
+Result<std::optional<double>> safe_step(ProbeBench& bench, const MarchingPass& pass);
+
 /// Returns the percentage of the decided rays that step over their first hit or miss it.
 double wrong_percent(const RayCounts& counts);
 

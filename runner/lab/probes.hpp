@@ -6,6 +6,7 @@
 #include "lab/probe_bench.hpp"
 
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -95,6 +96,8 @@ Result<Answer> ask_bounds(ProbeBench& bench);
 Result<Answer> ask_unassigned(ProbeBench& bench);
 Result<Answer> ask_divergence(ProbeBench& bench);
 Result<Answer> ask_counters(ProbeBench& bench);
+Result<Answer> ask_edges(ProbeBench& bench);
+Result<Answer> ask_seams(ProbeBench& bench);
 
 // probes_continuity.cpp
 Result<Answer> ask_horizon(ProbeBench& bench);
@@ -114,6 +117,8 @@ Result<Answer> ask_mouse_edge(ProbeBench& bench);
 Result<Answer> ask_sine(ProbeBench& bench);
 Result<Answer> ask_rounding(ProbeBench& bench);
 Result<Answer> ask_mediump(ProbeBench& bench);
+/// Returns whether the picture changes visibly if these functions are computed with fused multiply-adds.
+Result<bool> depends_on_contraction(ProbeBench& bench, const std::set<std::string>& functions);
 
 // probes_hits.cpp
 Result<Answer> ask_overstep(ProbeBench& bench);

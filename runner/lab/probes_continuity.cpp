@@ -93,12 +93,14 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
                           "{:.2g} s, 1 % of the pixels are off by {:.3g} or more",
                           good, time, double(std::nextafter(float(time), 1e9f)) - double(float(time)),
                           horizon->mismatch->difference);
+    const std::string line = where_digits_are_lost(bench, *horizon->mismatch);
     const bool noticeable = gap > k_noticeable_gap;
     Answer answer{kept                                               ? Verdict::pass
                   : bench.promises().stated.contains("time_horizon") ? Verdict::fail
                   : noticeable                                       ? Verdict::warn
                                                                      : Verdict::note,
-                  found, horizon->mismatch->state, horizon->mismatch->floats};
+                  found + (line.empty() ? "" : "; " + line), horizon->mismatch->state,
+                  horizon->mismatch->floats};
     const char* const effect = noticeable ? "the picture breaks up" : "the picture changes a little";
     answer.effect = good == 0 ? fmt::format("{} through the rounding of floats, from the start", effect)
                               : fmt::format("{} within {}: floats have too few digits for iTime", effect,
@@ -156,19 +158,33 @@ Result<Answer> ask_hashes(ProbeBench& bench) {
     if (!hashes)
         return Answer{Verdict::not_applicable,
                       "the scene cannot be promoted to double: " + to_string(hashes.error())};
-    std::vector<std::string> found; // Common is part of every pass, so list each once
+    std::vector<std::string> sines, products; // Common is part of every pass, so list each once
     Answer answer{Verdict::note};
     for (const glsl::KeptHash& hash : *hashes) {
         const std::string said = fmt::format("{}:{}{}", hash.where.file, hash.where.line,
                                              hash.function.empty() ? "" : " " + hash.function);
-        if (hash.kind != glsl::HashKind::sine || std::ranges::find(found, said) != found.end())
+        const bool product = hash.kind == glsl::HashKind::product && !hash.function.empty();
+        auto& list = product ? products : sines;
+        if ((!product && hash.kind != glsl::HashKind::sine) || std::ranges::find(list, said) != list.end())
             continue;
-        found.push_back(said);
+        if (product && !depends_on_contraction(bench, {hash.function}).value_or(false))
+            continue;
+        list.push_back(said);
         add_place(answer, hash.where);
     }
-    if (found.empty())
-        return Answer{Verdict::pass, "no random numbers from large sines"};
-    answer.sentence = "fract of a large sine gives different numbers on each GPU: " + listed(found);
+    if (!sines.empty())
+        answer.sentence = "fract of a large sine gives different numbers on each GPU: " + listed(sines);
+    if (!products.empty())
+        answer.sentence += fmt::format("{}fract of a large product gives different numbers on a GPU with fused "
+                                       "multiply-add: {}",
+                                       sines.empty() ? "" : "; ", listed(products));
+    if (answer.sentence.empty())
+        return Answer{Verdict::pass,
+                      "no random numbers from large sines, nor from products that rounding changes"};
+    if (sines.empty()) {
+        answer.effect = "random numbers differ from one GPU to the next";
+        answer.cause = "fract() of a large product is rounded differently with fused multiply-add";
+    }
     return answer;
 }
 

@@ -13,6 +13,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 
 namespace tidemark::lab {
 namespace {
@@ -25,6 +28,65 @@ scene::KnobValue middle_of(const scene::Knob& knob) {
             value[i] = std::floor(value[i]);
     }
     return value;
+}
+
+/// The largest magnitudes of a pass, frame after frame.
+class Growth {
+public:
+    void add(const image::Image& picture) {
+        double largest = 0;
+        for (const float sample : picture.f32())
+            if (std::isfinite(sample))
+                largest = std::max(largest, double(std::abs(sample)));
+        largest_.push_back(largest);
+    }
+
+    /// Returns the frame at which the numbers overflow if they go on as they do: by about the same factor in
+    /// each third of the last half of the frames. Nothing if they do not grow so, or have not grown much.
+    std::optional<double> overflow_frame() const {
+        constexpr size_t k_fewest = 60;
+        constexpr double k_much = 100, k_steady = 0.8, k_latest = 1e6;
+        const size_t count = largest_.size(), part = count / 6;
+        if (count < k_fewest || !(largest_.back() > k_much * largest_[count / 2]) || largest_.back() < k_much)
+            return std::nullopt;
+        double last = 0;
+        for (size_t third = 0; third < 3; ++third) {
+            const double before = largest_[count - 1 - (3 - third) * part],
+                         after = largest_[count - 1 - (2 - third) * part];
+            const double rate = before > 0 ? std::log(after / before) / double(part) : 0;
+            if (!(rate > 0) || rate < k_steady * last)
+                return std::nullopt;
+            last = rate;
+        }
+        const double frame =
+            double(count) + std::log(double(std::numeric_limits<float>::max()) / largest_.back()) / last;
+        return frame < k_latest ? std::optional(frame) : std::nullopt;
+    }
+
+    double largest() const { return largest_.back(); }
+
+private:
+    std::vector<double> largest_{};
+};
+
+/// Returns the answer for the pass that overflows first; nothing if none grows without end.
+std::optional<Answer> overflow(const std::vector<std::pair<std::string, Growth>>& passes,
+                               const FrameState& last) {
+    const std::pair<std::string, Growth>* worst = nullptr;
+    double first = std::numeric_limits<double>::infinity();
+    for (const auto& pass : passes)
+        if (const auto frame = pass.second.overflow_frame(); frame && *frame < first) {
+            first = *frame;
+            worst = &pass;
+        }
+    if (!worst)
+        return std::nullopt;
+    return Answer{
+        Verdict::warn,
+        fmt::format("{} grows by the same factor again and again: its largest number is {:.2g} at frame "
+                    "{}, and at about frame {:.0f} ({:.0f} s) it overflows",
+                    worst->first, worst->second.largest(), last.frame, first, first / last.fps),
+        last};
 }
 
 } // namespace
@@ -41,15 +103,25 @@ Result<Answer> ask_frames(ProbeBench& bench) {
         return Answer{Verdict::not_applicable, "no frame depends on the one before it"};
     std::optional<Answer> fault;
     int seen = 0;
+    std::vector<std::pair<std::string, Growth>> growth;
+    FrameState last;
     const auto start = std::chrono::steady_clock::now();
     const auto done = bench.step([&](const FrameState& at, const std::vector<PassPicture>& passes) {
         fault = not_finite(bench, at, passes);
+        growth.resize(std::max(growth.size(), passes.size()));
+        for (size_t i = 0; i < passes.size(); ++i) {
+            growth[i].first = passes[i].pass;
+            growth[i].second.add(passes[i].picture);
+        }
+        last = at;
         return !fault && ++seen < k_frames && std::chrono::steady_clock::now() - start < k_patience;
     });
     if (!done)
         return fail(done.error());
     if (fault)
         fault->sentence = fmt::format("from frame {} on: {}", seen, fault->sentence);
+    else
+        fault = overflow(growth, last);
     return fault ? *std::move(fault)
                  : Answer{Verdict::pass, fmt::format("no NaN or infinity in the first {} frames{}", seen,
                                                      seen < k_frames ? ", stopped after 5 s" : "")};

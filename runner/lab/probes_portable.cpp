@@ -28,7 +28,7 @@ struct Mode {
 
 /// A way to rewrite a text, with the modes that it offers.
 struct Manner {
-    glsl::Variation (*vary)(const glsl::ParsedText& text, const glsl::TreeFacts& facts);
+    std::function<glsl::Variation(const glsl::ParsedText& text, const glsl::TreeFacts& facts)> vary;
     std::vector<Mode> modes;
 };
 
@@ -159,6 +159,15 @@ Result<Answer> ask_rounding(ProbeBench& bench) {
     if (!left_out.empty())
         answer.sentence += "; not tried, as the driver or the text does not allow it: " + listed(left_out);
     return answer;
+}
+
+Result<bool> depends_on_contraction(ProbeBench& bench, const std::set<std::string>& functions) {
+    PortabilityProbe probe(bench);
+    TRY(probe.add({[&](const glsl::ParsedText& text, const glsl::TreeFacts& facts) {
+                       return glsl::vary_contraction_in(text, facts, functions);
+                   },
+                   {{1, "fused multiply-add"}}}));
+    return probe.asked() && probe.answer({}).verdict == Verdict::warn;
 }
 
 Result<Answer> ask_mediump(ProbeBench& bench) {

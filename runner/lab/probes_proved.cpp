@@ -183,6 +183,11 @@ std::string scales_sentence(const Scales& scales) {
 
 } // namespace
 
+Result<std::optional<double>> safe_step(ProbeBench& bench, const MarchingPass& pass) {
+    const Scales scales = TRY(scales_of(bench, pass));
+    return scales.bounded() ? std::optional(std::ranges::min(scales.safe)) : std::nullopt;
+}
+
 Result<Answer> ask_step_scale(ProbeBench& bench) {
     const auto pass = TRY(marching_pass(bench));
     if (!pass)

@@ -3,8 +3,10 @@
 #include "base/error.hpp"
 #include "lab/conduct.hpp"
 #include "lab/pass_function.hpp"
+#include "lab/probe_inputs.hpp"
 #include "lab/scene_numbers.hpp"
 #include "lab/work_precision.hpp"
+#include "render/frame_plan.hpp"
 #include "render/frame_stepper.hpp"
 
 #include <fmt/format.h>
@@ -18,6 +20,11 @@ namespace {
 
 constexpr size_t k_fewest_trials = 3, k_most_trials = 25;
 constexpr double k_enough_milliseconds = 120; ///< for the timing rounds
+/// A cut is considered if a frame takes at most this share of its former time.
+constexpr double k_pays = 0.985;
+/// Limit of the other views, and their last moment in seconds: later a float's rounding shows in many scenes.
+constexpr size_t k_most_others = 160;
+constexpr double k_latest = 1000;
 /// A picture is divided into this many parts; the RMSE of each may be this many times the allowed error.
 constexpr int k_part_columns = 16, k_part_rows = 9;
 constexpr double k_most_in_a_part = 3;
@@ -64,11 +71,61 @@ bool keeps_parts(const Goal& goal, const image::Image& own, const image::Image& 
     return true;
 }
 
-Result<CutBench> CutBench::create(const scene::Scene& scene, Extent extent, std::vector<View> views) {
+std::vector<View> other_views(const scene::Scene& scene, const std::vector<View>& views, size_t most) {
+    const auto reads = [&](std::string_view name) {
+        return std::ranges::any_of(scene.passes, [&](const scene::Pass& pass) {
+            return (scene.common.text() + pass.text.text()).find(name) != std::string::npos;
+        });
+    };
+    double last = k_latest;
+    if (render::may_have_feedback(scene))
+        last = std::ranges::max(views, {}, [](const View& view) {
+                   return view.state.seconds();
+               }).state.seconds();
+    const Promises promises;
+    const SearchSpace space(scene, promises, {true, reads("iMouse")});
+    std::vector<View> others;
+    for (const SearchPoint& point : space.survey()) {
+        if (others.size() >= most)
+            break;
+        if (point.time > last || point.knobs != space.plain().knobs)
+            continue;
+        View view{.name = fmt::format("t={:g}", point.time), .state = render::at_time(point.time)};
+        view.mouse = point.mouse.value_or(glm::dvec2(0));
+        others.push_back(std::move(view));
+    }
+    return others;
+}
+
+Result<CutBench> CutBench::create(const scene::Scene& scene, Extent extent, std::vector<View> views,
+                                  double seconds) {
     auto own = TRY(Specimen::create(scene, {}, extent));
     CutBench bench(scene, extent, std::move(views), std::move(own));
     bench.truth_ = TRY(truth_of(bench.own_.pictures(bench.views_)));
+    const Stopwatch clock;
+    for (const View& view : other_views(scene, bench.views_, k_most_others)) {
+        if (clock.elapsed().wall * 1e-3 > seconds)
+            break;
+        if (auto truth = truth_of(bench.own_.pictures({view}))) {
+            bench.other_views_.push_back(view);
+            bench.other_truths_.push_back(*std::move(truth));
+        }
+    }
     return bench;
+}
+
+/// Returns the error in the worst view, or nothing if it exceeds the goal.
+std::optional<double> CutBench::error_in(Specimen& specimen, std::span<const View> views, const Truth& truth,
+                                         const Goal& goal) const {
+    const Sight sight{specimen.pictures({views.begin(), views.end()}), {}};
+    double worst = 0;
+    for (size_t view = 0; view < views.size(); ++view) {
+        const double error = error_of(goal.measure, outcome_of(sight, truth, view));
+        if (!(error <= *goal.most_error) || !keeps_parts(goal, truth.pictures[view], sight.pictures[view]))
+            return std::nullopt;
+        worst = std::max(worst, error);
+    }
+    return worst;
 }
 
 std::optional<CutTrial> CutBench::try_cuts(std::span<const glsl::Cure> cuts, Specimen& other,
@@ -78,14 +135,20 @@ std::optional<CutTrial> CutBench::try_cuts(std::span<const glsl::Cure> cuts, Spe
     if (!specimen)
         return std::nullopt;
     CutTrial trial{*std::move(specimen)};
-    const Sight sight{trial.specimen.pictures(views_), {}};
-    for (size_t view = 0; view < views_.size(); ++view) {
-        const double error = error_of(goal.measure, outcome_of(sight, truth_, view));
-        if (!(error <= *goal.most_error) || !keeps_parts(goal, truth_.pictures[view], sight.pictures[view]))
-            return std::nullopt;
-        trial.error = std::max(trial.error, error);
-    }
+    const auto error = error_in(trial.specimen, views_, truth_, goal);
+    if (!error)
+        return std::nullopt;
+    trial.error = *error;
     trial.time = relative_time(trial.specimen, other);
+    if (trial.time > k_pays)
+        return trial;
+    for (size_t i = 0; i < other_views_.size(); ++i) {
+        const auto elsewhere =
+            error_in(trial.specimen, std::span(&other_views_[i], 1), other_truths_[i], goal);
+        if (!elsewhere)
+            return std::nullopt;
+        trial.error = std::max(trial.error, *elsewhere);
+    }
     return trial;
 }
 
@@ -142,9 +205,10 @@ constexpr int k_small = 128, k_fine = 512;
 constexpr double k_fine_trial = 0.1;
 /// Shares of the time budget: `k_looking`, `k_alone` and `k_together` end the search for places and the
 /// trials of cuts alone and together; `k_timing` is for the verdict.
-constexpr double k_looking = 0.15, k_alone = 0.45, k_together = 0.7, k_timing = 0.25;
-/// A cut is considered if a frame takes at most this share of its former time.
-constexpr double k_pays = 0.985;
+constexpr double k_looking = 0.15, k_alone = 0.45, k_together = 0.7, k_timing = 0.25,
+                 k_others = 0.03; ///< `k_others` is for drawing the other views once
+/// The verdict's pictures are made smaller if everything would else take more than this share of the budget.
+constexpr double k_everything = 1.2;
 /// Savings of single cuts that differ by less than this count as equal.
 constexpr double k_alike = 0.05;
 /// Share of the allowed error that the search may use: moments it did not see rarely have as little error as
@@ -176,10 +240,11 @@ public:
         CutPlaces places = TRY(find_cuts(scene_, request_.views, small, [&] { return goes_on(k_looking); }));
         std::erase_if(places.cuts,
                       [&](const glsl::Cut& cut) { return !request_.can_be_written(cut.change); });
-        auto bench = TRY(CutBench::create(scene_, small, request_.views));
+        auto bench = TRY(CutBench::create(scene_, small, request_.views, k_others * request_.seconds));
         auto fine = fine_bench(bench, places.cuts);
         CutBench& finer = fine ? *fine : bench;
         try_alone(bench, finer, places.cuts);
+        others_ = bench.other_view_count();
         combine(std::ranges::any_of(good_, &ChosenCut::hangs_on_size) ? finer : bench);
         Simplified found{{TRY(judge(bench)), {}}, {}};
         choose(found, std::move(places.left));
@@ -187,8 +252,18 @@ public:
     }
 
 private:
-    bool goes_on(double part) const {
-        return watch_.keep_going() && clock_.elapsed().wall * 1e-3 < part * request_.seconds;
+    double seconds() const { return clock_.elapsed().wall * 1e-3; }
+
+    /// Returns whether work that takes `needed` seconds ends within that part of the time budget.
+    bool goes_on(double part, double needed = 0) const {
+        return watch_.keep_going() && seconds() + needed < part * request_.seconds;
+    }
+
+    std::optional<CutTrial> tried(CutBench& bench, std::span<const glsl::Cure> cuts, Specimen& other) {
+        const double before = seconds();
+        auto trial = bench.try_cuts(cuts, other, searched_);
+        longest_trial_ = std::max(longest_trial_, seconds() - before);
+        return trial;
     }
 
     bool keeps(double error) const { return error <= *request_.goal.most_error; }
@@ -199,7 +274,7 @@ private:
         const double trial = bench.seconds_of_trial() * larger(fine);
         if (std::ranges::none_of(cuts, &glsl::Cut::hangs_on_size) || trial > k_fine_trial * request_.seconds)
             return std::nullopt;
-        auto made = CutBench::create(scene_, fine, request_.views);
+        auto made = CutBench::create(scene_, fine, request_.views, k_others * request_.seconds);
         return made ? std::optional(*std::move(made)) : std::nullopt;
     }
 
@@ -211,12 +286,12 @@ private:
     void try_alone(CutBench& bench, CutBench& finer, const std::vector<glsl::Cut>& cuts) {
         watch_.begin("cuts tried", cuts.size());
         for (const glsl::Cut& cut : cuts) {
-            if (!goes_on(k_alone))
+            if (!goes_on(k_alone) || !goes_on(k_together, longest_trial_))
                 break;
             ++tried_;
             watch_.advance();
             CutBench& own = cut.hangs_on_size ? finer : bench;
-            const auto trial = own.try_cuts(std::span(&cut.change, 1), own.own(), searched_);
+            const auto trial = tried(own, std::span(&cut.change, 1), own.own());
             if (trial && trial->time <= k_pays)
                 good_.push_back({cut.change, trial->error, trial->time, cut.hangs_on_size});
         }
@@ -233,12 +308,15 @@ private:
     /// Adds one cut after another, as long as the error stays within the goal.
     void combine(CutBench& bench) {
         watch_.begin("cuts combined", good_.size());
+        if (good_.empty())
+            return;
+        way_.push_back({good_.front()}); // tried alone already
         std::optional<CutTrial> last;
-        for (const ChosenCut& cut : good_) {
+        for (const ChosenCut& cut : std::span(good_).subspan(1)) {
             watch_.advance();
-            if (!goes_on(k_together))
+            if (!goes_on(k_together, longest_trial_))
                 break;
-            std::vector<ChosenCut> next = way_.empty() ? std::vector<ChosenCut>{} : way_.back();
+            std::vector<ChosenCut> next = way_.back();
             const bool gone = std::ranges::any_of(next, [&](const ChosenCut& other) {
                 return !is_inside(other.change, cut.change) && is_inside(cut.change, other.change);
             });
@@ -246,7 +324,9 @@ private:
                 continue;
             std::erase_if(next, [&](const ChosenCut& other) { return is_inside(other.change, cut.change); });
             next.push_back(cut);
-            auto trial = bench.try_cuts(changes_of(next), last ? last->specimen : bench.own(), searched_);
+            if (!last)
+                last = tried(bench, changes_of(way_.back()), bench.own());
+            auto trial = tried(bench, changes_of(next), last ? last->specimen : bench.own());
             if (!trial || trial->time > k_pays)
                 continue;
             last = std::move(trial);
@@ -254,10 +334,18 @@ private:
         }
     }
 
-    /// Estimates the time of one round for one point at full size from a small picture.
-    double seconds_a_round(CutBench& bench) const {
-        return bench.milliseconds() * 1e-3 * larger(request_.extent) *
-               double(request_.views.size() + std::size(k_later));
+    /// Returns the seconds that are left for the verdict.
+    double seconds_left() const {
+        return std::max(k_everything * request_.seconds - seconds(), k_timing * request_.seconds);
+    }
+
+    /// Returns the size of the verdict's pictures: the requested one, or a smaller one of the same shape if
+    /// `seconds_a_round`, for one point at the requested size, does not allow two points.
+    Extent judged_extent(double seconds_a_round) const {
+        const double needed = 2 * double(k_fewest_rounds) * seconds_a_round;
+        const int longer = std::max(request_.extent.width, request_.extent.height);
+        const double scale = std::min(1.0, std::sqrt(seconds_left() / needed));
+        return small_of(request_.extent, std::max(int(longer * scale), std::min(k_small, longer)));
     }
 
     /// Returns the last step and others evenly spaced before it, as many as the time allows.
@@ -272,7 +360,10 @@ private:
     }
 
     Result<Findings> judge(CutBench& bench) {
-        const double round = seconds_a_round(bench);
+        const double whole = bench.milliseconds() * 1e-3 * larger(request_.extent) *
+                             double(request_.views.size() + std::size(k_later));
+        judged_ = judged_extent(whole);
+        const double round = whole * double(judged_.pixels()) / double(request_.extent.pixels());
         steps_ = judged_steps(round);
         std::vector<std::pair<std::string, scene::Scene>> scenes;
         for (const size_t step : steps_)
@@ -282,13 +373,14 @@ private:
                                     *std::move(scene));
         Study study;
         study.about = "Cuts in the scene's text, compared with the unchanged scene.";
-        study.extent = request_.extent;
+        study.extent = judged_;
         study.views = request_.views;
         const View& last = request_.views.back();
         for (const double later : k_later)
             study.views.push_back(unseen(last, later * std::max(last.state.seconds(), 1.0)));
         const double needed = double(k_fewest_rounds * (steps_.size() + 1)) * round;
-        const Timing timing{2, 30, std::max(needed, k_timing * request_.seconds)};
+        const Timing timing{steps_.empty() ? size_t(0) : size_t(2), steps_.empty() ? size_t(3) : size_t(30),
+                            std::max(std::min(needed, seconds_left()), k_timing * request_.seconds)};
         Watch watch = watch_;
         if (!watch_.keep_going()) // a cancelled search still judges its results
             watch.keep_going = [] { return true; };
@@ -324,8 +416,13 @@ private:
         const auto& points = found.findings.set.points;
         auto& say = found.sentences;
         say = std::move(left);
-        say.push_back(fmt::format("{} of {} cuts were tried alone: {} save time and keep {}", tried_, known_,
-                                  good_.size(), to_string(request_.goal)));
+        say.push_back(fmt::format("{} of {} cuts were tried alone: {} save time and keep {}, also at {} "
+                                  "other moments and places of the mouse",
+                                  tried_, known_, good_.size(), to_string(request_.goal), others_));
+        if (judged_ != request_.extent)
+            say.push_back(fmt::format("the verdict is for {}x{} pixels: {}x{} need a longer --budget",
+                                      judged_.width, judged_.height, request_.extent.width,
+                                      request_.extent.height));
         say.push_back("unchanged: " + cost_and_error(points.front()));
         const WorkPrecision* best = nullptr;
         for (size_t i = 1; i < points.size(); ++i) {
@@ -387,7 +484,9 @@ private:
     const Circumstances& facts_;
     Goal searched_; ///< goal for the search pictures
     Stopwatch clock_{};
-    size_t tried_ = 0, known_ = 0;
+    size_t tried_ = 0, known_ = 0, others_ = 0;
+    double longest_trial_ = 0;                  ///< seconds
+    Extent judged_{};                           ///< size of the verdict's pictures
     std::vector<ChosenCut> good_{};             ///< cuts that pay alone
     std::vector<std::vector<ChosenCut>> way_{}; ///< combinations; each keeps the error
     std::vector<size_t> steps_{};               ///< indices of the combinations to judge

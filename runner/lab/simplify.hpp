@@ -45,18 +45,28 @@ struct CutTrial {
 /// small object that is missing hardly changes the mean.
 bool keeps_parts(const Goal& goal, const image::Image& own, const image::Image& cut);
 
+/// Returns moments and places of the mouse at which a cut may show although it does not in `views`: those
+/// that the numbers of the text point to, and others spread evenly. Of a scene whose frames depend on earlier
+/// ones only moments up to the last of `views`. At most `most`.
+std::vector<View> other_views(const scene::Scene& scene, const std::vector<View>& views, size_t most);
+
 class CutBench {
 public:
-    /// Draws the unchanged scene. Fails (ErrorCode::check_failed) if its picture is NaN or infinite.
-    static Result<CutBench> create(const scene::Scene& scene, Extent extent, std::vector<View> views);
+    /// Draws the unchanged scene in `views` and, for at most `seconds`, in its other_views(). Fails
+    /// (ErrorCode::check_failed) if its picture is NaN or infinite.
+    static Result<CutBench> create(const scene::Scene& scene, Extent extent, std::vector<View> views,
+                                   double seconds);
 
     Specimen& own() { return own_; }
     /// Returns the time for one view of the unchanged scene, averaged over the views.
     double milliseconds();
     /// Estimates the seconds of a trial whose cuts save nothing.
     double seconds_of_trial();
+    /// Returns in how many views a cut that saves time is also drawn.
+    size_t other_view_count() const { return other_views_.size(); }
     /// Draws the scene with the cuts, and times it against `other`. Returns nullopt if the cuts cannot be
     /// made, the driver rejects the text, or the error exceeds the goal in the whole picture or in a part.
+    /// If the cuts save time, the other views count, too.
     std::optional<CutTrial> try_cuts(std::span<const glsl::Cure> cuts, Specimen& other, const Goal& goal);
 
 private:
@@ -64,12 +74,16 @@ private:
         : scene_(&scene), extent_(extent), views_(std::move(views)), own_(std::move(own)) {}
 
     double relative_time(Specimen& one, Specimen& other) const;
+    std::optional<double> error_in(Specimen& specimen, std::span<const View> views, const Truth& truth,
+                                   const Goal& goal) const;
 
     const scene::Scene* scene_;
     Extent extent_;
     std::vector<View> views_;
     Specimen own_;
-    Truth truth_;
+    Truth truth_{};
+    std::vector<View> other_views_{};
+    std::vector<Truth> other_truths_{}; ///< one per other view
 };
 
 // Finds what can be left out of a scene within a stated error: cuts of its texts, each drawn and timed,

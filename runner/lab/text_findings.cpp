@@ -3,8 +3,12 @@
 #include "base/error.hpp"
 #include "lab/instrumented_pass.hpp"
 #include "lab/nan_trace.hpp"
+#include "lab/probed_pictures.hpp"
 #include "lab/probes.hpp"
+#include "lab/scene_numbers.hpp"
+#include "media/comparison.hpp"
 #include "scene/host_uniforms.hpp"
+#include "shader/fixes.hpp"
 #include "shader/undefined_behaviour.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +18,14 @@
 #include <cmath>
 
 namespace tidemark::lab {
+namespace {
+
+/// A seam is one or two pixels wide: large enough a picture that mipmaps are read as in an ordinary one.
+constexpr Extent k_seam_extent{320, 180};
+/// Percent of the pixels: where more change, the coordinates jump everywhere, and there is no line to see.
+constexpr double k_most_of_a_seam = 20;
+
+} // namespace
 
 Result<std::vector<PassText>> read_texts(ProbeBench& bench, bool as_written) {
     const auto renderer = TRY(bench.compiled());
@@ -65,6 +77,14 @@ std::string sentence_for(const glsl::ParsedText& text, const glsl::Unassigned& e
     return fmt::format("{} ({}{})", text.word_of(each.what), place, words_for(each.why));
 }
 
+std::string sentence_for(const glsl::ParsedText& text, const glsl::WrongEdges& each) {
+    const std::string place = place_of(text, text.tree()[each.call].begin);
+    if (place.empty())
+        return {};
+    return fmt::format("`{}` ({}, {})", shortened(text.excerpt(each.call)), place,
+                       each.equal ? "its edges are equal" : "its low edge is above its high one");
+}
+
 std::string words_for(const glsl::ParsedText& text, const glsl::DivergentBranch& branch) {
     const glsl::Node& at = text.tree()[branch.at];
     const std::string place = place_of(text, at.begin);
@@ -105,7 +125,8 @@ using glsl::DomainReading;
 
 bool is_bound(const glsl::DomainSite& site, const DomainReading& reading) {
     switch (site.kind) {
-    case DomainKind::function: return false;
+    case DomainKind::function:
+    case DomainKind::whole: return false;
     case DomainKind::quotient: return reading.limit != 0; // 1: of whole numbers, 0: of floats
     default: return true;
     }
@@ -123,6 +144,18 @@ std::string domain_sentence(const glsl::ParsedText& text, const glsl::DomainSite
             break;
         [[fallthrough]];
     case DomainKind::divisor: return fmt::format("{}: an integer divided by 0", excerpt);
+    case DomainKind::negative:
+        return text.word_of(site.node).starts_with('%')
+                   ? fmt::format("{}: the remainder of a negative integer ({}), which is undefined", excerpt,
+                                 whole)
+                   : fmt::format("{}: a negative integer ({}) divided with a remainder, whose rounding is "
+                                 "undefined",
+                                 excerpt, whole);
+    case DomainKind::whole:
+        if (number == 0)
+            break;
+        return fmt::format("{}: a whole quotient that GPUs with reciprocals miss ({}", excerpt,
+                           to_shortest(number));
     case DomainKind::shift: return fmt::format("{}: a shift by {}, outside of 0 to 31", excerpt, whole);
     case DomainKind::index:
         return fmt::format("{}: index {} outside of 0 to {}", excerpt, whole, reading.limit);
@@ -251,6 +284,67 @@ Result<Answer> ask_counters(ProbeBench& bench) {
         return Answer{Verdict::pass, "no float loop counter gains or loses an iteration through rounding"};
     answer.sentence = listed(found);
     return answer;
+}
+
+Result<Answer> ask_edges(ProbeBench& bench) {
+    const auto texts = read_texts(bench, true);
+    if (!texts)
+        return Answer{Verdict::not_applicable, "the text cannot be analysed: " + to_string(texts.error())};
+    std::vector<std::string> reversed, others;
+    for (const PassText& pass : *texts)
+        for (const glsl::WrongEdges& each : glsl::find_wrong_edges(*pass.text, pass.facts)) {
+            const std::string said = sentence_for(*pass.text, each);
+            const bool clamps = glsl::called_name(*pass.text, each.call) == "clamp";
+            auto& list = clamps || each.equal ? others : reversed;
+            if (!said.empty() && std::ranges::find(list, said) == list.end())
+                list.push_back(said);
+        }
+    const std::string known =
+        reversed.empty()
+            ? ""
+            : fmt::format("undefined in GLSL, though GPUs that we know draw it: {}", listed(reversed));
+    if (others.empty())
+        return Answer{Verdict::pass,
+                      known.empty() ? "no clamp or smoothstep has its edges in the wrong order" : known};
+    return Answer{Verdict::warn, listed(others) + (known.empty() ? "" : "; " + known)};
+}
+
+Result<std::vector<Seam>> find_seams(ProbeBench& bench, const std::vector<PassText>& texts) {
+    std::vector<Seam> found;
+    for (const PassText& pass : texts)
+        for (const glsl::JumpingLookUp& each : glsl::find_jumping_look_ups(
+                 *pass.text, pass.facts, which_have_mipmaps(bench.scene().passes[pass.pass]))) {
+            const std::string place = place_of(*pass.text, pass.text->tree()[each.call].begin);
+            auto cure = glsl::smooth_look_up(*pass.text, pass.facts, each);
+            const auto scene = cure ? changed(bench.scene(), std::span(&*cure, 1)) : std::nullopt;
+            if (place.empty() || !scene || std::ranges::find(found, place, &Seam::place) != found.end())
+                continue;
+            const FrameState state = plain_state(k_seam_extent);
+            const image::Image before = TRY(bench.picture(state));
+            const auto after = ProbeBench(*scene, bench.promises()).picture(state);
+            const double percent = after ? visibly_different_percent(before, *after) : 0;
+            if (percent > 0 && percent < k_most_of_a_seam)
+                found.push_back(
+                    {place,
+                     fmt::format("{}: the coordinates of `{}` jump by {}, so that pixels at the "
+                                 "jump read a blurred mipmap: a line in {:.2g} % of the picture",
+                                 place, shortened(pass.text->excerpt(each.call)), each.jump, percent),
+                     state, image::difference_picture(before, *after, 1), *std::move(cure)});
+        }
+    return found;
+}
+
+Result<Answer> ask_seams(ProbeBench& bench) {
+    const auto texts = read_texts(bench, true);
+    if (!texts)
+        return Answer{Verdict::not_applicable, "the text cannot be analysed: " + to_string(texts.error())};
+    std::vector<Seam> found = TRY(find_seams(bench, *texts));
+    if (found.empty())
+        return Answer{Verdict::pass, "no mipmap is chosen across a jump of its coordinates"};
+    std::vector<std::string> sentences;
+    for (const Seam& seam : found)
+        sentences.push_back(seam.sentence);
+    return Answer{Verdict::fail, listed(sentences), found[0].where, std::move(found[0].picture)};
 }
 
 } // namespace tidemark::lab

@@ -6,6 +6,7 @@
 #include "shader/domain_watch.hpp"
 #include "shader/loops.hpp"
 #include "shader/parsed_text.hpp"
+#include "shader/source_edits.hpp"
 #include "shader/tree_facts.hpp"
 #include "shader/undefined_behaviour.hpp"
 
@@ -45,6 +46,21 @@ size_t word_without_value(const glsl::ParsedText& text, const glsl::Unassigned& 
 /// Returns, for example, `sum (a.glsl:4)` or `hit (a.glsl:9, an `out` that some path does not write)`; empty
 /// if the place is in generated text.
 std::string sentence_for(const glsl::ParsedText& text, const glsl::Unassigned& each);
+
+/// Returns, for example, "`clamp(x, 1.0, 0.0)` (a.glsl:4, its low edge is above its high one)"; empty in
+/// generated text.
+std::string sentence_for(const glsl::ParsedText& text, const glsl::WrongEdges& each);
+
+/// A line in the picture where a look-up's coordinates jump: pixels there read a mipmap that is too small.
+struct Seam {
+    std::string place;    ///< `a.glsl:4`
+    std::string sentence; ///< place, look-up, and how much of the picture changes without the jump
+    FrameState where;
+    image::Image picture; ///< the difference
+    glsl::Cure cure;
+};
+/// Returns the seams that show at 1 s. `texts` come from read_texts with as_written = true.
+Result<std::vector<Seam>> find_seams(ProbeBench& bench, const std::vector<PassText>& texts);
 
 /// Returns, for example, `texture needs neighbouring pixels, which may have taken another branch: …`.
 std::string words_for(const glsl::ParsedText& text, const glsl::Divergent& each);

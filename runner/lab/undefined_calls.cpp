@@ -102,10 +102,12 @@ private:
                 continue;
             const glm::ivec2 pixel = watched_->pixel(view.grid, reading.pixel);
             const std::string what = domain_sentence(*pass_.text, watch.sites[i], reading);
-            UndefinedCall& each = found.emplace_back(
-                UndefinedCall{fmt::format("{}, first at pixel {},{}) at {}", what, pixel.x, pixel.y, place),
-                              what.substr(0, what.rfind(" (")), location_of_site(*pass_.text, watch.sites[i]),
-                              pass_.pass, watch.sites[i].node, 0, view.state, image::Image()});
+            const std::string size =
+                view.state.extent == k_probe_extent ? "" : " of " + scene::to_string(view.state.extent);
+            UndefinedCall& each = found.emplace_back(UndefinedCall{
+                fmt::format("{}, first at pixel {},{}{}) at {}", what, pixel.x, pixel.y, size, place),
+                what.substr(0, what.rfind(" (")), location_of_site(*pass_.text, watch.sites[i]), pass_.pass,
+                watch.sites[i], 0, view.state, image::Image()});
             if (pass_.pass != bench_.scene().image_index())
                 each.where.pass = bench_.scene().passes[pass_.pass].name;
             if (!zero)
@@ -134,10 +136,12 @@ Result<std::vector<PictureView>> usual_views(ProbeBench& bench) {
     std::vector<PictureView> all{
         {plain_state()},
         {state_at(0)},
-        {with_mouse(render::Mouse::clicked({size.width / 3, size.height / 4}, false), state_at(10))}};
+        {with_mouse(render::Mouse::clicked({size.width / 3, size.height / 4}, false), state_at(10))},
+        {plain_state({2 * size.width - 1, 2 * size.height + 1}), {1, size.width / 2, size.height / 2}}};
+    const size_t ordinary = all.size();
     const auto explored = TRY(explore(bench));
     for (const Outside& outside : (explored)->outside) {
-        if (outside.bound || all.size() >= 3 + k_most_explored)
+        if (outside.bound || all.size() >= ordinary + k_most_explored)
             continue;
         // Use as many pixels as in the ordinary views, at the same place.
         const Extent whole = outside.where.extent;
@@ -205,10 +209,10 @@ Result<Answer> ask_bounds(ProbeBench& bench) {
     for (const Outside& outside : (explored)->outside)
         if (outside.bound) {
             sentences.push_back(outside.sentence);
-            const Verdict level = outside.is_texel ? Verdict::note : Verdict::warn;
+            const Verdict level = outside.is_texel() ? Verdict::note : Verdict::warn;
             if (level > answer.verdict || !answer.where) {
                 answer.effect =
-                    (outside.is_texel ? "other hosts may draw garbage: " : "other GPUs may draw garbage: ") +
+                    (outside.is_texel() ? "other hosts may draw garbage: " : "other GPUs may draw garbage: ") +
                     outside.what;
                 answer.where = outside.where;
                 answer.places.clear();

@@ -24,6 +24,7 @@ constexpr Domain k_from_one{{{"x<1.0", [](Args a) { return a.x < 1; }, "of a num
 constexpr Domain k_direction{{{"x==0.0&&y==0.0", [](Args a) { return a.x == 0 && a.y == 0; }, "of 0 and 0"}}, "abs(x)+abs(y)"};
 constexpr Domain k_divisor{{{"y==0.0", [](Args a) { return a.y == 0; }, "by 0"}}, "abs(y)", "y"};
 constexpr Domain k_edges{{{"x==y", [](Args a) { return a.x == a.y; }, "with equal edges"}}, "abs(x-y)"};
+constexpr Domain k_limits{{{"y>z", [](Args a) { return a.y > a.z; }, "with its low limit above its high one"}}, "z-y", "y"};
 /// On the CPU x is the sum of squares, or any component: the square of a number this small underflows in
 /// floats.
 constexpr Domain k_length{{{"dot(x,x)==0.0", [](Args a) { return std::abs(a.x) < double(FLT_MIN); },
@@ -72,7 +73,7 @@ constexpr BuiltinFunction k_functions[] = {
     {"modf",             "F F >F"},
     {"min",              "F F F; F F f; I I I; I I i; U U U; U U u", pure, [](Args a) { return std::min(a.x, a.y); }},
     {"max",              "F F F; F F f; I I I; I I i; U U U; U U u", pure, [](Args a) { return std::max(a.x, a.y); }},
-    {"clamp",            "F F F F; F F f f; I I I I; I I i i; U U U U; U U u u", pure},
+    {"clamp",            "F F F F; F F f f; I I I I; I I i i; U U U U; U U u u", pure, {}, &k_limits},
     {"mix",              "F F F F; F F F f; F F F B", pure, [](Args a) { return a.x * (1 - a.z) + a.y * a.z; }},
     {"step",             "F F F; F f F", pure},
     {"smoothstep",       "F F F F; F f f F", pure,     {}, &k_edges},

@@ -97,13 +97,16 @@ std::string overloads(const BuiltinFunction& function, std::string_view prefix) 
         const auto type = [&](size_t i) { return overload.parameters[i].type; };
         if (overload.parameters.size() != count || overload.result == "float")
             continue;
+        const bool watched = class_of_type(overload.result) == TypeClass::floating;
         std::string parts;
-        for (int part = 0; part < value_type(overload.result)->rows; ++part)
+        for (int part = 0; watched && part < value_type(overload.result)->rows; ++part)
             parts += fmt::format("{}{}{}({},i,m)", part > 0 ? "," : "", prefix, function.name,
                                  for_each([&](size_t i) {
                                      return type(i) == "float" ? fmt::format("{}", k_names[i])
                                                                : fmt::format("{}[{}]", k_names[i], part);
                                  }));
+        if (!watched) // clamp of whole numbers
+            parts = fmt::format("{}({})", function.name, for_each([&](size_t i) { return k_names[i]; }));
         text +=
             fmt::format("{0} {1}{2}({3},int i,inout float m){{return {0}({4});}}\n", overload.result, prefix,
                         function.name,
@@ -132,6 +135,36 @@ std::string float_quotients(std::string_view prefix) {
                                 "if({0}number>=0)r=mix(r,{1}(other),none);}}return r;}}\n",
                                 prefix, vector, left, right, least);
         }
+    return text;
+}
+
+/// Returns `$whole(x, y)` and `$mod(x, y)`: as `x / y` and `mod(x, y)`, but note a whole quotient that a
+/// division by the reciprocal misses. Only the site that `$number` names returns what that division gives.
+std::string rounded_quotients(std::string_view prefix, bool precise) {
+    const std::string_view k_precise = precise ? "precise " : "";
+    std::string text;
+    for (const auto& [name, plain, other] :
+         {std::array<std::string_view, 3>{"rounded", "x/y", "q"}, {"mod", "mod(x,y)", "x-y*floor(q)"}})
+        text += fmt::format(
+            "float {0}{1}(float x,float y,int i,inout float m){{float r={2};{0}near(m,abs(y));"
+            "if({3})return {0}undefined(i,0.0,r);"
+            "{4}float k=1.0/y;{4}float q=x*k;float w=x/y;"
+            "if(w==floor(w)&&floor(q)!=w&&abs(w)<1e6){{uint b=floatBitsToUint(w);"
+            "{0}note(i,b<<1|b>>31,0u);if({0}number==i)r={5};}}return r;}}\n",
+            prefix, name, plain, name == "mod" ? "y==0.0" : "abs(x)+abs(y)==0.0", k_precise, other);
+    for (const std::string_view vector : {"vec2", "vec3", "vec4"})
+        for (const auto& [left, right] : {std::pair(vector, vector), {vector, "float"}, {"float", vector}})
+            for (const std::string_view name : {"rounded", "mod"}) {
+                if (name == "mod" && left == "float")
+                    continue;
+                std::string parts;
+                for (const char part : std::string_view("xyzw").substr(0, size_t(vector.back() - '0')))
+                    parts += fmt::format("{}{}{}(x{},y{},i,m)", parts.empty() ? "" : ",", prefix, name,
+                                         left == "float" ? "" : fmt::format(".{}", part),
+                                         right == "float" ? "" : fmt::format(".{}", part));
+                text += fmt::format("{0} {1}{2}({3} x,{4} y,int i,inout float m){{return {0}({5});}}\n",
+                                    vector, prefix, name, left, right, parts);
+            }
     return text;
 }
 
@@ -164,6 +197,32 @@ std::string watched_parts(std::string_view prefix, std::string_view name, std::s
 std::string divisors(std::string_view prefix) {
     return watched_parts(prefix, "divisor",
                          "{0}near(m,abs(float({1})));if(int({1})==0){{{0}whole(i,0,1u);{1}={2}(1);}}");
+}
+
+/// Returns `$remainder(x, y)` and `$dividend(x, y)`, which return x and note that it is negative; `$dividend`
+/// only if the division leaves a remainder.
+std::string dividends(std::string_view prefix) {
+    std::string text;
+    for (const auto& [name, also] : {std::pair("remainder", ""), {"dividend", "&&{1}-({1}/{2})*{2}!=0"}})
+        text += for_whole_types([&](const std::string& type, int size) {
+            std::string overloads;
+            for (const bool scalar : {true, false}) {
+                if (!scalar && size == 1)
+                    continue; // the same as with a scalar
+                const std::string right = scalar ? std::string(type[0] == 'u' ? "uint" : "int") : type;
+                overloads +=
+                    fmt::format("{0} {1}{2}({0} x,{3} y,int i,inout float m){{", type, prefix, name, right);
+                for (int part = 0; type[0] != 'u' && part < size; ++part) {
+                    const std::string x = part_of("x", size, part), y = part_of("y", scalar ? 1 : size, part);
+                    overloads += fmt::format("{0}near(m,float({1})+0.5);if({1}<0&&{2}!=0", prefix, x, y) +
+                                 fmt::format(fmt::runtime(also), prefix, x, y) +
+                                 fmt::format("){0}whole(i,{1},0u);", prefix, x);
+                }
+                overloads += "return x;}\n";
+            }
+            return overloads;
+        });
+    return text;
 }
 
 /// Returns quotients of whole numbers, a type that only the driver finds, and of matrices, which are not
@@ -289,7 +348,7 @@ std::string domain_prelude(const ParsedText& text, std::span<const DomainSite> s
                            const DomainPreludeOptions& options) {
     const std::string& prefix = options.prefix;
     std::vector<const BuiltinFunction*> used;
-    bool kinds[8] = {};
+    bool kinds[10] = {};
     for (const DomainSite& site : sites) {
         kinds[size_t(site.kind)] = true;
         if (site.kind != DomainKind::function)
@@ -313,6 +372,10 @@ std::string domain_prelude(const ParsedText& text, std::span<const DomainSite> s
         prelude += float_quotients(prefix) + other_quotients(prefix);
     else if (has(DomainKind::divisor))
         prelude += divisors(prefix);
+    if (has(DomainKind::whole))
+        prelude += rounded_quotients(prefix, !text.is_es());
+    if (has(DomainKind::negative))
+        prelude += dividends(prefix);
     if (has(DomainKind::shift))
         prelude += shifts(prefix);
     if (has(DomainKind::index))
@@ -394,6 +457,8 @@ private:
         case DomainKind::function:
         case DomainKind::fetch: return lead_call(id, last);
         case DomainKind::quotient: return lead_quotient(id, last);
+        case DomainKind::whole: return lead_rounded(id, last);
+        case DomainKind::negative: return lead_dividend(id, last);
         case DomainKind::divisor: return wrap(tree_.child(id, 1), "divisor", last);
         case DomainKind::shift: return wrap(tree_.child(id, 1), "shift", last);
         case DomainKind::conversion: return wrap(id, site.to_unsigned ? "touint" : "toint", last);
@@ -424,6 +489,24 @@ private:
         }
         edits_.replace(tree_[id].word, fmt::format("={}({},", function, words_of(text_, tree_.child(id, 0))));
         edits_.wrap(tree_.child(id, 1), "(", ")" + last);
+    }
+
+    void lead_rounded(NodeId id, const std::string& last) {
+        if (tree_[id].kind == NodeKind::call)
+            return lead_call(id, last);
+        edits_.replace(tree_[id].word, ",");
+        edits_.wrap(id, prefix_ + "rounded(", last);
+    }
+
+    void lead_dividend(NodeId id, const std::string& last) {
+        const NodeId left = tree_.child(id, 0), right = tree_.child(id, 1);
+        const std::string function =
+            prefix_ + (text_.word_of(id).starts_with('%') ? "remainder(" : "dividend(");
+        const std::string divisor = fmt::format(",({}){}", words_of(text_, right), last);
+        if (tree_[id].kind == NodeKind::binary)
+            edits_.wrap(left, function + "(", ")" + divisor);
+        else // `a %= b`: a stays a place to write to
+            edits_.wrap(right, fmt::format("({}({}){},", function, words_of(text_, left), divisor), ")");
     }
 
     void lead_main() {

@@ -18,6 +18,17 @@ std::optional<WrittenTokens> look_up_by_neighbours(const ParsedText& text, const
 /// undefined.
 std::optional<Cure> base_level(const ParsedText& text, const TreeFacts& facts, const Divergent& fault);
 
+/// Takes the mipmap's level from the derivatives of the coordinates without their jumps (textureGrad).
+/// Returns nothing if the call comes from a macro.
+std::optional<Cure> smooth_look_up(const ParsedText& text, const TreeFacts& facts,
+                                   const JumpingLookUp& fault);
+
+// Fixes calls whose edges are in the wrong order.
+
+/// Writes what devices are known to compute: `min(max(x, low), high)`, and 1 minus the smooth step with the
+/// edges exchanged; a step for equal edges.
+std::optional<Cure> ordered_edges(const ParsedText& text, const TreeFacts& facts, const WrongEdges& fault);
+
 // Fixes a derivative, or a look-up that chooses its mipmap, by moving it before the place where pixels
 // diverge.
 
@@ -38,6 +49,15 @@ std::optional<Cure> initial_value(const ParsedText& text, const TreeFacts& facts
 /// Returns the guards for a call or a quotient of floats, the simplest first. Empty if none is known or the
 /// text cannot be changed there. The caller measures whether a guard helps.
 std::vector<Cure> domain_guards(const ParsedText& text, const TreeFacts& facts, NodeId operation);
+
+/// Returns fixes for `a % b` and `a / b` of a negative integer: the value that devices which round towards 0
+/// give, from the magnitude of a.
+std::optional<Cure> unsigned_dividend(const ParsedText& text, const TreeFacts& facts, NodeId operation);
+
+/// Returns fixes for `mod(a, b)` and `floor(a / b)` of whole numbers, whose quotient a device with
+/// reciprocals may miss: a half is added to a, so that no quotient is a whole number. Nothing if the text
+/// does not show that a is whole.
+std::optional<Cure> between_whole_quotients(const ParsedText& text, const TreeFacts& facts, NodeId operation);
 
 // Proposes rewrites like those of tools for accurate expressions (P. Panchekha et al., Herbie, PLDI 2015):
 // the new text is equal in real arithmetic and avoids a small difference of large numbers. The caller
@@ -86,9 +106,9 @@ struct MarchPlace {
 /// Returns fixes with 2, 4 and 8 times the iterations; empty if the loop's head has no literal bound.
 std::vector<Cure> more_turns(const ParsedText& text, MarchPlace place);
 
-/// Returns fixes with steps of 0.8, 0.6, 0.4, 0.25 and 0.1 of the distance, with as many more iterations
-/// where the bound is a literal; empty if the step is not certain.
-std::vector<Cure> shorter_steps(const ParsedText& text, const MarchPlace& place);
+/// Returns fixes with steps of 0.8, 0.6, 0.4, 0.25 and 0.1 of the distance, without those above `longest`,
+/// with as many more iterations where the bound is a literal; empty if the step is not certain.
+std::vector<Cure> shorter_steps(const ParsedText& text, const MarchPlace& place, double longest);
 
 /// Returns fixes with 4, 16, 64 and 256 times the threshold, up to 0.1; empty if the threshold is not a small
 /// literal or a constant with such a value.

@@ -185,12 +185,14 @@ std::vector<Cure> more_turns(const ParsedText& text, MarchPlace place) {
     return cures;
 }
 
-std::vector<Cure> shorter_steps(const ParsedText& text, const MarchPlace& place) {
+std::vector<Cure> shorter_steps(const ParsedText& text, const MarchPlace& place, double longest) {
     const NodeId loop = find_loop(text, place);
     const std::vector<NodeId> steps =
         loop == k_no_node ? std::vector<NodeId>() : find_steps(text, loop, place);
     std::vector<Cure> cures;
     for (const double factor : k_shorter) {
+        if (factor > longest)
+            continue;
         Cure cure{{}, fmt::format("steps of {:g} of the distance", factor)};
         for (const NodeId step : steps)
             if (const auto written = written_for(text, step, step))

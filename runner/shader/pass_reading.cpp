@@ -227,9 +227,18 @@ std::vector<Diagnostic> PassReading::strange_characters() const {
         look_at(i);
         names.insert(tokens_[i].text);
     }
-    for (const MacroLine& macro : preprocessed_.macros)
-        for (size_t i = macro.body; names.contains(macro.name) && i < macro.end; ++i)
-            look_at(i);
+    std::unordered_set<size_t> seen; // bodies, whose words may name further macros
+    for (bool again = true; again;) {
+        again = false;
+        for (const MacroLine& macro : preprocessed_.macros)
+            if (names.contains(macro.name) && seen.insert(macro.hash).second) {
+                again = true;
+                for (size_t i = macro.body; i < macro.end; ++i) {
+                    look_at(i);
+                    names.insert(tokens_[i].text);
+                }
+            }
+    }
     return found;
 }
 

@@ -6,6 +6,7 @@
 #include "shader/variables.hpp"
 
 #include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,12 +21,14 @@ bool is_float_operation(const ParsedText& text, const TreeFacts& facts, NodeId i
 // comparisons. Changes nothing.
 
 enum class DomainKind {
-    function,   ///< a call of a float function
-    quotient,   ///< `a / b`, `a /= b` of floats, unless the driver's overload resolution finds integers
-    divisor,    ///< `a / b`, `a % b` and their assignments, of whole numbers
-    shift,      ///< `a << b`, `a >> b` and their assignments
-    index,      ///< `a[i]` of an array, a vector or a matrix
-    fetch,      ///< texelFetch
+    function, ///< a call of a float function
+    quotient, ///< `a / b`, `a /= b` of floats, unless the driver's overload resolution finds integers
+    divisor,  ///< `a / b`, `a % b` and their assignments, of whole numbers
+    negative, ///< the same: `a` may be negative, where `%` is undefined and the rounding of `/` is not stated
+    whole,    ///< `mod(a, b)` and `a / b` under floor and similar, of floats, which jump at whole quotients
+    shift,    ///< `a << b`, `a >> b` and their assignments
+    index,    ///< `a[i]` of an array, a vector or a matrix
+    fetch,    ///< texelFetch
     conversion, ///< one argument of `int(x)`, `uvec2(x, y)`
     comparison, ///< `a < b` and similar: no domain, but it decides a branch
 };
@@ -49,6 +52,32 @@ inline constexpr std::string_view k_quotient = "quotient";
 /// Returns "pow" for a call of pow and k_quotient for a / b and a /= b. Returns an empty text, or a name that
 /// has no domain, for anything else. The domains of functions are in shader/builtin_functions.hpp.
 std::string_view domain_name(const ParsedText& text, NodeId id);
+
+// Finds calls with edges in the wrong order, and look-ups whose coordinates jump.
+
+/// A call of clamp or smoothstep whose low edge is above its high one by the numbers of the text, or, of
+/// smoothstep, equal to it. Both are undefined in GLSL.
+struct WrongEdges {
+    NodeId call = k_no_node;
+    bool equal = false;
+};
+/// Returns such calls in functions reachable from `main`, in the order of the text.
+std::vector<WrongEdges> find_wrong_edges(const ParsedText& text, const TreeFacts& facts);
+
+/// A look-up that chooses its mipmap by the difference to neighbouring pixels, where that difference is that
+/// of a jump: the coordinates have the whole or the fractional part of something, or an angle.
+struct JumpingLookUp {
+    NodeId call = k_no_node;
+    std::string jump;   ///< the name of the function that jumps
+    std::string smooth; ///< the coordinates without the jumps: they have the same derivatives elsewhere
+    std::string
+        other_angle; ///< the same with the jump of an angle at another place; empty: there is no angle
+};
+/// Returns such look-ups in functions reachable from `main`. Leaves out those whose coordinates cannot be
+/// written without the jumps, and those in which a whole and a fractional part may add up to a smooth value.
+std::vector<JumpingLookUp>
+find_jumping_look_ups(const ParsedText& text, const TreeFacts& facts,
+                      const std::function<bool(std::string_view sampler)>& has_mipmaps);
 
 // Finds derivatives, explicit or by a texture look-up that chooses its mipmap, at places that neighbouring
 // pixels may not reach. They are undefined there, because a derivative is a difference to a neighbour.

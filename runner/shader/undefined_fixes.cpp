@@ -46,6 +46,49 @@ std::optional<Cure> base_level(const ParsedText& text, const TreeFacts& facts, c
     return cure;
 }
 
+std::optional<Cure> smooth_look_up(const ParsedText& text, const TreeFacts& facts,
+                                   const JumpingLookUp& fault) {
+    const auto call = look_up_by_neighbours(text, facts, fault.call);
+    if (!call)
+        return std::nullopt;
+    const auto derivative = [&](std::string_view function) {
+        const std::string one = fmt::format("{}({})", function, fault.smooth);
+        if (fault.other_angle.empty())
+            return one;
+        const std::string other = fmt::format("{}({})", function, fault.other_angle);
+        return fmt::format("(dot({0}, {0}) < dot({1}, {1}) ? {0} : {1})", one, other);
+    };
+    return Cure{{in_place_of(text, {call->first, call->first}, "textureGrad"),
+                 wrapped(text, {call->last, call->last},
+                         fmt::format(", {}, {}", derivative("dFdx"), derivative("dFdy")), "")},
+                fmt::format("takes the mipmap's level without the jump of {}", fault.jump)};
+}
+
+std::optional<Cure> ordered_edges(const ParsedText& text, const TreeFacts& facts, const WrongEdges& fault) {
+    const SyntaxTree& tree = text.tree();
+    const auto tokens = [&](size_t child) {
+        return written_for(text, tree.child(fault.call, child), fault.call);
+    };
+    const auto call = written_for(text, fault.call, fault.call);
+    const auto low = tokens(1), high = tokens(2);
+    if (!call || !low || !high)
+        return std::nullopt;
+    if (called_name(text, fault.call) == "clamp") // its limits are the arguments 2 and 3
+        return Cure{{in_place_of(text, {call->first, call->first}, "min(max"), wrapped(text, *high, "", ")")},
+                    "takes the low limit first, then the high one, as this device does"};
+    if (fault.equal) {
+        auto guards = domain_guards(text, facts, fault.call);
+        return guards.empty() ? std::nullopt : std::optional(std::move(guards.front()));
+    }
+    const auto low_words = said_again(text, facts, tree.child(fault.call, 1), *low),
+               high_words = said_again(text, facts, tree.child(fault.call, 2), *high);
+    if (!low_words || !high_words)
+        return std::nullopt;
+    return Cure{{wrapped(text, *call, "(1.0 - ", ")"), in_place_of(text, *low, *high_words),
+                 in_place_of(text, *high, *low_words)},
+                "the same curve with its edges in order"};
+}
+
 namespace {
 
 /// Returns the statement of the function's body that holds the node; k_no_node: none does.
@@ -315,6 +358,89 @@ private:
 
 std::vector<Cure> domain_guards(const ParsedText& text, const TreeFacts& facts, NodeId operation) {
     return Proposer(text, facts, operation).run();
+}
+
+std::optional<Cure> unsigned_dividend(const ParsedText& text, const TreeFacts& facts, NodeId operation) {
+    const SyntaxTree& tree = text.tree();
+    if (tree[operation].kind != NodeKind::binary)
+        return std::nullopt;
+    const NodeId left = tree.child(operation, 0);
+    const auto dividend = written_for(text, left, operation), all = written_for(text, operation, operation);
+    const auto words = dividend ? said_again(text, facts, left, *dividend) : std::nullopt;
+    if (!words || !all)
+        return std::nullopt;
+    const std::string once = tree[left].kind == NodeKind::parenthesis ? *words : "(" + *words + ")";
+    return Cure{
+        {wrapped(text, *all, fmt::format("(sign{} * (", once), "))"), wrapped(text, *dividend, "abs(", ")")},
+        "divides the magnitude, then gives it the sign: rounded towards 0, as on this device"};
+}
+
+namespace {
+
+/// Returns whether the text shows that a float is always a whole number.
+bool is_whole(const ParsedText& text, const TreeFacts& facts, const SingleValues& single, NodeId id,
+              int depth = 0) {
+    const SyntaxTree& tree = text.tree();
+    const auto part = [&](size_t index) {
+        return is_whole(text, facts, single, tree.child(id, index), depth + 1);
+    };
+    if (depth > 16)
+        return false;
+    switch (tree[id].kind) {
+    case NodeKind::parenthesis:
+    case NodeKind::prefix:
+    case NodeKind::member: return part(0);
+    case NodeKind::literal: {
+        double value = 0.5;
+        const std::string_view digits = text.word_of(id);
+        return std::from_chars(digits.data(), digits.data() + digits.size(), value).ec == std::errc{} &&
+               value == std::floor(value);
+    }
+    case NodeKind::name: {
+        const NodeId value = single.of(id);
+        return value != k_no_node && is_whole(text, facts, single, value, depth + 1);
+    }
+    case NodeKind::binary: {
+        const std::string_view op = text.word_of(id);
+        return (op == "+" || op == "-" || op == "*") && part(0) && part(1);
+    }
+    case NodeKind::call: {
+        const std::string_view name = called_name(text, id);
+        if (facts.function(name))
+            return false;
+        if (name == "floor" || name == "ceil" || name == "round" || name == "trunc")
+            return true;
+        if (class_of_type(name) != TypeClass::floating)
+            return false;
+        for (size_t i = 1; i < tree.child_count(id); ++i)
+            if (!facts.surely_whole[tree.child(id, i)] && !part(i))
+                return false;
+        return true;
+    }
+    default: return false;
+    }
+}
+
+} // namespace
+
+std::optional<Cure> between_whole_quotients(const ParsedText& text, const TreeFacts& facts,
+                                            NodeId operation) {
+    const SyntaxTree& tree = text.tree();
+    const bool mod = tree[operation].kind == NodeKind::call;
+    const size_t first = mod ? 1 : 0;
+    const SingleValues single(text, facts);
+    if (!is_whole(text, facts, single, tree.child(operation, first)) ||
+        !is_whole(text, facts, single, tree.child(operation, first + 1)))
+        return std::nullopt;
+    const auto dividend = written_for(text, tree.child(operation, first), operation),
+               all = written_for(text, operation, operation);
+    if (!dividend || !all)
+        return std::nullopt;
+    Cure cure{{wrapped(text, *dividend, "(", " + 0.5)")},
+              "adds a half before the division, so that no quotient is a whole number"};
+    if (mod)
+        cure.wraps.push_back(wrapped(text, *all, "(", " - 0.5)"));
+    return cure;
 }
 
 } // namespace tidemark::glsl

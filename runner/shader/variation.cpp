@@ -363,14 +363,33 @@ Variation vary_precision(const ParsedText& text, const TreeFacts&) {
 // Varies sums as other compilers write them: a product added with one rounding, and terms added from the
 // other end.
 
-Variation vary_contraction(const ParsedText& text, const TreeFacts& facts) {
+namespace {
+
+/// `functions`: those to vary; null: all of the text.
+Variation contracted(const ParsedText& text, const TreeFacts& facts, const std::set<std::string>* functions) {
     const std::string prefix = fresh_prefix(text);
     const std::string prelude = "#extension GL_ARB_gpu_shader_fp64 : enable\n"
                                 "#extension GL_ARB_gpu_shader5 : enable\n" +
                                 spell(contraction_prelude(text), prefix);
+    const auto varied = [&](NodeId id) {
+        const NodeId function = functions ? text.tree().around(id, NodeKind::function) : k_no_node;
+        return !functions ||
+               (function != k_no_node && functions->contains(std::string(text.word_of(function))));
+    };
     return vary(text, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
-        return Contraction(text, facts, prefix, edits).contract(id);
+        return varied(id) && Contraction(text, facts, prefix, edits).contract(id);
     });
+}
+
+} // namespace
+
+Variation vary_contraction(const ParsedText& text, const TreeFacts& facts) {
+    return contracted(text, facts, nullptr);
+}
+
+Variation vary_contraction_in(const ParsedText& text, const TreeFacts& facts,
+                              const std::set<std::string>& functions) {
+    return contracted(text, facts, &functions);
 }
 
 Variation vary_order(const ParsedText& text, const TreeFacts& facts) {

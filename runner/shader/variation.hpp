@@ -7,6 +7,7 @@
 #include "shader/tree_facts.hpp"
 
 #include <cstddef>
+#include <set>
 #include <string>
 
 namespace tidemark::glsl {
@@ -43,6 +44,9 @@ Variation vary_rounding(const ParsedText& text, const TreeFacts& facts);
 /// `dot` is a chain of such sums. GPUs do this with one instruction. Needs doubles, which GLSL ES lacks.
 /// Products stored in variables, and products of matrices, are unchanged.
 Variation vary_contraction(const ParsedText& text, const TreeFacts& facts);
+/// Does the same in the functions of these names only.
+Variation vary_contraction_in(const ParsedText& text, const TreeFacts& facts,
+                              const std::set<std::string>& functions);
 
 /// Adds sums of three and more terms, `a + b + c`, from the other end. It has no modes.
 Variation vary_order(const ParsedText& text, const TreeFacts& facts);

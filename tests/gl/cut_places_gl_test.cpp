@@ -29,7 +29,7 @@ std::vector<glsl::Cut> levels_of(const scene::Scene& scene) {
 
 /// RMSE of each, by level.
 std::vector<double> errors_of(const scene::Scene& scene) {
-    auto bench = CutBench::create(scene, k_extent, default_views());
+    auto bench = CutBench::create(scene, k_extent, default_views(), 1);
     EXPECT_TRUE(bench) << bench.error().message;
     std::vector<double> errors;
     for (const glsl::Cut& cut : levels_of(scene)) {
@@ -90,7 +90,7 @@ TEST(CutPlaces, what_is_computed_once_a_pixel_shows_the_same) {
         return cut.change.reason.find("once per pixel") == std::string::npos;
     });
     ASSERT_EQ(found->cuts.size(), 1U);
-    auto bench = CutBench::create(scene, k_extent, default_views());
+    auto bench = CutBench::create(scene, k_extent, default_views(), 1);
     ASSERT_TRUE(bench);
     const auto trial = bench->try_cuts(std::span(&found->cuts[0].change, 1), bench->own(), k_any_error);
     ASSERT_TRUE(trial) << "the driver refuses it";
