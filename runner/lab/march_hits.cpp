@@ -79,9 +79,11 @@ void judge(ProvedRay& ray, const ir::MarchSlice& slice, const ir::MarchingLoop& 
     else if (found.verdict == Verdict::none)
         return;
     else if (!march.hit) {
-        ray.outcome = Outcome::misses;
+        // A march may run out at the surface, and its text then takes that place for the hit.
         const bool at_limit = march.far && (!loop.turns || march.turns.size() < *loop.turns);
         ray.went_past = at_limit || last > found.where.high + tolerance(last);
+        if (ray.went_past || last < found.where.low - tolerance(last))
+            ray.outcome = Outcome::misses;
     } else if (const double ended = passed_by(slice, loop, march);
                ended > found.where.high + tolerance(ended)) {
         ray.outcome = Outcome::steps_over;

@@ -122,6 +122,11 @@ Result<RunningOut> most_running_out(ProbeBench& bench, const std::vector<FrameSt
     return most;
 }
 
+double most_allowed(const ProbeBench& bench, double promised, const std::string& name) {
+    const bool stated = bench.has_main_hit() || bench.promises().stated.contains(name);
+    return stated ? promised : std::max(promised, k_most_wrong_percent);
+}
+
 std::string allowed(double promised) {
     return fmt::format("; allowed: {:g} % (change it in NAME.check.json)", promised);
 }
@@ -134,7 +139,8 @@ Answer running_out_answer(ProbeBench& bench, RunningOut most, std::string_view v
                               most.percent, views, most.evaluations)};
     if (most.of_none > 0)
         answer.sentence += fmt::format("; {:.3g} % run out where more steps change nothing", most.of_none);
-    const double promised = bench.promises().most_exhausted_percent;
+    const double promised =
+        most_allowed(bench, bench.promises().most_exhausted_percent, "most_exhausted_percent");
     if (!(most.percent > promised))
         return answer;
     if (const std::string_view reported = bench.running_out_reported();

@@ -62,7 +62,10 @@ Result<RunningOut> most_running_out(ProbeBench& bench, const std::vector<FrameSt
 /// Returns the answer of `probe`; `views` describes them. If another probe has reported such rays, the answer
 /// refers to it.
 Answer running_out_answer(ProbeBench& bench, RunningOut most, std::string_view views, std::string_view probe);
-/// Returns the end of a sentence about a promised limit, in percent.
+/// Returns the percentage of the rays that may be faulty: the promised one, but of a march whose author has
+/// stated none under that name at least k_most_wrong_percent.
+double most_allowed(const ProbeBench& bench, double promised, const std::string& name);
+/// Returns the end of a sentence about a limit, in percent.
 std::string allowed(double promised);
 
 /// Returns the answer for a scene without known hits. `warns`: a mainHit that does not compile is a warning,

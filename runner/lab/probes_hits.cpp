@@ -93,7 +93,8 @@ Result<Answer> ask_overstep(ProbeBench& bench) {
         return without_hits(bench, true);
     if (!bench.sees_below())
         return without_sign();
-    const double promised = bench.promises().most_overstep_percent;
+    const double promised =
+        most_allowed(bench, bench.promises().most_overstep_percent, "most_overstep_percent");
     FlaggedRays most = TRY(most_flagged(bench, glsl::k_hit_negative));
     Answer answer{
         Verdict::pass,
@@ -125,6 +126,8 @@ Result<Answer> ask_lipschitz_sweep(ProbeBench& bench) {
     if (!bench.sees_below())
         return without_sign();
     Answer answer{Verdict::not_applicable, "the scene has no knob, and defines no height or scale", {}, {}};
+    const double allowed_percent =
+        most_allowed(bench, bench.promises().most_overstep_percent, "most_overstep_percent");
     double most = -1;
     for (const FrameState& state : stiff_states(bench)) {
         const std::string set = state.knobs.empty() ? to_string(state.definitions) : to_string(state.knobs);
@@ -138,7 +141,7 @@ Result<Answer> ask_lipschitz_sweep(ProbeBench& bench) {
         if (overstepping <= most)
             continue;
         most = overstepping;
-        answer = {overstepping > bench.promises().most_overstep_percent ? Verdict::warn : Verdict::pass,
+        answer = {overstepping > allowed_percent ? Verdict::warn : Verdict::pass,
                   fmt::format("at worst, with {}: {:.3g} % of the rays take a sample below the surface, "
                               "{:.3g} % run out of steps",
                               set, overstepping, flagged(hits, glsl::k_hit_exhausted)),

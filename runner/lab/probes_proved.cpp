@@ -22,10 +22,11 @@ Answer none(std::string why) {
     return {Verdict::not_applicable, std::move(why)};
 }
 
-std::string advice_of(const RayCounts& counts) {
+std::string advice_of(const ir::MarchingLoop& loop, const RayCounts& counts) {
     if (!counts.steps_too_long())
         return "take more steps";
-    return counts.step_over > 0 && counts.within_last_step == counts.step_over && counts.went_past == 0
+    return !loop.stops_before && counts.step_over > 0 && counts.within_last_step == counts.step_over &&
+                   counts.went_past == 0
                ? "look for the hit between the last two samples, or take shorter steps"
                : "take shorter steps";
 }
@@ -44,8 +45,10 @@ std::string sentence_of(const PassFunction& function, const RayCounts& counts) {
                             "device would choose a mipmap",
                             percent(counts.at_base_level, counts.rays));
     if (counts.wrong_loop) {
-        const SourceLocation where = function.locate(function.loops()[*counts.wrong_loop].line);
-        text += fmt::format("; {}:{} tests the distance: {}", where.file, where.line, advice_of(counts));
+        const ir::MarchingLoop& loop = function.loops()[*counts.wrong_loop];
+        const SourceLocation where = function.locate(loop.line);
+        text +=
+            fmt::format("; {}:{} tests the distance: {}", where.file, where.line, advice_of(loop, counts));
     }
     return text;
 }
@@ -82,6 +85,8 @@ constexpr uint64_t k_most_of_areas = 20'000;
 /// Factor that allows for rounding in steps as long as the distance.
 constexpr double k_rounded = 1.001;
 
+/// Percent of the rays on which the march's usual step may pass the hit.
+constexpr double k_most_too_long_percent = 5;
 /// A bound of the slope says something if it is at most this multiple of the slopes found at samples.
 constexpr double k_close_bound = 2;
 
@@ -103,9 +108,10 @@ void add_own(ir::MarchSlice& slice, const ir::March& march, OwnSteps& own) {
 }
 
 struct Scales {
-    size_t hits = 0;            ///< rays whose first hit is proved
-    std::vector<double> safe{}; ///< of those rays with a known scale
-    OwnSteps own{};             ///< of the march on those rays
+    size_t hits = 0;              ///< rays whose first hit is proved
+    std::vector<double> safe{};   ///< of those rays with a known scale
+    std::vector<double> unsafe{}; ///< of all of those rays
+    OwnSteps own{};               ///< of the march on those rays
     /// The scale with the smallest unsafe multiple, and the ray it was found on.
     ir::StepScale least{.safe = ir::k_longest_scale};
     size_t loop = 0;
@@ -114,6 +120,13 @@ struct Scales {
     AreaSlopes areas{}; ///< over the whole picture, between the rays too
 
     bool bounded() const { return 2 * safe.size() > hits; } ///< known on most of the rays
+    /// Returns the percentage of the rays on which the march's usual step passes the hit.
+    double too_long_percent() const {
+        const double usual = median(own.scales);
+        const auto too_long =
+            std::ranges::count_if(unsafe, [&](double each) { return usual > each * k_rounded; });
+        return percent(size_t(too_long), hits);
+    }
 };
 
 /// Adds one ray; returns the evaluations it took.
@@ -130,6 +143,7 @@ uint64_t add(MarchRay& ray, glm::ivec2 pixel, const FrameState& state, Scales& s
     const ir::StepScale scale = ir::step_scale(slice, hit.where, k_most_for_scale);
     if (scale.safe > 0)
         scales.safe.push_back(scale.safe);
+    scales.unsafe.push_back(scale.unsafe);
     if (scale.unsafe < scales.least.unsafe) {
         scales.least = scale;
         scales.loop = ray.loop;
@@ -195,8 +209,10 @@ std::string scales_sentence(const Scales& scales) {
         text += fmt::format(
             "; a step of {:.2g} x from {:.4g} passes the hit, on the ray of pixel {},{} at {:g} s",
             scales.least.unsafe, scales.least.at, scales.pixel.x, scales.pixel.y, scales.state.seconds());
-    return text + fmt::format("; the march's own steps are {:.2g} x in the median", own) +
-           areas_sentence(scales.areas, scales.own.fall);
+    text += fmt::format("; the march's own steps are {:.2g} x in the median", own);
+    if (const double too_long = scales.too_long_percent(); too_long > 0)
+        text += fmt::format(", too long on {:.3g} % of the rays", too_long);
+    return text + areas_sentence(scales.areas, scales.own.fall);
 }
 
 } // namespace
@@ -215,8 +231,9 @@ Result<Answer> ask_step_scale(ProbeBench& bench) {
     if (scales.hits == 0)
         return none("no ray is proved to reach a zero of the distance");
     // A march that waits for a sample below the surface returns from it, so its steps are never too long.
+    // On single rays the field may jump.
     const bool too_long =
-        loops[scales.loop].stops_before && median(scales.own.scales) > scales.least.unsafe * k_rounded;
+        loops[scales.loop].stops_before && scales.too_long_percent() > k_most_too_long_percent;
     if (!scales.bounded() && !too_long)
         return none(scales_sentence(scales));
     Answer answer{too_long ? Verdict::warn : Verdict::pass, scales_sentence(scales)};
@@ -452,7 +469,8 @@ Result<Answer> ask_turns(ProbeBench& bench) {
             Verdict::not_applicable,
             fmt::format("{} rays contradict their proof: please report this scene", counts.contradicted)};
     Answer answer{Verdict::pass, turns_sentence(*pass->function, counts)};
-    if (share(double(counts.out), double(counts.rays)) > bench.promises().most_exhausted_percent) {
+    if (share(double(counts.out), double(counts.rays)) >
+        most_allowed(bench, bench.promises().most_exhausted_percent, "most_exhausted_percent")) {
         answer.verdict = Verdict::warn;
         answer.where = counts.state;
         bench.report_running_out("turns");

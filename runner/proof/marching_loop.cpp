@@ -58,6 +58,34 @@ public:
         return fixed;
     }
 
+    /// Returns whether the loop adds up reals and a comparison of reals ends it, as a march does whose form
+    /// `find` does not know.
+    bool may_march() const {
+        return !steps_.empty() && std::ranges::any_of(tests_, [this](const ExitTest& test) {
+            return at(test.smaller).type == Scalar::real && !count_of(test);
+        });
+    }
+    /// Returns whether a loop, or what it reads from before it, depends on the reals that this one carries.
+    bool leads_to(const MarchingLoop& later) const {
+        if (blocks_[later.header])
+            return false;
+        std::vector<bool> depends(inside_.size());
+        for (const Step& each : steps_)
+            depends[each.phi] = true;
+        for (Value value = function_.blocks[header_].first; value < depends.size(); ++value)
+            depends[value] = depends[value] || std::ranges::any_of(operands(value), [&](Value operand) {
+                                 return depends[operand];
+                             });
+        return std::ranges::any_of(later.carried,
+                                   [&](const Carried& each) {
+                                       return depends[each.phi] ||
+                                              std::ranges::any_of(each.factors, [&](Value factor) {
+                                                  return depends[factor];
+                                              });
+                                   }) ||
+               depends[later.distance];
+    }
+
 private:
     const Instruction& at(Value value) const { return function_.instructions[value]; }
     std::span<const Value> operands(Value value) const { return function_.operands_of(at(value)); }
@@ -494,17 +522,21 @@ private:
 
     /// Finds the counters that end the loop, and the iteration count of the one that does so first.
     void count_turns(MarchingLoop& loop) const {
-        const Block& here = function_.blocks[header_];
         for (const ExitTest& test : tests_)
-            for (Value phi = here.first; phi < here.last && at(phi).op == Op::phi; ++phi) {
-                const Value first = operands(phi)[1 - back_slot_];
-                const auto number = turns_of(
-                    function_, {phi, first, next_of(phi), test.smaller, test.larger, test.at_equality});
-                if (!number)
-                    continue;
+            if (const auto number = count_of(test)) {
                 loop.turns = std::min(loop.turns.value_or(*number), *number);
                 loop.counter_tests.push_back({test.comparison, test.at_nan});
             }
+    }
+
+    /// Returns after how many iterations the test ends the loop, if it counts to a constant.
+    std::optional<uint32_t> count_of(const ExitTest& test) const {
+        const Block& here = function_.blocks[header_];
+        for (Value phi = here.first; phi < here.last && at(phi).op == Op::phi; ++phi)
+            if (const auto number = turns_of(function_, {phi, operands(phi)[1 - back_slot_], next_of(phi),
+                                                         test.smaller, test.larger, test.at_equality}))
+                return number;
+        return std::nullopt;
     }
 
     /// Returns whether the value may be above zero, as far as that is known without a run.
@@ -539,13 +571,22 @@ private:
 
 } // namespace
 
+/// A loop whose rays start where a march of an unknown form ends, such as one for shadows, is left out: it is
+/// not the view's.
 std::vector<MarchingLoop> find_marching_loops(const Function& function) {
     const std::vector<uint32_t> block_of = blocks_of_instructions(function);
     std::vector<MarchingLoop> loops;
-    for (uint32_t block = 0; block < function.blocks.size(); ++block)
-        if (function.blocks[block].loop)
-            if (auto loop = LoopReader(function, block_of, block).find())
+    std::vector<LoopReader> unknown;
+    for (uint32_t block = 0; block < function.blocks.size(); ++block) {
+        if (!function.blocks[block].loop)
+            continue;
+        LoopReader reader(function, block_of, block);
+        if (auto loop = reader.find()) {
+            if (std::ranges::none_of(unknown, [&](const LoopReader& each) { return each.leads_to(*loop); }))
                 loops.push_back(*std::move(loop));
+        } else if (reader.may_march())
+            unknown.push_back(std::move(reader));
+    }
     return loops;
 }
 

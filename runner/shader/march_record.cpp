@@ -349,7 +349,7 @@ void $measure(float p) {
 bool $tested(bool on, bool holds, float p, bool measured, bool stops_before) {
     if (on && measured) {
         $measure(p);
-        if (stops_before && $limit > 0.0 && $sign < -1e-5 * max(1.0, abs(p)))
+        if (stops_before && $limit > 0.0 && $sign < -max($limit, 1e-5 * max(1.0, abs(p))))
             $flags |= $turns == 1 ? 4 : 2;
     }
     return holds;

@@ -19,9 +19,9 @@ class CheckMotion(ProgramTest):
         self.assertEqual(entry["verdict"], "pass", entry["found"])
         self.assertRegex(entry["found"], r"^float and double agree up to 1e6 s; at 100000 s iTime itself moves in steps of 0.0078 s, "
                                          r"which change 1 % of the pixels by 0\.\d+ or more$")
-        entry = self.entry("c = vec4(fract(30.0 * iTime));", "horizon")
+        entry = self.entry("c = vec4(0.5 + 0.5 * sin(300.0 * iTime));", "horizon")
         self.assertEqual(entry["verdict"], "fail", entry["found"])
-        self.assertRegex(entry["found"], r"^at the same iTime, float and double agree up to 1000 s; at 10000 s 1 % of the pixels")
+        self.assertRegex(entry["found"], r"^at the same iTime, float and double agree up to 10+ s; at 10+ s 1 % of the pixels")
         entry = self.entry("c = vec4(uv, 0.5 + 0.5 * sin(0.01 * iTime), 1.0);", "horizon")
         self.assertEqual((entry["verdict"], entry["found"]), ("pass", "float and double agree up to 1e6 s"))
 
@@ -44,7 +44,7 @@ class CheckMotion(ProgramTest):
         for line, verdict in (
                 ("c = vec4(fract(sin(floor(24.0 * iTime) * 12.9) * 43758.5));", "pass"),               # 24 pictures a second
                 ("c = vec4(mod(iTime, 2.0) < 1.0 ? 1.0 : 0.0, uv, 1.0);", "pass"),                     # a lamp that blinks
-                ("c = vec4(mod(iTime, 8.0) < 4.0 ? 1.0 : 0.0, 0.1 * fract(uv + iTime / 40.0), 1.0);", "warn"),  # and all else moves
+                ("c = vec4(mod(iTime, 8.0) < 4.0 ? 1.0 : 0.0, 0.1 * fract(uv + iTime / 37.0), 1.0);", "warn"),  # and all else moves
                 ("c = vec4(0.5 + 0.009 * step(7.0, iTime) + 0.0001 * iTime);", "pass"),                 # 40 dB
                 ("c = vec4(0.5 + 0.5 * sin(9.0 * uv.x + 3.0 * mod(iTime, 7.0)));", "fail")):           # the clock restarts
             entry = self.entry(line, "time_discontinuity")

@@ -129,6 +129,26 @@ TEST(MarchingLoop, may_measure_a_field_of_sums_and_absolute_values_alone) {
                     .empty());
 }
 
+/// The first march tests a distance of the iteration before against a function of the place, with steps of
+/// two kinds; its form is not known. Rays to a light start where it ends.
+TEST(MarchingLoop, is_not_that_of_a_shadow_after_a_march_of_another_form) {
+    const std::string shadow =
+        "for (int i = 0; i < 18; ++i) { float h = map(ro + rd * s); s += 0.3 * h; if (h < "
+        "1e-3 || s > 2.0) break; } t = s;";
+    const std::string unknown = "vec3 p = ro; float before = 1.0; for (int i = 0; i < 60; ++i) {\n"
+                                "if (before < 0.01 * log(t) || t > 9.0) break; before = map(p);\n"
+                                "t += before * (before > 0.1 ? 0.2 : 0.1); p = ro + rd * t; }\n";
+    EXPECT_TRUE(loops_of(unknown).empty());
+    EXPECT_TRUE(loops_of(unknown + "ro = p; float s = 0.0; " + shadow).empty());
+    // A sum of octaves, counted in floats, is no march; what follows it may be the view's.
+    EXPECT_EQ(
+        loops_of("float high = 0.0; for (float k = 0.0; k < 5.0; ++k) high += sin(k * iTime); ro.y = high;\n"
+                 "float s = 0.0; " +
+                 shadow)
+            .size(),
+        1u);
+}
+
 TEST(MarchingLoop, tells_whether_the_code_after_it_goes_back) {
     const auto goes_back = [](const std::string& step, const std::string& after) {
         const auto loops =
