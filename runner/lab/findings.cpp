@@ -211,7 +211,7 @@ private:
         const auto lines = lines_of(*pass.function, pass.function->loops()[*counts.wrong_loop]);
         std::vector<glsl::Cure> cures;
         if (const PassText* const text = text_of(pass)) {
-            if (counts.step_over > 0)
+            if (counts.step_over + counts.went_past > 0)
                 cures = glsl::shorter_steps(*text->text, place_of_march(lines),
                                             TRY(safe_step(bench_, pass)).value_or(1));
             std::ranges::move(glsl::more_turns(*text->text, place_of_march(lines)),
@@ -229,7 +229,7 @@ private:
     Result<void> add_exhausted(const MarchingPass& pass) {
         if (!bench_.has_hits())
             return {};
-        const double percent = TRY(most_flagged(bench_, glsl::k_hit_exhausted)).percent;
+        const double percent = TRY(most_running_out(bench_, usual_views())).percent;
         if (percent <= bench_.promises().most_exhausted_percent)
             return {};
         const auto lines = lines_of(*pass.function, pass.function->loops().front());

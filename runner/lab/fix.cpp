@@ -136,7 +136,7 @@ Result<double> count_sine_hashes(ProbeBench& bench) {
 Result<double> exhausted_percent(ProbeBench& bench) {
     if (!bench.has_hits())
         return fail(ErrorCode::check_failed, bench.hit_problem());
-    return TRY(most_flagged(bench, glsl::k_hit_exhausted)).percent;
+    return TRY(most_running_out(bench, usual_views())).percent;
 }
 
 bool is_of_rays(Kind kind) {

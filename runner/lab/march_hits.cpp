@@ -21,8 +21,6 @@ namespace {
 using Outcome = ProvedRay::Outcome;
 using Verdict = ir::FirstHit::Verdict;
 
-/// A march stops within its threshold, and a step of one hundredth is invisible.
-constexpr double k_same_end = 0.01;
 /// Mipmap levels differ by more than the usual width of a hit; this is still narrower than is visible.
 constexpr double k_width_at_any_level = 1e-3;
 /// Each evaluation covers all levels; most decided rays need about fifty.
@@ -43,18 +41,21 @@ bool contradicts(const ir::MarchSlice& slice, const ir::March& march, const ir::
     });
 }
 
-/// Returns how far the march has passed along the ray. A march that looks for a change of sign ends below the
-/// surface and steps back after the loop, so the sample before that counts. Single steps may have been taken
-/// back.
-double passed_by(const ir::MarchSlice& slice, const ir::March& march) {
+/// Returns the furthest place before the last one. Single steps may have been taken back.
+double place_before_last(const ir::MarchSlice& slice, const ir::March& march) {
     const double last = slice.parameter(march.turns.back());
-    if (!march.hit || march.turns.back().threshold != 0)
-        return last;
     double before = slice.start();
     for (const ir::Turn& turn : march.turns)
         if (const double at = slice.parameter(turn); at < last)
             before = std::max(before, at);
     return before;
+}
+
+/// Returns how far the march has passed along the ray. A march that looks for a change of sign ends below the
+/// surface and goes back after the loop, so the sample before that counts.
+double passed_by(const ir::MarchSlice& slice, const ir::MarchingLoop& loop, const ir::March& march) {
+    const bool to_sign = march.turns.back().threshold == 0 || (!loop.stops_before && loop.goes_back);
+    return march.hit && to_sign ? place_before_last(slice, march) : slice.parameter(march.turns.back());
 }
 
 /// Returns whether the interval is as narrow as the tolerance by which a march is judged.
@@ -64,16 +65,31 @@ bool is_narrow(const ir::FirstHit& found) {
             found.where.width() <= k_same_end * std::max(1.0, std::abs(found.where.high)));
 }
 
-Outcome outcome_of(const ir::MarchSlice& slice, const ir::March& march, const ir::FirstHit& found) {
+double tolerance(double place) {
+    return k_same_end * std::max(1.0, std::abs(place));
+}
+
+/// Sets the ray's outcome.
+void judge(ProvedRay& ray, const ir::MarchSlice& slice, const ir::MarchingLoop& loop, const ir::March& march,
+           const ir::FirstHit& found) {
+    const double last = slice.parameter(march.turns.back());
+    ray.outcome = Outcome::agrees;
     if (found.verdict == Verdict::undecided)
-        return Outcome::undecided;
-    if (found.verdict == Verdict::none)
-        return Outcome::agrees;
-    if (!march.hit)
-        return Outcome::misses;
-    const double ended = passed_by(slice, march);
-    const double tolerance = k_same_end * std::max(1.0, std::abs(ended));
-    return ended > found.where.high + tolerance ? Outcome::steps_over : Outcome::agrees;
+        ray.outcome = Outcome::undecided;
+    else if (found.verdict == Verdict::none)
+        return;
+    else if (!march.hit) {
+        // A march may run out at the surface, and its text then takes that place for the hit.
+        const bool at_limit = march.far && (!loop.turns || march.turns.size() < *loop.turns);
+        ray.went_past = at_limit || last > found.where.high + tolerance(last);
+        if (ray.went_past || last < found.where.low - tolerance(last))
+            ray.outcome = Outcome::misses;
+    } else if (const double ended = passed_by(slice, loop, march);
+               ended > found.where.high + tolerance(ended)) {
+        ray.outcome = Outcome::steps_over;
+        const double before = place_before_last(slice, march);
+        ray.within_last_step = before <= found.where.high + tolerance(before);
+    }
 }
 
 } // namespace
@@ -123,7 +139,7 @@ std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::Float
     ray.at_base_level = chooses_level && !is_narrow(found);
     if (!chooses_level || ray.at_base_level)
         found = ir::first_hit(slice, end, most_evaluations);
-    ray.outcome = outcome_of(slice, march, found);
+    judge(ray, slice, loop_slice.loop, march, found);
     ray.reason = found.reason;
     ray.evaluations = found.evaluations;
     ray.contradicted = contradicts(slice, march, found, loop_slice.loop.threshold_by_turn);
@@ -134,6 +150,8 @@ void RayCounts::add(const ProvedRay& ray) {
     ++rays;
     contradicted += ray.contradicted;
     at_base_level += ray.at_base_level;
+    within_last_step += ray.within_last_step;
+    went_past += ray.went_past;
     if (ray.evaluations > 0)
         evaluations.push_back(double(ray.evaluations));
     if (!wrong_loop && (ray.outcome == Outcome::steps_over || ray.outcome == Outcome::misses))

@@ -33,12 +33,20 @@ struct ProvedRay {
     ir::FirstHit::Reason reason = ir::FirstHit::Reason::none;
     uint64_t evaluations = 0;
     size_t turns = 0; ///< of the march
+    /// Of a march that steps over its first hit: the place before its last one is not past the hit.
+    bool within_last_step = false;
+    /// Of a march that misses: it went past the first hit.
+    bool went_past = false;
     /// The march was below the threshold at a place where that is excluded: a bug in Tidemark.
     bool contradicted = false;
     /// The march reads a texture whose mipmap level the device chooses, and the proof does not hold for all
     /// levels: it is for the base level only, if it succeeds.
     bool at_base_level = false;
 };
+
+/// A march is right if it ends at most this share of the distance past its first hit, or this much where the
+/// distance is less than 1.
+inline constexpr double k_same_end = 0.01;
 
 /// Proves the ray of a pixel, with the pass's textures; nullopt if it enters no marching loop.
 std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::FloatEvaluator& pixel,
@@ -48,6 +56,8 @@ struct RayCounts {
     size_t rays = 0; ///< number of rays that entered a loop
     size_t agree = 0, step_over = 0, miss = 0, undecided = 0, unknown_texture = 0, unfaithful = 0,
            contradicted = 0;
+    size_t within_last_step = 0; ///< of those that step over
+    size_t went_past = 0;        ///< of those that miss
     size_t at_base_level = 0;
     std::array<size_t, ir::k_reasons> reasons{}; ///< of the undecided rays
     std::optional<size_t> wrong_loop{};          ///< of the first ray that steps over or misses
@@ -55,6 +65,8 @@ struct RayCounts {
 
     void add(const ProvedRay& ray);
     size_t decided() const { return agree + step_over + miss; }
+    /// Returns whether most of the wrong rays are those of steps that are too long, not too few.
+    bool steps_too_long() const { return step_over + went_past >= miss - went_past; }
     /// Returns the most common reason of the undecided rays.
     ir::FirstHit::Reason commonest() const;
 };

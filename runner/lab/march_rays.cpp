@@ -129,6 +129,12 @@ std::optional<ir::Interval> changing(const DrawnPass& drawn, const std::string& 
     return std::nullopt;
 }
 
+namespace {
+
+constexpr float k_shown_step = 1.0f / 255;
+
+} // namespace
+
 MarchRays::MarchRays(DrawnPass drawn)
     : drawn_(std::move(drawn)), ranges_(drawn_), textures_(textures_of(drawn_.renderer, drawn_.pass)),
       floats_(drawn_.function.frame<float>(drawn_.renderer, drawn_.pass, drawn_.inputs)),
@@ -164,6 +170,51 @@ std::optional<MarchRay> MarchRays::enter(glm::ivec2 pixel, ir::Surface surface) 
     ray.slice.emplace(slice, in_double, ir::textures_in<ir::Interval>(textures_), surface);
     ray.in_float.emplace(slice, entered);
     return ray;
+}
+
+/// Returns the colours that a finished run has written.
+std::vector<float> MarchRays::outputs(const ir::FloatEvaluator& evaluator) const {
+    std::vector<float> values;
+    for (const ir::Variable& variable : drawn_.function.function().variables)
+        if (variable.kind == ir::Variable::Kind::output)
+            for (uint32_t i = 0; i < std::min(3u, variable.size); ++i) // without alpha
+                values.push_back(evaluator.memory()[variable.first + i].real);
+    return values;
+}
+
+LongerMarch MarchRays::march_longer(glm::ivec2 pixel, uint32_t most) const {
+    const ir::Function& function = drawn_.function.function();
+    ir::FloatEvaluator as_is = floats_;
+    drawn_.function.move_to(as_is, pixel);
+    const auto index = ir::enter_first(as_is, drawn_.function.loops());
+    if (!index)
+        return {};
+    const ir::MarchingLoop& loop = drawn_.function.loops()[*index];
+    ir::FloatEvaluator longer = as_is, marching = as_is;
+    LongerMarch result{.hits = ir::follow_on(marching, function, loop, most).hit};
+    if (!result.hits)
+        return result;
+    ir::Decisions none(0);
+    as_is.run(
+        none, [](uint32_t) { return true; }, loop.header, loop.entry);
+    for (const ir::MarchingLoop::CounterTest& test : loop.counter_tests)
+        longer.pin(test.comparison, {0, test.continues});
+    const std::vector<bool> inside = ir::natural_loop(function, loop.header);
+    uint32_t iterations = 0;
+    longer.run(
+        none,
+        [&](uint32_t block) {
+            iterations += block == loop.latch;
+            if (!inside[block] || iterations == most)
+                longer.unpin();
+            return true;
+        },
+        loop.header, loop.entry);
+    const std::vector<float> before = outputs(as_is), after = outputs(longer);
+    for (size_t i = 0; i < before.size(); ++i)
+        result.shows |= !(std::abs(std::clamp(after[i], 0.0f, 1.0f) - std::clamp(before[i], 0.0f, 1.0f)) <=
+                          k_shown_step);
+    return result;
 }
 
 ir::Textures<ir::Interval> MarchRays::textures_of_all(bool at_any_time) const {
@@ -299,7 +350,8 @@ AreaSlopes area_slopes(const MarchRays& rays, uint64_t most_evaluations) {
     for (int y = 0; y < k_areas.height; ++y)
         for (int x = 0; x < k_areas.width; ++x) {
             const auto one = rays.enter({int((x + 0.5) * width), int((y + 0.5) * height)}, ir::Surface::zero);
-            if (!one || !one->slice || one->march.turns.empty() || left == 0)
+            if (!one || !one->slice || one->march.turns.empty() || left == 0 ||
+                !(one->march.hit || one->march.far))
                 continue;
             auto all = rays.enter_all({{x * width, (x + 1) * width}, {y * height, (y + 1) * height}},
                                       ir::SliceOf::distance, ir::Surface::zero);

@@ -67,6 +67,12 @@ struct MarchRay {
     std::optional<ir::FloatField> in_float;
 };
 
+/// A pixel whose march may take more iterations than its counters allow.
+struct LongerMarch {
+    bool hits = false;  ///< the march ends in a hit then
+    bool shows = false; ///< a colour changes by more than 1/255, or is not known
+};
+
 class MarchRays {
 public:
     explicit MarchRays(DrawnPass drawn);
@@ -79,12 +85,17 @@ public:
     /// Returns nullopt if the ray enters no loop. Thread-safe.
     std::optional<MarchRay> enter(glm::ivec2 pixel, ir::Surface surface) const;
 
+    /// Runs a pixel with up to `most` iterations of the marching loop that it enters, whatever the loop's
+    /// counters say. Thread-safe.
+    LongerMarch march_longer(glm::ivec2 pixel, uint32_t most) const;
+
     /// Returns nullopt if the rays may enter different loops, or if their loop has no slice of that kind.
     /// Thread-safe.
     std::optional<AreaRays> enter_all(const RayArea& area, ir::SliceOf what, ir::Surface surface) const;
 
 private:
     ir::Textures<ir::Interval> textures_of_all(bool at_any_time) const;
+    std::vector<float> outputs(const ir::FloatEvaluator& evaluator) const;
 
     DrawnPass drawn_;
     std::vector<std::optional<ir::LoopSlice>> steps_; ///< by loop
@@ -123,7 +134,8 @@ struct AreaSlopes {
     void add(const AreaSlopes& more);
 };
 
-/// Computes the bounds for the frame's time. They are empty if no ray enters a march.
+/// Computes the bounds for the frame's time, up to the hits of rays in the middle of each piece, or to the
+/// loop's limit. They are empty if no ray enters a march.
 AreaSlopes area_slopes(const MarchRays& rays, uint64_t most_evaluations);
 
 } // namespace tidemark::lab

@@ -34,6 +34,21 @@ std::vector<scene::Knob> turned(std::vector<scene::Knob> knobs, const std::vecto
 
 } // namespace
 
+namespace {
+
+/// Returns the frames of the state's run. In double they have the iTime that floats have.
+render::FrameStates states_of(const FrameState& state, glsl::Precision precision) {
+    if (precision == glsl::Precision::single)
+        return [state](int frame) { return state.at_frame(frame); };
+    return [state](int frame) {
+        FrameState at = state.at_frame(frame);
+        at.time = double(float(at.seconds()));
+        return at;
+    };
+}
+
+} // namespace
+
 /// Definitions and channels need a renderer of their own; knobs are only set.
 Result<render::Renderer*> ProbeBench::renderer(const FrameState& state, Entry entry,
                                                glsl::Precision precision) {
@@ -79,7 +94,7 @@ Result<const render::Renderer*> ProbeBench::drawn(const FrameState& state) {
 Result<render::Renderer*> ProbeBench::drawn(const FrameState& state, Entry entry, glsl::Precision precision) {
     auto made = renderer(state, entry, precision);
     if (made)
-        render::FrameStepper(**made, state, first_frame_of(state)).draw(state.frame);
+        render::FrameStepper(**made, states_of(state, precision), first_frame_of(state)).draw(state.frame);
     return made;
 }
 
@@ -157,8 +172,13 @@ const std::string& ProbeBench::recording_problem() {
 }
 
 bool ProbeBench::has_hits() {
-    if (!std::exchange(hits_tried_, true))
-        hit_problem_ = has_main_hit_ ? try_main_hit() : recording_problem();
+    if (std::exchange(hits_tried_, true))
+        return hit_problem_.empty();
+    if (has_main_hit_)
+        main_hit_problem_ = try_main_hit();
+    has_main_hit_ = has_main_hit_ && main_hit_problem_.empty();
+    if (!has_main_hit_)
+        hit_problem_ = recording_problem();
     return hit_problem_.empty();
 }
 
@@ -188,7 +208,7 @@ Result<image::Image> ProbeBench::recorded(const FrameState& state, glsl::RecordA
                                           glsl::Precision precision) {
     auto made = TRY(renderer(state, Entry::recording, precision));
     lab::ask(*made, answer);
-    render::FrameStepper(*made, state, first_frame_of(state)).draw(state.frame);
+    render::FrameStepper(*made, states_of(state, precision), first_frame_of(state)).draw(state.frame);
     return (made)->read_back();
 }
 

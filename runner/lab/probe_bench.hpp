@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tidemark::lab {
@@ -72,7 +73,8 @@ public:
     const scene::Scene& scene() const { return scene_; }
     const Promises& promises() const { return promises_; }
 
-    /// Returns Image, RGB floats. A scene with feedback is drawn from frame first_frame_of(state) on.
+    /// Returns Image, RGB floats. A scene with feedback is drawn from frame first_frame_of(state) on. In
+    /// double, a scene gets the iTime that floats have.
     Result<image::Image> picture(const FrameState& state,
                                  glsl::Precision precision = glsl::Precision::single);
     /// Returns all drawn passes except cubemaps. Alpha is what a buffer's text wrote; Image's is always 1.
@@ -92,7 +94,10 @@ public:
     bool has_hits();
     /// Returns why has_hits() was false.
     const std::string& hit_problem() const { return hit_problem_; }
+    /// Returns whether hits come from a mainHit, once has_hits() was called.
     bool has_main_hit() const { return has_main_hit_; }
+    /// Returns why the text's mainHit does not compile; empty if it has none, or has_hits() was not called.
+    const std::string& main_hit_problem() const { return main_hit_problem_; }
     Result<Hits> hits(const FrameState& state, glsl::Precision precision = glsl::Precision::single);
 
     /// Returns why the march of mainImage cannot be recorded; empty if it can.
@@ -102,6 +107,8 @@ public:
                                   glsl::Precision precision = glsl::Precision::single);
     /// Returns whether hits flag samples below the surface.
     bool sees_below() const { return has_main_hit_ || sees_below_; }
+    /// Returns the same for the recorded march, once recording_problem() was called.
+    bool recording_sees_below() const { return sees_below_; }
 
     /// Returns whether the recorded march advances by a constant.
     bool fixed_steps() const { return fixed_steps_; }
@@ -126,6 +133,10 @@ public:
 
     /// The stored result of a search; empty before the first (lab/exploration.hpp).
     std::optional<Explored>& explored() { return explored_; }
+    /// Returns the probe that has reported rays that run out of steps; empty if none has.
+    std::string_view running_out_reported() const { return running_out_reported_; }
+    void report_running_out(std::string_view probe) { running_out_reported_ = probe; }
+
     /// Returns "; see bounds: …" if the search found an access out of bounds, after which any bytes may be
     /// drawn; else an empty text.
     std::string see_bounds() const;
@@ -141,7 +152,8 @@ private:
 
     scene::Scene scene_;
     bool hits_tried_ = false;
-    std::string hit_problem_;
+    std::string hit_problem_, main_hit_problem_;
+    std::string_view running_out_reported_;
     std::optional<std::string> recording_problem_;
     bool sees_below_ = false;
     bool fixed_steps_ = false;

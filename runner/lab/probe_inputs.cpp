@@ -126,6 +126,10 @@ FrameState state_at(double seconds, Extent extent) {
     return render::at_time(seconds, {.extent = extent});
 }
 
+FrameState state_at_float(double seconds, FrameState state) {
+    return render::at_time(double(float(seconds + 1.0 / 3)), std::move(state));
+}
+
 FrameState plain_state(Extent extent) {
     return state_at(1, extent);
 }

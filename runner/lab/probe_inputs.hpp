@@ -53,6 +53,9 @@ inline constexpr Extent k_probe_extent{64, 36};
 
 /// Returns the unchanged scene at a time.
 FrameState state_at(double seconds, Extent extent = k_probe_extent);
+/// Returns the state a third of a second later than `seconds`, at the nearest time that binary32 has. Scenes
+/// in float and in double get the same iTime then, so what differs is what the scene's own floats lose.
+FrameState state_at_float(double seconds, FrameState state = {.extent = k_probe_extent});
 /// Returns the state at 1 s.
 FrameState plain_state(Extent extent = k_probe_extent);
 /// Returns the moments of the probe `times`, from 0 to 16777216 s and one before 0, for any probe that

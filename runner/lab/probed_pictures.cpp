@@ -219,8 +219,20 @@ Result<Answer> look_anew(ProbeBench& bench, const std::vector<FrameState>& state
 
 namespace {
 
-/// A third of a second.
-constexpr double k_third = 1.0 / 3;
+/// A step of iTime that is shorter than this does not disturb motion.
+constexpr double k_short_step = 1.0 / 240; // s
+
+/// Compares two pictures in double that are a step of iTime apart, if the step is long.
+Result<std::optional<TimeStep>> visible_step(ProbeBench& bench, double seconds, const FrameState& state,
+                                             const image::Image& picture) {
+    const auto time = float(state.seconds());
+    const double next = double(std::nextafter(time, INFINITY)), step = next - double(time);
+    if (step < k_short_step)
+        return std::optional<TimeStep>{};
+    const auto later = TRY(bench.picture(render::at_time(next, state), glsl::Precision::promoted));
+    const double difference = p99_difference(picture, later);
+    return difference > k_visible_gap ? std::optional(TimeStep{seconds, step, difference}) : std::nullopt;
+}
 
 } // namespace
 
@@ -249,9 +261,11 @@ std::string where_digits_are_lost(ProbeBench& bench, const Mismatch& mismatch) {
 Result<Horizon> find_horizon(ProbeBench& bench) {
     Horizon horizon;
     for (const double time : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
-        const FrameState state = state_at(time + k_third);
+        const FrameState state = state_at_float(time);
         auto as_is = TRY(bench.picture(state));
         const auto truth = TRY(bench.picture(state, glsl::Precision::promoted));
+        if (!horizon.time_step)
+            horizon.time_step = TRY(visible_step(bench, time, state, truth));
         const double difference = p99_difference(as_is, truth);
         if (difference > k_visible_gap) {
             horizon.mismatch = Mismatch{time, state, std::move(as_is), difference};

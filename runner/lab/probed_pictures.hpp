@@ -53,21 +53,29 @@ Result<Answer> look(ProbeBench& bench, const std::vector<FrameState>& states);
 /// Like `look`, but not applicable if the scene is not finite in the plain state already.
 Result<Answer> look_anew(ProbeBench& bench, const std::vector<FrameState>& states);
 
-// Finds the time up to which a scene looks the same in float and in double.
+// Finds the time up to which a scene looks the same in float and in double, at the iTime that floats have.
 
 /// A moment at which more than 1 % of the pixels differ visibly between float and double.
 struct Mismatch {
-    /// A power of ten. The picture is a third of a second later: a typical moment, which binary32 cannot
-    /// represent.
-    double seconds = 0;
+    double seconds = 0; ///< A power of ten. The picture is the one of state_at_float.
     FrameState state;
     image::Image floats;
     double difference = 0; ///< 99th percentile over the pixels
 };
 
+/// A moment at which the steps of iTime in binary32 are long enough to be seen.
+struct TimeStep {
+    double seconds = 0;    ///< a power of ten
+    double step = 0;       ///< seconds
+    double difference = 0; ///< between two pictures a step apart, in double: 99th percentile over the pixels
+};
+
 struct Horizon {
     double good = 0; ///< seconds: the last power of ten up to which both look the same; 0: they differ at 1 s
     std::optional<Mismatch> mismatch{};
+    /// The first one before the mismatch or, without one, up to 10^6 s, that changes 1 % of the pixels
+    /// visibly.
+    std::optional<TimeStep> time_step{};
 };
 
 /// Returns where the pixel that differs most loses its digits, by a trace of it, such as `a.glsl:4 loses 6.1

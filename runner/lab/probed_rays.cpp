@@ -4,9 +4,12 @@
 #include "base/measurement.hpp"
 #include "lab/pass_function.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace tidemark::lab {
 namespace {
@@ -71,11 +74,92 @@ image::Image ray_map(const Hits& hits, Extent extent, const std::function<bool(s
     return map;
 }
 
+namespace {
+
+constexpr float k_step_of_8_bits = 1.0f / 255;
+
+/// Returns for each pixel whether a colour, limited to what a screen shows, changes visibly.
+std::vector<bool> changes(const image::Image& before, const image::Image& after) {
+    std::vector<bool> changed(before.extent.pixels());
+    for (size_t i = 0; i < changed.size(); ++i)
+        for (size_t k = 4 * i; k < 4 * i + 3; ++k) {
+            const float one = std::clamp(before.f32()[k], 0.0f, 1.0f),
+                        other = std::clamp(after.f32()[k], 0.0f, 1.0f);
+            changed[i] = changed[i] || !(std::abs(one - other) <= k_step_of_8_bits);
+        }
+    return changed;
+}
+
+Result<RunningOut> running_out(ProbeBench& bench, const FrameState& view) {
+    const Hits hits = TRY(bench.hits(view));
+    const double all = flagged(hits, glsl::k_hit_exhausted);
+    std::vector<bool> before_hit(hits.size());
+    for (size_t i = 0; i < hits.size(); ++i)
+        before_hit[i] = (hits.flags[i] & glsl::k_hit_exhausted) != 0;
+    if (all > 0 && bench.recording_problem().empty()) {
+        const Hits longer = hits_of(TRY(bench.recorded(view, glsl::RecordAnswer::hit_with_more)));
+        const std::vector<bool> shows =
+            changes(TRY(bench.recorded(view, glsl::RecordAnswer::picture)),
+                    TRY(bench.recorded(view, glsl::RecordAnswer::picture_with_more)));
+        for (size_t i = 0; i < hits.size(); ++i) {
+            const bool past = bench.sees_below() && (hits.flags[i] & glsl::k_hit_negative) != 0;
+            before_hit[i] = before_hit[i] && (past || (longer.distance[i] >= 0 && shows[i]));
+        }
+    }
+    const auto counts = [&](size_t i) { return before_hit[i]; };
+    const double share = percent(hits, counts);
+    return RunningOut{share, all - share, mean_evaluations(hits), view, ray_map(hits, view.extent, counts)};
+}
+
+} // namespace
+
+Result<RunningOut> most_running_out(ProbeBench& bench, const std::vector<FrameState>& views) {
+    RunningOut most{.percent = -1};
+    for (const FrameState& view : views)
+        if (RunningOut found = TRY(running_out(bench, view));
+            std::pair(found.percent, found.of_none) > std::pair(most.percent, most.of_none))
+            most = std::move(found);
+    return most;
+}
+
+double most_allowed(const ProbeBench& bench, double promised, const std::string& name) {
+    const bool stated = bench.has_main_hit() || bench.promises().stated.contains(name);
+    return stated ? promised : std::max(promised, k_most_wrong_percent);
+}
+
+std::string allowed(double promised) {
+    return fmt::format("; allowed: {:g} % (change it in NAME.check.json)", promised);
+}
+
+Answer running_out_answer(ProbeBench& bench, RunningOut most, std::string_view views,
+                          std::string_view probe) {
+    Answer answer{Verdict::pass,
+                  fmt::format("{:.3g} % of the rays run out of steps before they hit, in the worst of {}, "
+                              "{:.3g} samples a ray",
+                              most.percent, views, most.evaluations)};
+    if (most.of_none > 0)
+        answer.sentence += fmt::format("; {:.3g} % run out where more steps change nothing", most.of_none);
+    const double promised =
+        most_allowed(bench, bench.promises().most_exhausted_percent, "most_exhausted_percent");
+    if (!(most.percent > promised))
+        return answer;
+    if (const std::string_view reported = bench.running_out_reported();
+        !reported.empty() && (reported != "turns" || !bench.has_main_hit()))
+        return {Verdict::not_applicable, fmt::format("{}: see {}", answer.sentence, reported)};
+    bench.report_running_out(probe);
+    answer.verdict = bench.has_main_hit() ? Verdict::fail : Verdict::warn;
+    answer.sentence += allowed(promised);
+    answer.where = most.where;
+    answer.picture = std::move(most.map);
+    return answer;
+}
+
 Answer without_hits(const ProbeBench& bench, bool warns) {
-    if (!bench.has_main_hit())
-        return {Verdict::not_applicable, "no mainHit, and the march is not recorded: " + bench.hit_problem()};
-    const std::string broken = "mainHit does not compile: " + bench.hit_problem();
-    return warns ? Answer{.verdict = Verdict::warn, .sentence = broken, .effect = broken}
+    const std::string why = "the march is not recorded: " + bench.hit_problem();
+    if (bench.main_hit_problem().empty())
+        return {Verdict::not_applicable, "no mainHit, and " + why};
+    const std::string broken = "mainHit does not compile: " + bench.main_hit_problem();
+    return warns ? Answer{.verdict = Verdict::warn, .sentence = broken + "; " + why, .effect = broken}
                  : Answer{Verdict::not_applicable, "mainHit does not compile: see overstep"};
 }
 

@@ -11,6 +11,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace tidemark::lab {
@@ -44,6 +46,27 @@ struct FlaggedRays {
 };
 /// Requires known hits (ProbeBench::has_hits).
 Result<FlaggedRays> most_flagged(ProbeBench& bench, glsl::HitFlag flag);
+
+/// The rays of a view that run out of steps before a hit: with four times as many the recorded march hits,
+/// and the pixel changes by more than 1/255, or the march was past the surface.
+struct RunningOut {
+    double percent = 0;
+    double of_none = 0; ///< percent that run out where more steps change nothing
+    double evaluations = 0;
+    FrameState where{};
+    image::Image map{}; ///< of those before a hit
+};
+/// Returns the view with the most such rays. If the march is not recorded, all rays that run out count.
+/// Requires known hits.
+Result<RunningOut> most_running_out(ProbeBench& bench, const std::vector<FrameState>& views);
+/// Returns the answer of `probe`; `views` describes them. If another probe has reported such rays, the answer
+/// refers to it.
+Answer running_out_answer(ProbeBench& bench, RunningOut most, std::string_view views, std::string_view probe);
+/// Returns the percentage of the rays that may be faulty: the promised one, but of a march whose author has
+/// stated none under that name at least k_most_wrong_percent.
+double most_allowed(const ProbeBench& bench, double promised, const std::string& name);
+/// Returns the end of a sentence about a limit, in percent.
+std::string allowed(double promised);
 
 /// Returns the answer for a scene without known hits. `warns`: a mainHit that does not compile is a warning,
 /// not a reference to the probe that reports it.

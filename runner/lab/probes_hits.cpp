@@ -14,23 +14,6 @@
 namespace tidemark::lab {
 namespace {
 
-/// Compares the largest percentage of flagged rays over the usual views with the promised limit.
-Result<Answer> most_flagged(ProbeBench& bench, glsl::HitFlag flag, double promised, const char* what) {
-    if (!bench.has_hits())
-        return without_hits(bench);
-    FlaggedRays most = TRY(most_flagged(bench, flag));
-    Answer answer{most.percent > promised ? fault(bench) : Verdict::pass,
-                  fmt::format("{:.3g} % of the rays {} in the worst of four views", most.percent, what),
-                  {},
-                  {}};
-    if (answer.verdict != Verdict::pass) {
-        answer.sentence += fmt::format("; allowed: {:g} % (change it in NAME.check.json)", promised);
-        answer.where = most.where;
-        answer.picture = std::move(most.map);
-    }
-    return answer;
-}
-
 constexpr double k_multiples[] = {0, 0.5, 2, 4};
 
 /// Returns both ends of the knob's range and multiples of its value inside; only multiples if it has no
@@ -110,13 +93,31 @@ Result<Answer> ask_overstep(ProbeBench& bench) {
         return without_hits(bench, true);
     if (!bench.sees_below())
         return without_sign();
-    return most_flagged(bench, glsl::k_hit_negative, bench.promises().most_overstep_percent,
-                        "take a sample below the surface");
+    const double promised =
+        most_allowed(bench, bench.promises().most_overstep_percent, "most_overstep_percent");
+    FlaggedRays most = TRY(most_flagged(bench, glsl::k_hit_negative));
+    Answer answer{
+        Verdict::pass,
+        fmt::format("{:.3g} % of the rays take a sample below the surface in the worst of four views",
+                    most.percent)};
+    if (most.percent > promised) {
+        answer.verdict = fault(bench);
+        answer.sentence += allowed(promised);
+        answer.where = most.where;
+        answer.picture = std::move(most.map);
+    }
+    if (!bench.main_hit_problem().empty()) {
+        answer.verdict = std::max(answer.verdict, Verdict::warn);
+        answer.sentence +=
+            "; mainHit does not compile, so the march of mainImage is recorded: " + bench.main_hit_problem();
+    }
+    return answer;
 }
 
 Result<Answer> ask_budget(ProbeBench& bench) {
-    return most_flagged(bench, glsl::k_hit_exhausted, bench.promises().most_exhausted_percent,
-                        "run out of steps");
+    if (!bench.has_hits())
+        return without_hits(bench);
+    return running_out_answer(bench, TRY(most_running_out(bench, usual_views())), "four views", "budget");
 }
 
 Result<Answer> ask_lipschitz_sweep(ProbeBench& bench) {
@@ -125,6 +126,8 @@ Result<Answer> ask_lipschitz_sweep(ProbeBench& bench) {
     if (!bench.sees_below())
         return without_sign();
     Answer answer{Verdict::not_applicable, "the scene has no knob, and defines no height or scale", {}, {}};
+    const double allowed_percent =
+        most_allowed(bench, bench.promises().most_overstep_percent, "most_overstep_percent");
     double most = -1;
     for (const FrameState& state : stiff_states(bench)) {
         const std::string set = state.knobs.empty() ? to_string(state.definitions) : to_string(state.knobs);
@@ -140,9 +143,9 @@ Result<Answer> ask_lipschitz_sweep(ProbeBench& bench) {
         if (overstepping <= most)
             continue;
         most = overstepping;
-        answer = {overstepping <= bench.promises().most_overstep_percent ? Verdict::pass
-                  : bench.has_main_hit()                                 ? Verdict::warn
-                                                                         : Verdict::note,
+        answer = {overstepping <= allowed_percent ? Verdict::pass
+                  : bench.has_main_hit()           ? Verdict::warn
+                                                   : Verdict::note,
                   fmt::format("at worst, with {}: {:.3g} % of the rays take a sample below the surface, "
                               "{:.3g} % run out of steps",
                               set, overstepping, flagged(hits, glsl::k_hit_exhausted)),
@@ -170,9 +173,7 @@ Result<Answer> ask_rays(ProbeBench& bench) {
         return without_hits(bench);
     double good = 0;
     for (const double time : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
-        const FrameState state =
-            // A typical moment, which binary32 cannot represent.
-            render::at_time(time + 1.0 / 3, typical_view());
+        const FrameState state = state_at_float(time, typical_view());
         const auto both = float_mismatch(bench, state);
         if (!both)
             return without_doubles(both.error());
@@ -414,10 +415,11 @@ Drift drift_of(const Hits& written, const Hits& recorded, Extent extent) {
 } // namespace
 
 Result<Answer> ask_drift(ProbeBench& bench) {
+    bench.has_hits(); // tries the mainHit
     if (!bench.has_main_hit())
-        return Answer{Verdict::not_applicable, "the scene has no mainHit to compare"};
-    if (!bench.has_hits())
-        return without_hits(bench);
+        return Answer{Verdict::not_applicable, bench.main_hit_problem().empty()
+                                                   ? "the scene has no mainHit to compare"
+                                                   : "mainHit does not compile: see overstep"};
     if (const std::string& problem = bench.recording_problem(); !problem.empty())
         return Answer{Verdict::not_applicable, "the march is not recorded: " + problem};
     if (bench.fixed_steps())

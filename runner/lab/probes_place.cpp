@@ -214,10 +214,8 @@ Result<Answer> along_the_rays(ProbeBench& bench) {
 Result<Answer> ask_places(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);
-    if (!away(bench, 0) && !bench.has_main_hit())
-        return along_the_rays(bench);
     if (!away(bench, 0))
-        return Answer{Verdict::not_applicable, "no iCamera and no knob camera_position to move"};
+        return along_the_rays(bench);
     for (const FrameState& state : below_and_above(bench)) {
         const auto wrong = TRY(broken(bench, state));
         if (!wrong.empty())
@@ -235,34 +233,14 @@ Result<Answer> ask_grazing(ProbeBench& bench) {
         views.push_back(*level);
     if (views.empty())
         return Answer{Verdict::not_applicable, "the horizon is not visible at any mouse height"};
-    Answer answer;
-    double most = -1;
-    for (const FrameState& view : views) {
-        const auto hits = TRY(bench.hits(view));
-        if (const double lost = unanswered(hits); lost > 0)
+    for (const FrameState& view : views)
+        if (const double lost = unanswered(TRY(bench.hits(view))); lost > 0)
             return Answer{fault(bench),
                           fmt::format("{:.3g} % of the distances are NaN, infinite or negative", lost), view};
-        const double out = flagged(hits, glsl::k_hit_exhausted);
-        if (out <= most)
-            continue;
-        most = out;
-        answer.sentence = fmt::format("{:.3g} % of the rays run out of steps in the worst of {} views of the "
-                                      "horizon{}, {:.3g} samples a ray",
-                                      out, views.size(), views.size() > turned ? ", one with level rays" : "",
-                                      mean_evaluations(hits));
-        answer.where = view;
-        answer.picture = ray_map(hits, view.extent,
-                                 [&](size_t i) { return (hits.flags[i] & glsl::k_hit_exhausted) != 0; });
-    }
-    if (most > bench.promises().most_exhausted_percent) {
-        answer.verdict = fault(bench);
-        answer.sentence += fmt::format("; allowed: {:g} % (change it in NAME.check.json)",
-                                       bench.promises().most_exhausted_percent);
-    } else {
-        answer.where.reset();
-        answer.picture.reset();
-    }
-    return answer;
+    return running_out_answer(bench, TRY(most_running_out(bench, views)),
+                              fmt::format("{} views of the horizon{}", views.size(),
+                                          views.size() > turned ? ", one with level rays" : ""),
+                              "grazing");
 }
 
 namespace {

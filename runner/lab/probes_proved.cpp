@@ -22,12 +22,21 @@ Answer none(std::string why) {
     return {Verdict::not_applicable, std::move(why)};
 }
 
+std::string advice_of(const ir::MarchingLoop& loop, const RayCounts& counts) {
+    if (!counts.steps_too_long())
+        return "take more steps";
+    return !loop.stops_before && counts.step_over > 0 && counts.within_last_step == counts.step_over &&
+                   counts.went_past == 0
+               ? "look for the hit between the last two samples, or take shorter steps"
+               : "take shorter steps";
+}
+
 std::string sentence_of(const PassFunction& function, const RayCounts& counts) {
-    std::string text =
-        fmt::format("{2:.3g} % of the decided rays step over their first hit, {3:.3g} % miss it; {0:.3g} % "
-                    "of {1} rays are decided",
-                    percent(counts.decided(), counts.rays), counts.rays,
-                    percent(counts.step_over, counts.decided()), percent(counts.miss, counts.decided()));
+    std::string text = fmt::format(
+        "{2:.3g} % of the decided rays step over their first hit by more than {4:g} % of the "
+        "distance, {3:.3g} % miss it; {0:.3g} % of {1} rays are decided",
+        percent(counts.decided(), counts.rays), counts.rays, percent(counts.step_over, counts.decided()),
+        percent(counts.miss, counts.decided()), 100 * k_same_end);
     if (counts.undecided > 0)
         text += fmt::format(", {:.3g} % are not ({})", percent(counts.undecided, counts.rays),
                             to_string(counts.commonest()));
@@ -36,9 +45,10 @@ std::string sentence_of(const PassFunction& function, const RayCounts& counts) {
                             "device would choose a mipmap",
                             percent(counts.at_base_level, counts.rays));
     if (counts.wrong_loop) {
-        const SourceLocation where = function.locate(function.loops()[*counts.wrong_loop].line);
-        text += fmt::format("; {}:{} tests the distance: {} there", where.file, where.line,
-                            counts.step_over > 0 ? "take shorter steps" : "take more steps");
+        const ir::MarchingLoop& loop = function.loops()[*counts.wrong_loop];
+        const SourceLocation where = function.locate(loop.line);
+        text +=
+            fmt::format("; {}:{} tests the distance: {}", where.file, where.line, advice_of(loop, counts));
     }
     return text;
 }
@@ -83,20 +93,33 @@ constexpr uint64_t k_most_of_areas = 20'000;
 /// Factor that allows for rounding in steps as long as the distance.
 constexpr double k_rounded = 1.001;
 
-/// Appends the march's steps as multiples of the distances for which they were taken.
-void add_own(ir::MarchSlice& slice, const ir::March& march, std::vector<double>& scales) {
+/// Percent of the rays on which the march's usual step may pass the hit.
+constexpr double k_most_too_long_percent = 5;
+/// A bound of the slope says something if it is at most this multiple of the slopes found at samples.
+constexpr double k_close_bound = 2;
+
+struct OwnSteps {
+    std::vector<double> scales{}; ///< steps as multiples of the distances for which they were taken
+    double fall = 0;              ///< the largest at a sample by which the distance falls per unit
+};
+
+void add_own(ir::MarchSlice& slice, const ir::March& march, OwnSteps& own) {
     for (size_t i = 0; i + 1 < march.turns.size(); ++i) {
         const double at = slice.parameter(march.turns[i]);
         const auto distance = slice.distance(ir::place_at(at), ir::Care::close);
-        if (distance && distance->low > 0)
-            scales.push_back((slice.parameter(march.turns[i + 1]) - at) * slice.unit() / distance->low);
+        if (!distance || !(distance->low > 0))
+            continue;
+        own.scales.push_back((slice.parameter(march.turns[i + 1]) - at) * slice.unit() / distance->low);
+        if (const auto tangent = slice.tangent(ir::place_at(at)))
+            own.fall = std::max(own.fall, -tangent->slope.high / slice.unit());
     }
 }
 
 struct Scales {
-    size_t hits = 0;            ///< rays whose first hit is proved
-    std::vector<double> safe{}; ///< of those rays with a known scale
-    std::vector<double> own{};  ///< of all steps on those rays
+    size_t hits = 0;              ///< rays whose first hit is proved
+    std::vector<double> safe{};   ///< of those rays with a known scale
+    std::vector<double> unsafe{}; ///< of all of those rays
+    OwnSteps own{};               ///< of the march on those rays
     /// The scale with the smallest unsafe multiple, and the ray it was found on.
     ir::StepScale least{.safe = ir::k_longest_scale};
     size_t loop = 0;
@@ -105,6 +128,13 @@ struct Scales {
     AreaSlopes areas{}; ///< over the whole picture, between the rays too
 
     bool bounded() const { return 2 * safe.size() > hits; } ///< known on most of the rays
+    /// Returns the percentage of the rays on which the march's usual step passes the hit.
+    double too_long_percent() const {
+        const double usual = median(own.scales);
+        const auto too_long =
+            std::ranges::count_if(unsafe, [&](double each) { return usual > each * k_rounded; });
+        return percent(size_t(too_long), hits);
+    }
 };
 
 /// Adds one ray; returns the evaluations it took.
@@ -121,6 +151,7 @@ uint64_t add(MarchRay& ray, glm::ivec2 pixel, const FrameState& state, Scales& s
     const ir::StepScale scale = ir::step_scale(slice, hit.where, k_most_for_scale);
     if (scale.safe > 0)
         scales.safe.push_back(scale.safe);
+    scales.unsafe.push_back(scale.unsafe);
     if (scale.unsafe < scales.least.unsafe) {
         scales.least = scale;
         scales.loop = ray.loop;
@@ -146,16 +177,24 @@ Result<Scales> scales_of(ProbeBench& bench, const MarchingPass& pass) {
     return scales;
 }
 
-/// Describes the slopes over all rays of a picture, not only the sampled ones.
-std::string areas_sentence(const AreaSlopes& areas) {
+/// Describes the slopes over all rays of a picture, not only the sampled ones. Leaves out bounds that are far
+/// above the slopes that were found.
+std::string areas_sentence(const AreaSlopes& areas, double found) {
     const double way = areas.way(), bounded = areas.bounded_way();
     if (!(way > 0))
         return {};
     std::string text = fmt::format(
         "; between the rays the slope is bounded on {:.3g} % of the way to the surface", 100 * bounded / way);
-    if (bounded > 0)
-        text += fmt::format(": the distance falls by at most {:.3g} per unit, by {:.3g} on 95 % of it",
-                            areas.falls_on(1), areas.falls_on(0.95));
+    const auto tells = [&](double falls) {
+        return bounded > 0 && falls > 0 && falls <= k_close_bound * found;
+    };
+    const double most = areas.falls_on(1), on_most = areas.falls_on(0.95);
+    if (tells(most))
+        text += fmt::format(": the distance falls by at most {:.3g} per unit", most);
+    else if (tells(on_most))
+        text += fmt::format(": on 95 % of it the distance falls by at most {:.3g} per unit", on_most);
+    else
+        return {};
     if (areas.may_jump > 0)
         text += fmt::format(", apart from possible jumps on {:.3g} %", 100 * areas.may_jump / way);
     if (areas.not_finite > 0)
@@ -165,6 +204,7 @@ std::string areas_sentence(const AreaSlopes& areas) {
 
 std::string scales_sentence(const Scales& scales) {
     const size_t unknown = scales.hits - scales.safe.size();
+    const double own = median(scales.own.scales);
     std::string text;
     if (scales.bounded())
         text = fmt::format(
@@ -173,12 +213,14 @@ std::string scales_sentence(const Scales& scales) {
     if (unknown > 0)
         text += fmt::format("{}on {} of {} rays the field cannot be bounded", text.empty() ? "" : "; ",
                             unknown, scales.hits);
-    if (scales.least.unsafe < ir::k_longest_scale)
+    if (own > scales.least.unsafe * k_rounded)
         text += fmt::format(
             "; a step of {:.2g} x from {:.4g} passes the hit, on the ray of pixel {},{} at {:g} s",
             scales.least.unsafe, scales.least.at, scales.pixel.x, scales.pixel.y, scales.state.seconds());
-    return text + fmt::format("; the march's own steps are {:.2g} x in the median", median(scales.own)) +
-           areas_sentence(scales.areas);
+    text += fmt::format("; the march's own steps are {:.2g} x in the median", own);
+    if (const double too_long = scales.too_long_percent(); too_long > 0)
+        text += fmt::format(", too long on {:.3g} % of the rays", too_long);
+    return text + areas_sentence(scales.areas, scales.own.fall);
 }
 
 } // namespace
@@ -202,8 +244,9 @@ Result<Answer> ask_step_scale(ProbeBench& bench) {
     if (scales.hits == 0)
         return none("no ray is proved to reach a zero of the distance");
     // A march that waits for a sample below the surface returns from it, so its steps are never too long.
+    // On single rays the field may jump.
     const bool too_long =
-        loops[scales.loop].stops_before && median(scales.own) > scales.least.unsafe * k_rounded;
+        loops[scales.loop].stops_before && scales.too_long_percent() > k_most_too_long_percent;
     if (!scales.bounded() && !too_long)
         return none(scales_sentence(scales));
     Answer answer{too_long ? Verdict::note : Verdict::pass, scales_sentence(scales)};
@@ -228,9 +271,21 @@ constexpr size_t k_every = 4;
 /// A march without a limit is ended by a wall; it is looked for up to this multiple of the way to the last
 /// iteration.
 constexpr double k_behind = 2;
+/// A ray that runs out is marched again with up to this many times the loop's iterations.
+constexpr uint32_t k_longer = 4;
+/// Most such iterations for all rays of a moment.
+constexpr uint64_t k_most_longer = 40'000;
+/// Below the surface by more than rounding.
+constexpr float k_surely_past = -1e-5f;
+/// Share of the steps of a march that go back if it moves to and fro. Over-relaxed marches go back less
+/// often.
+constexpr double k_to_and_fro = 0.25;
 
 struct TurnCounts {
-    size_t rays = 0, out = 0;
+    size_t rays = 0;
+    size_t out = 0;         ///< run out before a hit that shows
+    size_t out_of_none = 0; ///< run out, and more iterations find no hit or change no colour
+    size_t past = 0;        ///< of `out`: the march was past the surface, so its steps are too long
     size_t looked_at = 0, proved = 0, contradicted = 0; ///< of the rays to bound
     size_t unfollowed = 0; ///< their step is not one value that each iteration adds
     size_t needed = 0;     ///< most iterations of a march that does not run out
@@ -253,14 +308,14 @@ public:
 
     /// Follows a ray in float and counts it.
     void follow(glm::ivec2 pixel) {
-        const auto ray = enter(pixel);
+        const auto ray = longer_ < k_most_longer ? enter(pixel) : std::nullopt;
         if (!ray)
             return;
         const ir::MarchingLoop& loop = loop_of(*ray);
         ++counts_.rays;
         counts_.turns = std::max(counts_.turns, *loop.turns);
         if (runs_out(*ray, loop))
-            remember(pixel, loop);
+            add_out(pixel, *ray, loop);
         else
             counts_.needed = std::max(counts_.needed, ray->march.turns.size());
     }
@@ -313,7 +368,31 @@ private:
         return !march.hit && !beyond && march.turns.size() >= *loop.turns;
     }
 
-    void remember(glm::ivec2 pixel, const ir::MarchingLoop& loop) {
+    /// Returns whether the march took a sample below the surface, or moved to and fro around it.
+    static bool was_past(const MarchRay& ray, const ir::MarchingLoop& loop) {
+        if (loop.kind != ir::MarchingLoop::Kind::sphere_tracing)
+            return false;
+        size_t back = 0;
+        const auto& turns = ray.march.turns;
+        for (size_t i = 0; i < turns.size(); ++i) {
+            if (turns[i].distance() < k_surely_past)
+                return true;
+            back += ray.slice && i > 0 && ray.slice->parameter(turns[i]) < ray.slice->parameter(turns[i - 1]);
+        }
+        return double(back) > k_to_and_fro * double(turns.size());
+    }
+
+    /// Counts a ray that runs out, by whether more iterations hit something that shows.
+    void add_out(glm::ivec2 pixel, const MarchRay& ray, const ir::MarchingLoop& loop) {
+        const bool past = was_past(ray, loop);
+        const uint32_t most = k_longer * *loop.turns;
+        const LongerMarch longer = past ? LongerMarch{} : rays_.march_longer(pixel, most);
+        longer_ += past ? 0 : most;
+        if (!past && !(longer.hits && longer.shows)) {
+            ++counts_.out_of_none;
+            return;
+        }
+        counts_.past += past;
         if (counts_.out++ > 0)
             return;
         counts_.pixel = pixel;
@@ -348,19 +427,25 @@ private:
     TurnCounts& counts_;
     size_t number_ = 0;
     uint64_t used_ = 0;
+    uint64_t longer_ = 0; ///< iterations of longer marches
 };
 
 std::string turns_sentence(const PassFunction& function, const TurnCounts& counts) {
-    std::string text = fmt::format("{:.3g} % of {} rays run out of the loop's {} iterations",
+    std::string text = fmt::format("{:.3g} % of {} rays run out of the loop's {} iterations before they hit",
                                    share(double(counts.out), double(counts.rays)), counts.rays, counts.turns);
     if (counts.out > 0) {
         const SourceLocation where = function.locate(counts.line);
-        text += fmt::format(", as pixel {},{} at {:g} s: {}:{} tests the distance", counts.pixel.x,
-                            counts.pixel.y, counts.state.seconds(), where.file, where.line);
+        text += fmt::format(", as pixel {},{} at {:g} s: {}:{} tests the distance: take {} steps",
+                            counts.pixel.x, counts.pixel.y, counts.state.seconds(), where.file, where.line,
+                            2 * counts.past > counts.out ? "shorter" : "more");
     }
-    text +=
-        fmt::format("; the others need at most {0}; {2:.3g} % of {1} rays are proved not to run out",
-                    counts.needed, counts.looked_at, share(double(counts.proved), double(counts.looked_at)));
+    if (counts.out_of_none > 0)
+        text += fmt::format("; {:.3g} % run out where more iterations change nothing",
+                            share(double(counts.out_of_none), double(counts.rays)));
+    if (counts.needed > 0)
+        text += fmt::format("; the others need at most {}", counts.needed);
+    text += fmt::format("; {:.3g} % of {} rays are proved not to run out",
+                        share(double(counts.proved), double(counts.looked_at)), counts.looked_at);
     if (counts.unfollowed > 0)
         text += fmt::format(" ({:.3g} % could not be followed)",
                             share(double(counts.unfollowed), double(counts.looked_at)));
@@ -398,11 +483,12 @@ Result<Answer> ask_turns(ProbeBench& bench) {
             Verdict::not_applicable,
             fmt::format("{} rays contradict their proof: please report this scene", counts.contradicted)};
     Answer answer{Verdict::pass, turns_sentence(*pass->function, counts)};
-    if (share(double(counts.out), double(counts.rays)) > bench.promises().most_exhausted_percent) {
-        answer.verdict = Verdict::note;
-        answer.sentence += "; take more steps, or longer ones";
+    if (share(double(counts.out), double(counts.rays)) >
+        most_allowed(bench, bench.promises().most_exhausted_percent, "most_exhausted_percent")) {
+        answer.verdict = Verdict::warn;
         add_place(answer, pass->function->locate(counts.line));
         answer.where = counts.state;
+        bench.report_running_out("turns");
     }
     return answer;
 }

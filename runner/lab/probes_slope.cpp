@@ -247,7 +247,10 @@ Result<Answer> judged(ProbeBench& bench, const std::string& seen, const Steep& f
 /// Checks a recorded march by how much its distance falls per unit between two samples. The field has at
 /// least that slope somewhere between them.
 Result<Answer> ask_recorded_march(ProbeBench& bench) {
-    if (!bench.sees_below())
+    if (const std::string& problem = bench.recording_problem(); !problem.empty())
+        return Answer{Verdict::not_applicable,
+                      "the scene has no march_field, and its march is not recorded: " + problem};
+    if (!bench.recording_sees_below())
         return without_sign();
     Steep found;
     for (const FrameState& view : views_over_time()) {
@@ -269,10 +272,8 @@ Result<Answer> ask_recorded_march(ProbeBench& bench) {
 Result<Answer> ask_gradient(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);
-    if (!bench.has_main_hit())
+    if (!bench.has_main_hit() || !has_march_field(bench.scene()))
         return ask_recorded_march(bench);
-    if (!has_march_field(bench.scene()))
-        return Answer{Verdict::not_applicable, "the scene has no march_field to take slopes of"};
     const std::vector<FrameState> views = views_over_time();
     const auto furthest = TRY(furthest_of(bench, views));
     if (furthest == 0 || std::isinf(furthest))
@@ -410,8 +411,6 @@ Answer judged(const ProbeBench& bench, const SlopesOver& in_float, const SlopesO
 }
 
 Result<Answer> ask_march_field(ProbeBench& bench) {
-    if (!has_march_field(bench.scene()))
-        return Answer{Verdict::not_applicable, "the scene has no march_field to take differences of"};
     const FieldQuestion question{k_slope_hit, {{.name = "tidemark_step"}}};
     auto in_float = FieldBench::create(bench.scene(), question, glsl::Precision::single);
     if (!in_float)
@@ -455,7 +454,8 @@ Result<Answer> ask_recorded(ProbeBench& bench) {
 Result<Answer> ask_normals(ProbeBench& bench) {
     if (!bench.has_hits())
         return without_hits(bench);
-    return bench.has_main_hit() ? ask_march_field(bench) : ask_recorded(bench);
+    return bench.has_main_hit() && has_march_field(bench.scene()) ? ask_march_field(bench)
+                                                                  : ask_recorded(bench);
 }
 
 } // namespace tidemark::lab

@@ -142,6 +142,17 @@ struct MarchingLoop {
     /// Number of iterations of the counter that ends the loop first, if constants alone decide it; the
     /// distance or the place may end the loop earlier.
     std::optional<uint32_t> turns{};
+    /// The tests of counters that end the loop after a constant number of iterations, and the result with
+    /// which it continues.
+    struct CounterTest {
+        Value comparison;
+        bool continues;
+    };
+    std::vector<CounterTest> counter_tests{};
+    /// The code after the loop may return from the last place to one between it and the place before: it
+    /// subtracts a step, hands the place to another loop, or reads what the loop kept of the iteration
+    /// before.
+    bool goes_back = false;
     int line = 0; ///< of the comparison
     /// Number of comparisons of reals in that line of the loop, and the index of this one, in the order of
     /// the text.

@@ -237,8 +237,11 @@ std::optional<float> FloatField::distance(double parameter) {
     return turn_.run(places, none) == Ended::stopped ? std::optional(turn_.distance().real) : std::nullopt;
 }
 
-March follow(FloatEvaluator& evaluator, const Function& function, const MarchingLoop& loop) {
+namespace {
+
+March followed(FloatEvaluator& evaluator, const Function& function, const MarchingLoop& loop, uint32_t most) {
     March march;
+    uint32_t iterations = 0;
     const auto carried = [&] {
         std::vector<float> values;
         for (const Carried& each : loop.carried)
@@ -258,8 +261,11 @@ March follow(FloatEvaluator& evaluator, const Function& function, const Marching
                                    evaluator.value(loop.distance).real,
                                    evaluator.value(loop.threshold).real});
         }
-        if (block == loop.latch)
+        if (block == loop.latch) {
             before = carried();
+            if (++iterations == most)
+                return false;
+        }
         return !loop.idle || block != loop.idle->block || idle_condition(block) != loop.idle->when;
     };
     if (loop.limited())
@@ -271,6 +277,21 @@ March follow(FloatEvaluator& evaluator, const Function& function, const Marching
         const float last = march.turns.back().distance();
         march.hit = loop.at_equality ? last <= 0 : last < 0;
     }
+    return march;
+}
+
+} // namespace
+
+March follow(FloatEvaluator& evaluator, const Function& function, const MarchingLoop& loop) {
+    return followed(evaluator, function, loop, 0);
+}
+
+March follow_on(FloatEvaluator& evaluator, const Function& function, const MarchingLoop& loop,
+                uint32_t most) {
+    for (const MarchingLoop::CounterTest& test : loop.counter_tests)
+        evaluator.pin(test.comparison, {0, test.continues});
+    March march = followed(evaluator, function, loop, most);
+    evaluator.unpin();
     return march;
 }
 

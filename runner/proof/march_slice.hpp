@@ -286,6 +286,8 @@ std::optional<size_t> enter_first(Evaluator<System>& evaluator, const std::vecto
 
 /// Continues from the loop's entry through the loop, and returns all iterations that measured a distance.
 March follow(FloatEvaluator& evaluator, const Function& function, const MarchingLoop& loop);
+/// Like `follow`, but the loop's counters do not end it: it takes up to `most` iterations.
+March follow_on(FloatEvaluator& evaluator, const Function& function, const MarchingLoop& loop, uint32_t most);
 
 /// Returns whether the slice, at the text's own places, has the text's own distances and thresholds bit by
 /// bit. If not, the loop carries another value that changes them. A threshold that changes with the

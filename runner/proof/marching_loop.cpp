@@ -1,6 +1,7 @@
 #include "proof/loops.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace tidemark::ir {
@@ -27,6 +28,8 @@ struct Step {
 
 class LoopReader {
 public:
+    using Kind = MarchingLoop::Kind;
+
     LoopReader(const Function& function, const std::vector<uint32_t>& block_of, uint32_t header)
         : function_(function), block_of_(block_of), header_(header), blocks_(natural_loop(function, header)),
           inside_(function.instructions.size()) {
@@ -53,6 +56,34 @@ public:
                         fixed = loop;
                 }
         return fixed;
+    }
+
+    /// Returns whether the loop adds up reals and a comparison of reals ends it, as a march does whose form
+    /// `find` does not know.
+    bool may_march() const {
+        return !steps_.empty() && std::ranges::any_of(tests_, [this](const ExitTest& test) {
+            return at(test.smaller).type == Scalar::real && !count_of(test);
+        });
+    }
+    /// Returns whether a loop, or what it reads from before it, depends on the reals that this one carries.
+    bool leads_to(const MarchingLoop& later) const {
+        if (blocks_[later.header])
+            return false;
+        std::vector<bool> depends(inside_.size());
+        for (const Step& each : steps_)
+            depends[each.phi] = true;
+        for (Value value = function_.blocks[header_].first; value < depends.size(); ++value)
+            depends[value] = depends[value] || std::ranges::any_of(operands(value), [&](Value operand) {
+                                 return depends[operand];
+                             });
+        return std::ranges::any_of(later.carried,
+                                   [&](const Carried& each) {
+                                       return depends[each.phi] ||
+                                              std::ranges::any_of(each.factors, [&](Value factor) {
+                                                  return depends[factor];
+                                              });
+                                   }) ||
+               depends[later.distance];
     }
 
 private:
@@ -242,9 +273,12 @@ private:
                 return std::nullopt;
             field = merged(field, before);
         }
-        if (tests_the_place(field, group, at_update) || !computes(depending(field, cuts)))
+        if (tests_the_place(field, group, at_update))
             return std::nullopt;
-        const auto kind = kind_of(group.front(), field);
+        const std::vector<Value> moving = depending(field, cuts);
+        const auto kind = computes(moving)                              ? kind_of(group.front(), field)
+                          : steps_by(group.front(), test, moving, cuts) ? std::optional(Kind::sphere_tracing)
+                                                                        : std::nullopt;
         if (!kind)
             return std::nullopt;
         MarchingLoop loop = loop_of(needed(group, at_update, field), at_update, test, *kind);
@@ -374,6 +408,83 @@ private:
         return std::nullopt;
     }
 
+    /// Returns whether the loop steps by the tested distance, perhaps scaled or limited, and the place comes
+    /// into that distance through a direction. Such a field may consist of sums, products and absolute values
+    /// only, as those of planes and octahedra do.
+    bool steps_by(const Step& step, const ExitTest& test, const std::vector<Value>& moving,
+                  const std::vector<Value>& cuts) const {
+        const auto is_place = [&](Value value) { return std::ranges::find(cuts, value) != cuts.end(); };
+        Value distance = test.smaller;
+        if (inside_[distance] && at(distance).op == Op::absolute)
+            distance = operands(distance)[0];
+        if (inside_[distance] && is_header_phi(distance) && !is_place(distance)) // tested one iteration later
+            distance = next_of(distance);
+        if (step.scales || step.core == k_no_value || is_place(distance) ||
+            !std::ranges::binary_search(moving, distance))
+            return false;
+        const std::vector<Value> added = cone({distance}).of(step.added);
+        const auto is_limit = [this](Value value) {
+            return at(value).op == Op::minimum || at(value).op == Op::maximum || !is_computed(value);
+        };
+        return std::ranges::binary_search(added, distance) && std::ranges::all_of(added, is_limit) &&
+               (cuts.size() > 1 || std::ranges::any_of(moving, [&](Value value) {
+                    return at(value).op == Op::multiply && is_product_with(value, cuts);
+                }));
+    }
+    /// Returns whether the value is a place times a number that is known before the loop but not constant.
+    bool is_product_with(Value product, const std::vector<Value>& places) const {
+        const auto parts = operands(product);
+        return std::ranges::any_of(std::array{0, 1}, [&](int i) {
+            const Value other = parts[size_t(1 - i)];
+            return std::ranges::find(places, parts[size_t(i)]) != places.end() && !inside_[other] &&
+                   at(other).op != Op::constant;
+        });
+    }
+
+    /// Returns whether the code after the loop may return to a place between the last two
+    /// (MarchingLoop::goes_back).
+    bool goes_back(const std::vector<Step>& group) const {
+        std::vector<Value> places;
+        for (const Step& each : group)
+            places.insert(places.end(), {each.phi, each.update});
+        std::vector<Value> kept = kept_of_last(places);
+        const auto is_in = [](const std::vector<Value>& values, Value value) {
+            return std::ranges::find(values, value) != values.end();
+        };
+        for (Value value = function_.blocks[header_].last; value < inside_.size(); ++value) {
+            if (inside_[value])
+                continue;
+            const auto parts = operands(value);
+            if (std::ranges::any_of(parts, [&](Value part) { return is_in(kept, part); }))
+                return true;
+            if (at(value).op == Op::phi && at(value).type == Scalar::real &&
+                std::ranges::any_of(parts, [&](Value part) { return is_in(places, part); })) {
+                if (function_.blocks[block_of_[value]].loop)
+                    return true;
+                places.push_back(value);
+            }
+            if (at(value).op == Op::subtract && is_in(places, parts[0]) &&
+                (at(parts[1]).op != Op::constant || parts[1] == group.front().added))
+                return true;
+        }
+        return false;
+    }
+    /// Returns the reals that the loop carries from one iteration to the next without adding to them: what it
+    /// keeps of the iteration before.
+    std::vector<Value> kept_of_last(const std::vector<Value>& places) const {
+        std::vector<Value> kept;
+        const Block& here = function_.blocks[header_];
+        for (Value phi = here.first; phi < here.last && at(phi).op == Op::phi; ++phi) {
+            if (at(phi).type != Scalar::real || std::ranges::find(places, phi) != places.end())
+                continue;
+            const Value next = operands(phi)[back_slot_];
+            const std::vector<Value> sources = cone(places).of(next);
+            if (next != phi && inside_[next] && !std::ranges::binary_search(sources, phi))
+                kept.push_back(phi);
+        }
+        return kept;
+    }
+
     MarchingLoop loop_of(const std::vector<Step>& group, bool at_update, const ExitTest& test,
                          MarchingLoop::Kind kind) const {
         MarchingLoop loop;
@@ -400,7 +511,8 @@ private:
         if (plain && !idle_)
             loop.advance = group.size() == 1 ? first.added : first.core;
         loop.step = block_of_[first.update];
-        loop.turns = turns();
+        loop.goes_back = goes_back(group);
+        count_turns(loop);
         for (const ExitTest& other : tests_)
             for (const Step& each : group)
                 if ((other.larger == each.phi || other.larger == each.update) && !inside_[other.smaller])
@@ -408,19 +520,23 @@ private:
         return loop;
     }
 
-    /// Returns the iteration count of the counter that ends the loop first.
-    std::optional<uint32_t> turns() const {
-        std::optional<uint32_t> least;
-        const Block& here = function_.blocks[header_];
+    /// Finds the counters that end the loop, and the iteration count of the one that does so first.
+    void count_turns(MarchingLoop& loop) const {
         for (const ExitTest& test : tests_)
-            for (Value phi = here.first; phi < here.last && at(phi).op == Op::phi; ++phi) {
-                const Value first = operands(phi)[1 - back_slot_];
-                const auto number = turns_of(
-                    function_, {phi, first, next_of(phi), test.smaller, test.larger, test.at_equality});
-                if (number && (!least || *number < *least))
-                    least = number;
+            if (const auto number = count_of(test)) {
+                loop.turns = std::min(loop.turns.value_or(*number), *number);
+                loop.counter_tests.push_back({test.comparison, test.at_nan});
             }
-        return least;
+    }
+
+    /// Returns after how many iterations the test ends the loop, if it counts to a constant.
+    std::optional<uint32_t> count_of(const ExitTest& test) const {
+        const Block& here = function_.blocks[header_];
+        for (Value phi = here.first; phi < here.last && at(phi).op == Op::phi; ++phi)
+            if (const auto number = turns_of(function_, {phi, operands(phi)[1 - back_slot_], next_of(phi),
+                                                         test.smaller, test.larger, test.at_equality}))
+                return number;
+        return std::nullopt;
     }
 
     /// Returns whether the value may be above zero, as far as that is known without a run.
@@ -455,13 +571,22 @@ private:
 
 } // namespace
 
+/// A loop whose rays start where a march of an unknown form ends, such as one for shadows, is left out: it is
+/// not the view's.
 std::vector<MarchingLoop> find_marching_loops(const Function& function) {
     const std::vector<uint32_t> block_of = blocks_of_instructions(function);
     std::vector<MarchingLoop> loops;
-    for (uint32_t block = 0; block < function.blocks.size(); ++block)
-        if (function.blocks[block].loop)
-            if (auto loop = LoopReader(function, block_of, block).find())
+    std::vector<LoopReader> unknown;
+    for (uint32_t block = 0; block < function.blocks.size(); ++block) {
+        if (!function.blocks[block].loop)
+            continue;
+        LoopReader reader(function, block_of, block);
+        if (auto loop = reader.find()) {
+            if (std::ranges::none_of(unknown, [&](const LoopReader& each) { return each.leads_to(*loop); }))
                 loops.push_back(*std::move(loop));
+        } else if (reader.may_march())
+            unknown.push_back(std::move(reader));
+    }
     return loops;
 }
 

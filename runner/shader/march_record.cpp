@@ -284,13 +284,14 @@ Result<MarchNodes> find_march(const ParsedText& text, const TreeFacts& facts, co
 
 namespace {
 
-/// GLSL before the text; `$` is a prefix that no name of the text has. `on`: this loop is the first one
-/// entered. The flags are those of HitFlag.
+/// GLSL before the text; `$` is a prefix that no name of the text has, `@` the knob. `on`: this loop is the
+/// first one entered. The flags are those of HitFlag.
 constexpr std::string_view k_prelude = R"(#undef TIDEMARK_HIT
 #define mainHit tidemark_own_hit
 int $entries = 0;
 int $turns = 0;
 int $begun = 0;
+int $allowed = 0;
 int $flags = 0;
 float $last = 0.0;
 float $sign = 0.0;
@@ -348,13 +349,21 @@ void $measure(float p) {
 bool $tested(bool on, bool holds, float p, bool measured, bool stops_before) {
     if (on && measured) {
         $measure(p);
-        if (stops_before && $limit > 0.0 && $sign < -1e-5 * max(1.0, abs(p)))
+        if (stops_before && $limit > 0.0 && $sign < -max($limit, 1e-5 * max(1.0, abs(p))))
             $flags |= $turns == 1 ? 4 : 2;
     }
     return holds;
 }
 bool $bound(bool on, bool holds, bool stopping) {
-    if (on) $out = holds == stopping;
+    if (!on) return holds;
+    $out = holds == stopping;
+    if ($out && @ > 3.5) {
+        if ($allowed == 0) $allowed = 4 * $begun;
+        if ($begun < $allowed) {
+            $out = false;
+            return !stopping;
+        }
+    }
     return holds;
 }
 )";
@@ -368,7 +377,9 @@ void mainHit(out vec4 hit, in vec2 fragCoord) {
     bool met = $turns > 0 && $last <= $limit;
     float none = $last == $last ? -1.0 : $last;
     hit = vec4(met ? $place : none, float($turns), $last, float($flags + ($out && !met ? 1 : 0)));
-    if (@ > 2.5) hit = vec4($fall, $fall_place, 0.0, 0.0);
+    if (@ > 4.5) hit = color;
+    else if (@ > 3.5) return;
+    else if (@ > 2.5) hit = vec4($fall, $fall_place, 0.0, 0.0);
     else if (@ > 1.5) hit = vec4($place, float($turns), $last, $limit);
     else if (@ > 0.5) hit = color;
 }
@@ -394,7 +405,7 @@ public:
         TRY(check_words(marches));
         insert();
         text::MappedText whole;
-        whole.append_generated(spell(k_prelude, prefix_));
+        whole.append_generated(spell(k_prelude, prefix_, k_record_knob));
         whole.append(edits_.apply());
         whole.append_generated(spell(k_main_hit, prefix_, k_record_knob));
         return whole;

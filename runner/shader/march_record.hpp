@@ -62,6 +62,9 @@ enum class RecordAnswer {
     picture, ///< the colour of mainImage
     march,   ///< place on the ray, number of tested distances, the last distance, its threshold
     fall,    ///< steepest fall of the distance between two samples, per unit of the way, and its place
+    /// `hit` and `picture` if the loop may take four times as many iterations.
+    hit_with_more,
+    picture_with_more,
 };
 
 /// Instruments `text`, which is Common and the pass as their authors wrote them. Returns an error if

@@ -89,7 +89,7 @@ class Check(ProgramTest):
                 scene = self.write("march.glsl", MARCH.replace("max(d, 0.4)", step))
                 entry = self.verdicts(scene, "--probe", "first_hit")["first_hit"]
                 self.assertEqual(entry["verdict"], verdict, entry["found"])
-                self.assertRegex(entry["found"], rf"^{wrong} % of the decided rays step over .*; (9\d(\.\d)?|100) % of 288 rays are decided")
+                self.assertRegex(entry["found"], rf"^{wrong} % of the decided rays step over their first hit by more than 1 % of the distance, .*; (9\d(\.\d)?|100) % of 288 rays are decided")
         said = self.succeed("inspect", str(scene)).stdout.decode()
         self.assertRegex(said, r"(?m)^  march     \S*march.glsl:5: steps by the distance \(sphere tracing\)")
 
@@ -99,19 +99,22 @@ class Check(ProgramTest):
                 scene = self.write("march.glsl", MARCH.replace("max(d, 0.4)", "d").replace("length(p) - 1.0", field))
                 entry = self.verdicts(scene, "--probe", "step_scale")["step_scale"]
                 self.assertEqual(entry["verdict"], verdict, entry["found"])
-                said = re.match(r"steps of ([\d.]+) x the distance are safe on \d+ rays that hit, [\d.]+ x on 95 % of them; a step of ([\d.]+) x "
-                                r"from .* passes the hit, .*; the march's own steps are 1 x in the median", entry["found"])
+                said = re.match(r"steps of ([\d.]+) x the distance are safe on \d+ rays that hit, [\d.]+ x on 95 % of them; (?:a step of ([\d.]+) x "
+                                r"from .* passes the hit, .*; )?the march's own steps are 1 x in the median", entry["found"])
                 self.assertTrue(said, entry["found"])
                 self.assertLessEqual(float(said[1]), scale * 1.01)
                 self.assertGreater(float(said[1]), 0.85 * scale)
-                self.assertAlmostEqual(float(said[2]), scale, delta=0.06 * scale)
+                if verdict == "pass":  # that steps of 1 x reach the hit is no finding
+                    self.assertIsNone(said[2])
+                else:
+                    self.assertAlmostEqual(float(said[2]), scale, delta=0.06 * scale)
 
     def test_how_fast_the_field_falls_is_proved_between_the_rays_too(self):
         for field, falls in (("length(p) - 1.0", 1.0), ("1.6 * (length(p) - 1.0)", 1.6)):
             with self.subTest(field):
                 scene = self.write("march.glsl", MARCH.replace("max(d, 0.4)", "d").replace("length(p) - 1.0", field))
                 entry = self.verdicts(scene, "--probe", "step_scale")["step_scale"]
-                said = re.search(r"the slope is bounded on ([\d.]+) % of the way to the surface: the distance falls by at most ([\d.]+) per unit, by ([\d.]+) on 95 %",
+                said = re.search(r"the slope is bounded on ([\d.]+) % of the way to the surface: the distance falls by at most ([\d.]+) per unit",
                                  entry["found"])
                 self.assertTrue(said, entry["found"])
                 self.assertGreater(float(said[1]), 99)
@@ -122,15 +125,16 @@ class Check(ProgramTest):
         march = MARCH.replace("max(d, 0.4)", "d")
         entry = self.verdicts(self.write("march.glsl", march), "--probe", "turns")["turns"]
         self.assertEqual(entry["verdict"], "pass", entry["found"])
-        said = re.match(r"0 % of 288 rays run out of the loop's 99 iterations; the others need at most (\d+); ([\d.]+) % of \d+ rays are proved not to run out, "
+        said = re.match(r"0 % of 288 rays run out of the loop's 99 iterations before they hit; the others need at most (\d+); ([\d.]+) % of \d+ rays are proved not to run out, "
                         r"of \d+ rays at ([\d.]+) % of all times from 0 to 10 s$", entry["found"])
         self.assertTrue(said, entry["found"])
         self.assertLess(int(said[1]), 99)
         self.assertGreater(float(said[2]), 90)
         self.assertGreater(float(said[3]), 90)
         entry = self.verdicts(self.write("march.glsl", march.replace("i < 99", "i < 4")), "--probe", "turns")["turns"]
-        self.assertEqual(entry["verdict"], "note", entry["found"])
-        self.assertRegex(entry["found"], r"^[1-9][\d.]* % of 288 rays run out of the loop's 4 iterations, as pixel \d+,\d+ at .* s: \S*march.glsl:5 tests")
+        self.assertEqual(entry["verdict"], "warn", entry["found"])
+        self.assertRegex(entry["found"], r"^[1-9][\d.]* % of 288 rays run out of the loop's 4 iterations before they hit, as pixel \d+,\d+ at .* s: "
+                         r"\S*march.glsl:5 tests the distance: take more steps; ")
 
     def test_the_far_plane_is_the_definition_that_limits_the_march(self):
         text = "#define REACH 9.0\n" + MARCH.replace("t > 9.0", "t > REACH").replace("max(d, 0.4)", "d")

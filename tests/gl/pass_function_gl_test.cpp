@@ -152,6 +152,23 @@ TEST(ProvedHits, agree_with_a_march_that_is_right_and_tell_one_that_is_not) {
     const RayCounts few_steps = counts_of(
         "for (int i = 0; i < 3; ++i) { float d = map(rd * t); if (d < 1e-3 || t > 9.0) break; t += d; }");
     EXPECT_GT(few_steps.miss, 0u);
+    EXPECT_EQ(few_steps.went_past, 0u);
+    EXPECT_FALSE(few_steps.steps_too_long());
+    const RayCounts leaps = counts_of("for (int i = 0; i < 99; ++i) { float d = map(rd * t); if (d < 1e-3 || "
+                                      "t > 9.0) break; t += 4.0 * d; }");
+    EXPECT_GT(leaps.went_past, leaps.rays / 10);
+    EXPECT_TRUE(leaps.steps_too_long());
+}
+
+TEST(ProvedHits, count_the_way_back_after_a_march_in_fixed_steps) {
+    const std::string march = "float before = 0.0; for (; t < 9.0; t += 0.2) { if (map(rd * t) < 0.0) break; "
+                              "before = t; }";
+    const RayCounts late = counts_of(march);
+    EXPECT_GT(late.step_over, late.rays / 10);
+    EXPECT_EQ(late.within_last_step, late.step_over);
+    const RayCounts back = counts_of(march + " t = 0.5 * (before + t);");
+    EXPECT_EQ(back.step_over, 0u);
+    EXPECT_EQ(back.rays, late.rays);
 }
 
 /// A surface of that height, which reads the noise texture.

@@ -102,6 +102,88 @@ TEST(MarchingLoop, may_go_on_to_do_nothing_where_it_has_come_to_its_end) {
                     .empty());
 }
 
+/// Planes and octahedra are made of sums, products and absolute values.
+TEST(MarchingLoop, may_measure_a_field_of_sums_and_absolute_values_alone) {
+    for (const char* field : {"abs(p.x) + abs(p.y) + abs(p.z) - 1.0", "0.3 - p.z", "abs(p.z) - 0.5"})
+        for (const std::string& march :
+             {k_sphere_tracing,
+              std::string("float d = 1.0; for (int i = 0; i < 99 && abs(d) > 1e-3; ++i) {\n"
+                          "d = map(ro + rd * (t + iTime)); t += min(0.7 * d, 2.0); }"),
+              std::string("vec3 p = ro; for (int i = 0; i < 99; ++i) { float d = map(p);\n"
+                          "if (d < 1e-3) break; p += rd * d; }\nt = p.z;")}) {
+            const auto loops =
+                find_marching_loops(compiled(std::string("float map(vec3 p) { return ") + field + "; }",
+                                             "vec3 ro = vec3(gl_FragCoord.x, 0.0, -3.0), rd = vec3(0.1 * "
+                                             "iTime, 0.2 * iTime, 1.0 + iTime);\n"
+                                             "float t = 0.0;\n" +
+                                                 march + "\ncolor = vec4(t);"));
+            ASSERT_EQ(loops.size(), 1u) << field << ": " << march;
+            EXPECT_EQ(loops[0].kind, Kind::sphere_tracing) << field << ": " << march;
+        }
+    // Approaches a number, and searches a root by Newton's method.
+    EXPECT_TRUE(loops_of("for (int i = 0; i < 99; ++i) { float d = 3.0 - t; if (abs(d) < 1e-3) break; "
+                         "t += 0.1 * d; }")
+                    .empty());
+    EXPECT_TRUE(loops_of("t = 1.0 + iTime; for (int i = 0; i < 99; ++i) { float d = t * t - 2.0;\n"
+                         "if (abs(d) < 1e-3) break; t -= d / (2.0 * t); }")
+                    .empty());
+}
+
+/// The first march tests a distance of the iteration before against a function of the place, with steps of
+/// two kinds; its form is not known. Rays to a light start where it ends.
+TEST(MarchingLoop, is_not_that_of_a_shadow_after_a_march_of_another_form) {
+    const std::string shadow =
+        "for (int i = 0; i < 18; ++i) { float h = map(ro + rd * s); s += 0.3 * h; if (h < "
+        "1e-3 || s > 2.0) break; } t = s;";
+    const std::string unknown = "vec3 p = ro; float before = 1.0; for (int i = 0; i < 60; ++i) {\n"
+                                "if (before < 0.01 * log(t) || t > 9.0) break; before = map(p);\n"
+                                "t += before * (before > 0.1 ? 0.2 : 0.1); p = ro + rd * t; }\n";
+    EXPECT_TRUE(loops_of(unknown).empty());
+    EXPECT_TRUE(loops_of(unknown + "ro = p; float s = 0.0; " + shadow).empty());
+    // A sum of octaves, counted in floats, is no march; what follows it may be the view's.
+    EXPECT_EQ(
+        loops_of("float high = 0.0; for (float k = 0.0; k < 5.0; ++k) high += sin(k * iTime); ro.y = high;\n"
+                 "float s = 0.0; " +
+                 shadow)
+            .size(),
+        1u);
+}
+
+TEST(MarchingLoop, tells_whether_the_code_after_it_goes_back) {
+    const auto goes_back = [](const std::string& step, const std::string& after) {
+        const auto loops =
+            loops_of("float before = 0.0, dt = 0.01 + 0.01 * iTime; for (int i = 0; i < 400; ++i) {\n"
+                     "float d = map(ro + rd * t); if (d < 0.0) break; " +
+                     step + " }\n" + after);
+        EXPECT_EQ(loops.size(), 1u) << step << after;
+        return loops.size() == 1 && loops[0].goes_back;
+    };
+    EXPECT_TRUE(goes_back("t += 0.01;", "t = t - 0.01 * iTime;"));
+    EXPECT_TRUE(goes_back("t += 0.01;", "t -= 0.01;"));
+    EXPECT_TRUE(goes_back("before = t; t += dt; dt *= 1.01;", "t = mix(before, t, 0.5);"));
+    EXPECT_TRUE(goes_back("before = d; t += dt;", "t += before;"));
+    EXPECT_TRUE(goes_back("t += dt;", "for (int k = 0; k < 8; ++k) { dt *= 0.5;\n"
+                                      "t += map(ro + rd * t) < 0.0 ? -dt : dt; }"));
+    EXPECT_FALSE(goes_back("t += 0.01;", "color = vec4(exp(-0.1 * t)); t = 9.0 - t;"));
+    EXPECT_FALSE(goes_back("t += 0.01;", "t = length(ro + rd * t);"));
+}
+
+TEST(MarchingLoop, may_go_on_after_its_counter_has_ended_it) {
+    const std::string march = "for (int i = 0; i < 4; ++i) { float d = map(ro + rd * t);\n"
+                              "if (d < 1e-3) break; t += 0.5 * d; }";
+    for (const auto& [field, hits] :
+         {std::pair("length(p) - 1.0", true), std::pair("p.z * p.z + 9.0 + sin(p.z)", false)}) {
+        const Function function = marcher(field, march);
+        const auto loops = find_marching_loops(function);
+        ASSERT_EQ(loops.size(), 1u);
+        FloatEvaluator evaluator = entered(function, loops, 0), again = evaluator;
+        EXPECT_EQ(follow(evaluator, function, loops[0]).turns.size(), 4u);
+        const March longer = follow_on(again, function, loops[0], 40);
+        EXPECT_EQ(longer.hit, hits) << field;
+        EXPECT_EQ(longer.turns.size(), hits ? 12u : 40u) << field;
+    }
+}
+
 TEST(MarchingLoop, knows_how_often_it_turns) {
     const auto turns = [](const std::string& head) {
         const auto loops = loops_of("int n = 0; float h = 0.0, eps = 1e-3; " + head +

@@ -1,0 +1,55 @@
+"""`tidemark check` of what changes with time and the mouse: rounding, cuts and jumps, and what only looks like them."""
+import json
+
+from support.program import ProgramTest, main
+
+PIXEL = "void mainImage(out vec4 c, in vec2 p) {\n    vec2 uv = p / iResolution.xy;\n    %s\n}\n"
+
+
+class CheckMotion(ProgramTest):
+    def entry(self, line: str, probe: str) -> dict:
+        scene = self.write("scene.glsl", PIXEL % line)
+        result = self.run_program("check", str(scene), "--json", "--budget", "900", "--probe", probe)
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        return json.loads(result.stdout)["probes"][0]
+
+    def test_the_steps_of_the_clock_are_not_the_scenes_fault(self):
+        # Both sides multiply by a power of two and take the fraction, which is exact.
+        entry = self.entry("c = vec4(fract(32.0 * iTime));", "horizon")
+        self.assertEqual(entry["verdict"], "pass", entry["found"])
+        self.assertRegex(entry["found"], r"^float and double agree up to 1e6 s; at 100000 s iTime itself moves in steps of 0.0078 s, "
+                                         r"which change 1 % of the pixels by 0\.\d+ or more$")
+        entry = self.entry("c = vec4(0.5 + 0.5 * sin(300.0 * iTime));", "horizon")
+        self.assertEqual(entry["verdict"], "fail", entry["found"])
+        self.assertRegex(entry["found"], r"^at the same iTime, float and double agree up to 10+ s; at 10+ s 1 % of the pixels")
+        entry = self.entry("c = vec4(uv, 0.5 + 0.5 * sin(0.01 * iTime), 1.0);", "horizon")
+        self.assertEqual((entry["verdict"], entry["found"]), ("pass", "float and double agree up to 1e6 s"))
+
+    def test_a_mouse_that_moves_the_picture_unevenly_is_no_jump(self):
+        noise = "fract(sin(dot(floor(%s), vec2(12.9, 78.2))) * 43758.5)"
+        for line in ("c = vec4(uv.x < iMouse.x / iResolution.x ? 1.0 : 0.0);",        # a divided picture
+                     "c = vec4(floor(iMouse.y / 20.0) / 9.0, uv, 1.0);",              # nine settings
+                     "c = vec4(iMouse.y > 90.0 ? uv.x : 1.0 - uv.x);",                # two settings
+                     f"c = vec4({noise % '0.3 * (p + iMouse.xy * vec2(0.21, 0.5))'});",  # cells that come and go
+                     "c = vec4(0.5 + 0.009 * step(90.0, iMouse.y) + 0.0001 * iMouse.y);"):  # 40 dB
+            entry = self.entry(line, "camera")
+            self.assertIn(entry["verdict"], ("pass", "n/a"), f"{line}: {entry['found']}")
+        flip = "float a = 0.02 * iMouse.y; c = vec4(0.5 + 0.5 * sin(9.0 * uv.x + (iMouse.y > 90.0 ? 3.0 - a : a)));"
+        entry = self.entry(flip, "camera")
+        self.assertEqual(entry["verdict"], "fail", entry["found"])
+        self.assertRegex(entry["found"], r"^the picture jumps where the mouse goes from y = 90 to 91 of 180: PSNR [\d.]+ dB, while 90 % of such "
+                                         r"steps have [\d.]+ dB or more$")
+
+    def test_what_flickers_or_blinks_does_not_start_again(self):
+        for line, verdict in (
+                ("c = vec4(fract(sin(floor(24.0 * iTime) * 12.9) * 43758.5));", "pass"),               # 24 pictures a second
+                ("c = vec4(mod(iTime, 2.0) < 1.0 ? 1.0 : 0.0, uv, 1.0);", "pass"),                     # a lamp that blinks
+                ("c = vec4(mod(iTime, 8.0) < 4.0 ? 1.0 : 0.0, 0.1 * fract(uv + iTime / 37.0), 1.0);", "warn"),  # and all else moves
+                ("c = vec4(0.5 + 0.009 * step(7.0, iTime) + 0.0001 * iTime);", "pass"),                 # 40 dB
+                ("c = vec4(0.5 + 0.5 * sin(9.0 * uv.x + 3.0 * mod(iTime, 7.0)));", "fail")):           # the clock restarts
+            entry = self.entry(line, "time_discontinuity")
+            self.assertEqual(entry["verdict"], verdict, f"{line}: {entry['found']}")
+
+
+if __name__ == "__main__":
+    main()
