@@ -42,6 +42,8 @@ std::span<const Probe> all_probes() {
          ask_divergence},
         {"counters", "loops that count in floats and run more or fewer iterations than written",
          ask_counters},
+        {"loops", "loops that this driver ends before they are done (llvmpipe: after 65535 iterations)",
+         ask_loop_ends},
         {"repeats", "the same inputs give the same bytes: drawn again, after other frames, recompiled",
          ask_repeats},
         {"tiles", "a picture drawn in tiles, as large ones are, has the same bytes as one drawn whole",
