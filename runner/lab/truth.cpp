@@ -461,10 +461,10 @@ private:
                                                              to_string(last_.settings), left.how);
         if (left.error)
             standard.uncertainty = *left.error + (named() ? apart(what, first_, last_) : 0.0);
-        if (what == What::pictures && best.buffered)
-            widen_by_buffers(standard, best);
         else if (!named())
             standard.none = left.how;
+        if (what == What::pictures && best.buffered)
+            widen_by_buffers(standard, best);
         return standard;
     }
 
