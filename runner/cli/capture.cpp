@@ -300,6 +300,9 @@ Result<void> report(Capture& run, const CapturePlan& plan, bool complete) {
     if (plan.json)
         TRY(put(dump(run.report(), 2) + "\n"));
     say_what_pixels_hold(run.records(), plan);
+    if (complete && run.records().count() > 0)
+        if (const std::string warning = run.cut_loops_warning(); !warning.empty())
+            say(warning);
     const bool written = complete || !(plan.output.video() || plan.sheet);
     if (written && !plan.json && !plan.output.standard_output())
         say_what_was_written(run.records(), plan);

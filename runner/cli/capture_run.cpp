@@ -7,6 +7,7 @@
 #include "host/console.hpp"
 #include "host/scene_report.hpp"
 #include "host/version.hpp"
+#include "lab/instrumented_pass.hpp"
 #include "media/comparison.hpp"
 #include "media/image.hpp"
 #include "render/exposure.hpp"
@@ -111,6 +112,17 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 } // namespace
+
+std::string Capture::cut_loops_warning() {
+    if (!is_software_renderer(driver_.renderer) || !lab::may_exceed_safe_iterations(renderer_))
+        return {};
+    const auto limit = lab::loop_limit();
+    if (!limit || !*limit)
+        return {};
+    const auto cut = lab::cut_loops(renderer_, inputs_of(plan_.states(plan_.frames.frames.back())), true);
+    return cut && !cut->empty() ? "warning: " + lab::to_string(*cut, **limit) + ": the picture is incomplete here"
+                                : std::string();
+}
 
 Capture::Capture(const CapturePlan& plan, Trial& compiled, std::filesystem::path sound)
     : plan_(plan), renderer_(compiled.renderer), in_doubt_(compiled.in_doubt),

@@ -14,6 +14,7 @@
 #include "scene/load_scene.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <memory>
@@ -30,6 +31,7 @@ struct StudyOptions {
     std::vector<std::string> vary;
     std::string views;
     std::vector<std::string> reference;
+    std::vector<std::string> even;
     std::string baseline;
     platform::DeviceChoice device{};
     lab::Timing timing;
@@ -49,10 +51,6 @@ Result<lab::Study> base_study(const StudyOptions& options) {
         return parse(options.file, read_text_file(options.file));
     const fs::path beside = file_beside(options.scene.path, "study.json");
     const bool exists = fs::exists(beside, ignored);
-    if (!exists && options.vary.empty())
-        return fail(
-            ErrorCode::usage,
-            fmt::format("there is no '{}': name a knob to study with --vary NAME=a,b,c", beside.string()));
     if (!exists)
         return lab::Study{};
     const scene::Bounds bounds(beside.parent_path(), options.scene.files.allow_outside);
@@ -106,9 +104,36 @@ Result<lab::Study> plan_study(const StudyOptions& options) {
         const auto extent = TRY(parse_size(options.size));
         study->extent = extent;
     }
-    if (study->series.empty())
-        return fail(ErrorCode::usage, "the study varies no knob: give it \"series\", or --vary NAME=a,b,c");
+    study->even.insert(study->even.end(), options.even.begin(), options.even.end());
     return study;
+}
+
+/// Adds a curve for each number of the scene that trades time for exactness, if the study names none.
+Result<void> choose_series(lab::Study& study, const scene::Scene& scene, const lab::KeepGoing& keep_going) {
+    if (!study.series.empty())
+        return {};
+    auto settings = lab::quality_settings(scene, lab::march_places(scene)).found;
+    if (settings.empty())
+        return fail(ErrorCode::usage,
+                    "found no number in this scene that trades time for exactness: name one with --vary "
+                    "NAME=a,b,c, from the coarsest to the strictest");
+    auto chosen = TRY(lab::choose_knobs(scene, std::move(settings), study, keep_going));
+    if (chosen.settings.empty())
+        return fail(ErrorCode::check_failed,
+                    "no reference: " + chosen.why + "; name knobs with --vary NAME=a,b,c");
+    for (const lab::QualitySetting& each : chosen.settings) {
+        say(fmt::format("varies {} ({}): {}", each.axis.name, each.why, fmt::join(each.axis.values, ", ")));
+        study.series.push_back({each.axis.name, lab::Trust::unknown, {}, {each.axis}});
+    }
+    if (!chosen.why.empty())
+        say((chosen.as_it_is ? "the scene as it is takes the place of a reference: "
+                             : "only the march's own settings are varied: ") +
+            chosen.why);
+    study.axes = std::move(chosen.axes);
+    study.as_it_is = chosen.as_it_is && study.reference.empty();
+    if (study.as_it_is)
+        study.sources.clear();
+    return {};
 }
 
 /// Returns the files that the report must not replace. It may replace its baseline.
@@ -134,7 +159,7 @@ Result<size_t> hold_against_baseline(const std::string& file, const std::string&
 }
 
 Result<int> study(const StudyOptions& options) {
-    auto plan = TRY(plan_study(options));
+    lab::Study plan = TRY(plan_study(options));
     if (!(options.timing.budget > 0))
         return fail(ErrorCode::usage, "--budget: give a number of seconds above 0");
     Interrupt interrupt;
@@ -147,6 +172,7 @@ Result<int> study(const StudyOptions& options) {
             .sparing(files_of_study(options, scene));
     TRY(prepare_report(folder));
     const auto context = TRY(platform::HeadlessContext::create(options.device));
+    TRY(choose_series(plan, scene, [&] { return !interrupt.requested(); }));
     StudyWatcher watcher(interrupt);
     auto findings = lab::conduct(scene, plan, options.timing, watcher.watch(), circumstances_of(scene));
     TRY(watcher.finish());
@@ -183,7 +209,8 @@ void add_study(Command app, Action& chosen) {
         .check(existing_file());
     command
         .add_option("--vary", options->vary,
-                    "Values of a knob (#iUniform, #define or const), from the coarsest to the strictest")
+                    "Values of a knob (#iUniform, #define or const), from the coarsest to the strictest "
+                    "[knobs that are found in the text]")
         .type_name("NAME=a,b,c")
         .repeatable();
     command
@@ -196,6 +223,11 @@ void add_study(Command app, Action& chosen) {
             "--reference", options->reference,
             "Settings of the reference [the strictest, made stricter until the picture no longer changes]")
         .type_name("NAME=V,...")
+        .repeatable();
+    command
+        .add_option("--even", options->even,
+                    "A knob that takes even values only, as Simpson's rule does")
+        .type_name("NAME")
         .repeatable();
     command.add_option("--size", options->size, "Resolution in pixels [320x180]").type_name("WxH");
     command

@@ -1,6 +1,7 @@
 #include "lab/conduct.hpp"
 
 #include "base/error.hpp"
+#include "lab/march_hits.hpp"
 #include "lab/outcome.hpp"
 #include "lab/scene_numbers.hpp"
 #include "lab/study.hpp"
@@ -17,6 +18,69 @@
 #include <utility>
 
 namespace tidemark::lab {
+namespace {
+
+ProvedHits none(std::string why) {
+    return {.why_not = std::move(why)};
+}
+
+Standard standard_of(const PassFunction& function, const std::vector<Setting>& settings,
+                     const std::vector<TrueHits>& views) {
+    const SourceLocation where = function.locate(function.loops().front().line);
+    Standard standard;
+    standard.method = fmt::format(
+        "{} the distance that {}:{} tests{}, proved from the text by interval "
+        "arithmetic on every piece of a ray, in real arithmetic on rays set up in double",
+        views.front().surface == ir::Surface::zero ? "first zeros of" : "first places below the threshold of",
+        where.file, where.line, settings.empty() ? "" : fmt::format(" with {}", to_string(settings)));
+    double squares = 0;
+    size_t looked_at = 0, unknown = 0;
+    for (const TrueHits& view : views) {
+        squares += view.half_width * view.half_width * double(view.looked_at);
+        looked_at += view.looked_at;
+        unknown += view.unknown;
+    }
+    standard.uncertainty = std::sqrt(squares / double(std::max<size_t>(1, looked_at)));
+    standard.check = fmt::format(
+        "{} of {} rays, evenly spread; each hit is known to lie between two places, {} are unknown",
+        looked_at, views.size() * views.front().hits.size(), unknown);
+    standard.blind = unknown;
+    return standard;
+}
+
+} // namespace
+
+Result<ProvedHits> proved_hits(const scene::Scene& scene, const Study& study, const KeepGoing& keep_going) {
+    const std::vector<Setting> settings = strictest(study, 0);
+    const scene::Scene set = TRY(with(scene, settings));
+    const size_t image = set.image_index();
+    const auto function = PassFunction::create(set, set.passes[image]);
+    if (!function)
+        return none("the text cannot be analysed: " + function.error().message);
+    if (function->loops().empty())
+        return ProvedHits{{}, "no ray-marching loop found in Image", false};
+    auto renderer =
+        TRY(render::Renderer::create(set, {.extent = study.extent, .samples = image::SampleType::f32}));
+    std::vector<TrueHits> views;
+    HitTruth truth;
+    for (const View& view : study.views) {
+        const render::FrameState state = state_of(view, study.extent);
+        render::FrameStepper(renderer, state).draw(state.frame);
+        auto hits = true_hits({*function, renderer, image, inputs_of(state)},
+                              study.proof_seconds / double(study.views.size()), keep_going);
+        if (!hits)
+            return none("interrupted");
+        if (double(hits->unknown) > k_most_blind * double(hits->looked_at))
+            return none(fmt::format("{} of {} rays cannot be decided by proof from the text", hits->unknown,
+                                    hits->looked_at));
+        truth.views.push_back(hits->hits);
+        truth.footprints.push_back(plain_footprint(study.extent));
+        views.push_back(*std::move(hits));
+    }
+    truth.standard = standard_of(*function, settings, views);
+    return ProvedHits{.truth = std::move(truth)};
+}
+
 namespace {
 
 class Conductor {
@@ -85,7 +149,20 @@ private:
         std::erase_if(set().held, [&](const Setting& setting) {
             return std::ranges::find(names, setting.name) != names.end();
         });
+        for (WorkPrecision& point : set().points)
+            point.own = &point != &set().points.front() && has_own_values(point.point);
         return {};
+    }
+
+    /// Returns whether the settings of a point are the values that the scene has anyway.
+    bool has_own_values(const Point& point) {
+        return std::ranges::all_of(merged(point.settings), [&](const Setting& setting) {
+            const auto own = std::ranges::find(set().scene_values, setting.name, &Setting::name);
+            const auto number = number_of(setting.value);
+            return own != set().scene_values.end() &&
+                   (own->value == setting.value ||
+                    (number && number == number_of(own->value) && is_int(setting.value) == is_int(own->value)));
+        });
     }
 
     /// Returns the pictures and hits of a recipe, drawn once: without an error source, many points are the
@@ -174,19 +251,31 @@ private:
                                 : Specimen::create(scene_, {point.point.settings, study().precision},
                                                    study().extent, hit_source_);
             auto sight = specimen ? sight_of(*specimen) : Result<Sight>(fail(specimen.error()));
+            if (sight)
+                point.failure = cut_of(*specimen, point.point.settings);
             if (!sight && i == 0) // the unchanged scene
                 return fail(std::move(sight.error()));
-            if (sight) {
+            if (sight && i == 0 && !point.failure.empty())
+                remark(std::exchange(point.failure, {}) + " in the scene as it is");
+            if (sight && point.failure.empty()) {
                 point.compile_milliseconds = specimen->compile_milliseconds();
                 point.first_draw_milliseconds = specimen->first_draw_milliseconds();
                 sights_[i] = *std::move(sight);
                 specimens_[i] = *std::move(specimen);
-            } else {
+            } else if (!sight) {
                 point.failure = to_string(sight.error());
             }
             watch_.advance();
         }
         return {};
+    }
+
+    /// Returns which loops the driver cuts at these settings; empty if none.
+    std::string cut_of(Specimen& specimen, const std::vector<Setting>& settings) const {
+        const auto set = with(scene_, settings);
+        const auto cut = set ? specimen.cut_loops(*set, study().views)
+                             : Result<std::vector<SourceLocation>>(fail(set.error()));
+        return cut && !cut->empty() ? to_string(*cut, k_safe_iterations) : std::string();
     }
 
     Result<void> find_truth() {

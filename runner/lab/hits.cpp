@@ -135,6 +135,9 @@ HitErrors hit_errors(const Hits& reference, const Hits& test, const std::vector<
     errors.wrong_tenth = percent(tenth, errors.pixels);
     errors.most_wrong_tenth =
         errors.no_truth == 0 ? errors.wrong_tenth : 100 * most_of_share(tenth, errors.pixels);
+    errors.least_wrong_tenth = errors.no_truth == 0
+                                   ? errors.wrong_tenth
+                                   : 100 * (1 - most_of_share(errors.pixels - tenth, errors.pixels));
     errors.wrong_footprint = percent(pixel, errors.pixels);
     errors.no_answer = percent(none, errors.pixels);
     errors.exhausted = percent(exhausted, test.size());

@@ -52,6 +52,7 @@ struct HitErrors {
     double wrong_tenth = 0;     ///< the same with an error above 0.1
     /// Upper 95 % bound of `wrong_tenth` if `no_truth` is not 0, else equal to it.
     double most_wrong_tenth = 0;
+    double least_wrong_tenth = 0; ///< the lower bound
     double wrong_footprint = 0; ///< the same with an error above the width of a pixel at that distance
     double no_answer = 0;
     // Percent of all pixels:

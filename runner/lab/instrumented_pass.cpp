@@ -1,7 +1,11 @@
 #include "lab/instrumented_pass.hpp"
 
 #include "base/error.hpp"
+#include "lab/device_check.hpp"
+#include "lab/probe_bench.hpp"
+#include "lab/probe_inputs.hpp"
 #include "render/gl_context.hpp"
+#include "shader/loops.hpp"
 #include "shader/shader_source.hpp"
 #include "shader/watch.hpp"
 
@@ -127,6 +131,120 @@ Result<WatchReading> read_pixel(const PassPreview& preview, const glsl::Watch& w
 Result<std::vector<glsl::NodeId>> read_map(const PassPreview& preview, const glsl::Watch& watch, int face) {
     auto drawn = TRY(draw(preview, watch, preview.extent().pixels(), face));
     return std::move(drawn.words);
+}
+
+namespace {
+
+bool may_exceed(const scene::Scene& scene, const scene::Pass& pass, const glsl::Dialect& dialect) {
+    const auto text = read_text(scene, pass, dialect, false);
+    return !text || glsl::most_iterations(**text, glsl::find_facts(**text)) > k_safe_iterations;
+}
+
+constexpr int k_columns = 6, k_rows = 4, k_block = 8;
+
+/// Calls `draw` for each block of the sample, with everything else cut off.
+template <class Draw>
+void for_each_block(Extent extent, Draw draw) {
+    glEnable(GL_SCISSOR_TEST);
+    for (int row = 0; row < k_rows; ++row)
+        for (int column = 0; column < k_columns; ++column) {
+            const auto first = [](int at, int count, int size) {
+                return std::clamp((2 * at + 1) * size / (2 * count) - k_block / 2, 0, std::max(size - k_block, 0));
+            };
+            glScissor(first(column, k_columns, extent.width), first(row, k_rows, extent.height), k_block, k_block);
+            draw();
+        }
+    glDisable(GL_SCISSOR_TEST);
+}
+
+} // namespace
+
+bool may_exceed_safe_iterations(const scene::Scene& scene, const render::Renderer& like) {
+    return std::ranges::any_of(like.plan().passes, [&](const render::PlannedPass& planned) {
+        return may_exceed(scene, scene.passes[planned.pass], like.dialect(planned.pass));
+    });
+}
+
+bool may_exceed_safe_iterations(const render::Renderer& renderer) {
+    return may_exceed_safe_iterations(renderer.scene(), renderer);
+}
+
+Result<std::optional<double>> loop_limit() {
+    static std::optional<std::optional<double>> known; // a process draws with one device
+    if (known)
+        return *known;
+    const double most = 2 * k_safe_iterations;
+    const Sample counted =
+        TRY(samples_of(fmt::format("uint s = i; int n = 0;"
+                                   "for (; n < {:.0f} + int(iTime); ++n) s = s * 1664525u + 1013904223u;"
+                                   "c.rg = vec2(float(n), float(s & 0xFFFFu));",
+                                   most),
+                       1))[0];
+    known = counted[0] < most ? std::optional<double>(counted[0]) : std::nullopt;
+    return *known;
+}
+
+Result<std::vector<LoopEnd>> loop_ends(const PassPreview& preview, bool sampled) {
+    const auto text = TRY(read_text(preview.scene(), preview.pass(), preview.dialect(), false));
+    const glsl::LoopEnds ends = glsl::record_loop_ends(*text, glsl::find_facts(*text));
+    std::vector<LoopEnd> found;
+    if (ends.loops.empty())
+        return found;
+    const auto stand_in = TRY(StandIn::link(preview, ends.text, "the text that records its loops"));
+    const ShaderWords buffer(ends.words());
+    const int faces = preview.pass().kind == scene::PassKind::cubemap ? 6 : 1;
+    for (int face = 0; face < faces; ++face)
+        if (sampled)
+            for_each_block(preview.extent(), [&] { stand_in.draw(preview, face); });
+        else
+            stand_in.draw(preview, face);
+    const std::vector<uint32_t> words = buffer.read();
+    for (size_t i = 0; i < ends.loops.size(); ++i)
+        found.push_back({text->spelled(text->tree()[ends.loops[i]].begin), glsl::words_of(*text, ends.loops[i]),
+                         words[glsl::LoopEnds::cut(i)] != 0, words[glsl::LoopEnds::counted_out(i)] != 0});
+    return found;
+}
+
+Result<std::vector<SourceLocation>> cut_loops(render::Renderer& renderer, const render::FrameInputs& inputs,
+                                              bool sampled) {
+    std::vector<SourceLocation> cut;
+    for (const render::PlannedPass& planned : renderer.plan().passes) {
+        if (!may_exceed(renderer.scene(), renderer.scene().passes[planned.pass], renderer.dialect(planned.pass)))
+            continue;
+        const PassPreview preview(renderer, planned.pass, inputs);
+        for (LoopEnd& end : TRY(loop_ends(preview, sampled)))
+            if (end.cut)
+                cut.push_back(std::move(end.where));
+    }
+    return cut;
+}
+
+Result<Answer> ask_loop_ends(ProbeBench& bench) {
+    const render::Renderer* const renderer = TRY(bench.compiled());
+    if (!may_exceed_safe_iterations(*renderer))
+        return Answer{Verdict::pass, fmt::format("the loops' heads allow a pixel at most {:.0f} iterations",
+                                                 k_safe_iterations)};
+    const auto limit = TRY(loop_limit());
+    if (!limit)
+        return Answer{Verdict::pass, "this driver lets loops run to their end"};
+    const FrameState state = plain_state();
+    std::vector<SourceLocation> cut;
+    for (const render::PlannedPass& planned : renderer->plan().passes) {
+        const auto preview = TRY(bench.preview(state, planned.pass));
+        for (LoopEnd& end : TRY(loop_ends(preview, true)))
+            if (end.cut)
+                cut.push_back(std::move(end.where));
+    }
+    if (cut.empty())
+        return Answer{Verdict::pass, "this driver ends no loop before it is done, in 1536 pixels"};
+    return Answer{Verdict::warn, to_string(cut, *limit) + ": other devices go on", state};
+}
+
+std::string to_string(const std::vector<SourceLocation>& cut, double limit) {
+    const std::string others =
+        cut.size() > 1 ? fmt::format(" (and {} other{})", cut.size() - 1, cut.size() > 2 ? "s" : "") : "";
+    return fmt::format("the driver ends a pixel's loops after {:.0f} iterations together: the loop at {}:{}{} is cut",
+                       limit, cut.front().file, cut.front().line, others);
 }
 
 } // namespace tidemark::lab

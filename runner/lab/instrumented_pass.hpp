@@ -103,4 +103,39 @@ Result<WatchReading> read_pixel(const PassPreview& preview, const glsl::Watch& w
 /// Returns the first hit of each pixel. WatchRequest::map_width must be the picture's width.
 Result<std::vector<glsl::NodeId>> read_map(const PassPreview& preview, const glsl::Watch& watch, int face);
 
+// Finds loops that the driver cuts: llvmpipe ends all loops of a pixel after 65,535 iterations together,
+// without a message. A context must be current.
+
+/// Iterations that any known driver lets a pixel's loops have.
+inline constexpr double k_safe_iterations = 65'535;
+
+/// Returns whether the loops' heads allow a pixel of the plan's passes more iterations than that. True for a
+/// text that cannot be analysed.
+bool may_exceed_safe_iterations(const render::Renderer& renderer);
+/// Does the same for a scene whose passes are compiled in the dialects of `like`.
+bool may_exceed_safe_iterations(const scene::Scene& scene, const render::Renderer& like);
+
+/// Returns after how many iterations the device ends the loops of a pixel; nullopt: not within twice
+/// k_safe_iterations.
+Result<std::optional<double>> loop_limit();
+
+/// How a loop ended in any pixel of a picture.
+struct LoopEnd {
+    SourceLocation where{};
+    std::string text{};       ///< of the whole loop, after macro expansion
+    bool cut = false;         ///< the driver ended it
+    bool counted_out = false; ///< its counter ended it, not what it computes
+};
+
+/// Draws the pass with instruments; with `sampled` only 24 blocks of 8x8 pixels, evenly spread.
+Result<std::vector<LoopEnd>> loop_ends(const PassPreview& preview, bool sampled);
+
+/// Returns where the driver cut a loop of the passes that the frame draws; empty if it cut none.
+Result<std::vector<SourceLocation>> cut_loops(render::Renderer& renderer, const render::FrameInputs& inputs,
+                                              bool sampled);
+
+/// For example "the driver ends a pixel's loops after 65535 iterations together: the loop at a.glsl:5 is
+/// cut".
+std::string to_string(const std::vector<SourceLocation>& cut, double limit);
+
 } // namespace tidemark::lab

@@ -257,34 +257,56 @@ void find_idle(WorkPrecisionSet& set, const std::vector<Sight>& sights) {
     }
 }
 
+namespace {
+
+/// Errors of random samples fall so slowly that a truth is hardly ten times as exact: with too few solid points,
+/// those with an error of this many uncertainties of the reference tell the order, too.
+constexpr double k_solid_enough = 3;
+
+bool tells_order(const WorkPrecisionSet& set, const WorkPrecision& point, bool solid) {
+    const auto& truth = standard_of(set).uncertainty;
+    return solid ? !point.hollow : truth && error_of(set, point.all) >= k_solid_enough * *truth;
+}
+
+/// Returns the curves of a series over its last knob.
+std::vector<Curve> curves_of(const WorkPrecisionSet& set, size_t series, const std::string& knob, bool solid) {
+    std::vector<Curve> curves;
+    for (const WorkPrecision& point : set.points) {
+        if (point.point.series != series || !point.measured())
+            continue;
+        std::vector<Setting> fixed = merged(point.point.settings);
+        std::erase_if(fixed, [&](const Setting& setting) { return setting.name == knob; });
+        auto curve = std::ranges::find(curves, fixed, &Curve::fixed);
+        if (curve == curves.end())
+            curve = curves.insert(curves.end(), Curve{std::move(fixed), {}, {}, {}, 0});
+        ++curve->points;
+        const std::string text = value_at(set, point.point, knob);
+        const auto value = number_of(text);
+        const double error = error_of(set, point.all);
+        if (!tells_order(set, point, solid) || !value || !(*value > 0) || !(error > 0) || !std::isfinite(error))
+            continue;
+        curve->knob.push_back(std::log(*value));
+        curve->error.push_back(std::log(error));
+        curve->values.push_back(text);
+    }
+    return curves;
+}
+
+} // namespace
+
 void observe_orders(WorkPrecisionSet& set) {
     const double truth = standard_of(set).uncertainty.value_or(0.0);
     for (size_t series = 0; series < set.study.series.size(); ++series) {
         if (set.study.series[series].axes.empty())
             continue;
         const std::string& knob = set.study.series[series].axes.back().name;
-        std::vector<Curve> curves;
-        for (const WorkPrecision& point : set.points) {
-            if (point.point.series != series || !point.measured())
-                continue;
-            std::vector<Setting> fixed = merged(point.point.settings);
-            std::erase_if(fixed, [&](const Setting& setting) { return setting.name == knob; });
-            auto curve = std::ranges::find(curves, fixed, &Curve::fixed);
-            if (curve == curves.end())
-                curve = curves.insert(curves.end(), Curve{std::move(fixed), {}, {}, {}, 0});
-            ++curve->points;
-            const std::string text = value_at(set, point.point, knob);
-            const auto value = number_of(text);
-            const double error = error_of(set, point.all);
-            if (point.hollow || !value || !(*value > 0) || !(error > 0) || !std::isfinite(error))
-                continue;
-            curve->knob.push_back(std::log(*value));
-            curve->error.push_back(std::log(error));
-            curve->values.push_back(text);
-        }
-        for (const Curve& curve : curves)
-            if (curve.points >= k_fewest_points) {
-                set.orders.push_back(order_of(curve, knob, truth));
+        const std::vector<Curve> solid = curves_of(set, series, knob, true),
+                                 wider = curves_of(set, series, knob, false);
+        for (size_t i = 0; i < solid.size(); ++i)
+            if (solid[i].points >= k_fewest_points) {
+                const bool enough = solid[i].knob.size() >= k_fewest_points ||
+                                    wider[i].knob.size() < k_fewest_points;
+                set.orders.push_back(order_of(enough ? solid[i] : wider[i], knob, truth));
                 set.orders.back().series = set.study.series[series].name;
             }
     }

@@ -99,6 +99,9 @@ Result<Answer> ask_counters(ProbeBench& bench);
 Result<Answer> ask_edges(ProbeBench& bench);
 Result<Answer> ask_seams(ProbeBench& bench);
 
+// instrumented_pass.cpp
+Result<Answer> ask_loop_ends(ProbeBench& bench);
+
 // probes_continuity.cpp
 Result<Answer> ask_horizon(ProbeBench& bench);
 Result<Answer> ask_time_discontinuity(ProbeBench& bench);

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
+#include <set>
 #include <span>
 
 namespace tidemark::lab {
@@ -15,7 +17,7 @@ namespace {
 
 using text::Token;
 
-enum class Role { bound, threshold, step };
+using Role = QualitySetting::Role;
 
 /// The properties of a role: its values as factors of the scene's own, from coarse to strict, and parts of
 /// names that indicate it.
@@ -32,8 +34,7 @@ const RoleTraits& traits(Role role) {
          {0.25, 0.375, 0.5, 0.75, 1, 1.5, 2},
          1,
          1e6,
-         {"step", "iter", "octave", "sample", "march", "trace", "turn", "taps", "quality", "detail",
-          "bounce"}},
+         {"step", "sample", "march", "trace", "taps"}},
         {"is the threshold",
          {32, 8, 4, 2, 1, 0.5, 0.25},
          1e-7,
@@ -97,16 +98,19 @@ struct Loop {
 /// Finds the uses of numbers in one text.
 class Uses {
 public:
-    Uses(const text::MappedText& text, const std::optional<MarchPlaces>& march)
-        : lines_(text.lines()), march_(march), tokens_(text::tokenize(text.text())) {}
+    Uses(const text::MappedText& text, const std::optional<MarchPlaces>& march,
+         const std::set<std::string, std::less<>>& functions)
+        : lines_(text.lines()), march_(march), functions_(functions), tokens_(text::tokenize(text.text())) {}
 
     void find(UsesByName& named, std::vector<Literal>& literals) {
         const std::vector<Loop> loops = find_loops();
         const Loop* const marching = find_marching(loops);
-        for (const Loop& loop : loops)
+        for (const Loop& loop : loops) {
+            const bool marches = marching ? &loop == marching : !march_ && looks_like_march(loop);
             for (size_t i = loop.begin + 2; i < loop.head_end; ++i)
                 if (is_compared(tokens_, i))
-                    add(i, Role::bound, &loop == marching, named, literals);
+                    add(i, Role::bound, marches, named, literals);
+        }
         for (size_t i = 1; i < tokens_.size(); ++i) {
             if (tokens_[i - 1].is("define"))
                 continue;
@@ -114,13 +118,74 @@ public:
             if (is_compared(tokens_, i))
                 add(i, Role::threshold, march_ && stands_at(i, march_->test), named, literals);
             if (is_factor(tokens_, i))
-                add(i, Role::step, false, named, literals);
-            if (is_factor(tokens_, i) && in_march && at_step(i) && is_number(i))
-                add(i, Role::step, true, named, literals);
+                add(i, Role::step, in_march && at_step(i), named, literals);
         }
     }
 
 private:
+    /// Calls `see(begin, end)` for the statements of a loop's body, without its blocks' brackets.
+    template <class See>
+    void for_each_statement(const Loop& loop, See see) const {
+        size_t begin = loop.head_end;
+        for (size_t i = loop.head_end; i < loop.end; ++i)
+            if (tokens_[i].is(";") || tokens_[i].is("{") || tokens_[i].is("}")) {
+                see(begin, i);
+                begin = i + 1;
+            }
+    }
+
+    bool mentions(size_t begin, size_t end, std::string_view name) const {
+        return std::ranges::any_of(std::span(tokens_).subspan(begin, end - begin),
+                                   [&](const Token& token) { return token.is(name); });
+    }
+
+    bool calls_function(size_t begin, size_t end) const {
+        for (size_t i = begin; i + 1 < end; ++i)
+            if (tokens_[i + 1].is("(") && functions_.contains(tokens_[i].text))
+                return true;
+        return false;
+    }
+
+    /// Returns whether the loop advances a variable by what a function says, and calls the function with what
+    /// depends on that variable: `d = map(ro + t * rd); t += d;`. A sum of octaves does not.
+    bool looks_like_march(const Loop& loop) const {
+        std::set<std::string_view> answers; // variables that a function's value is stored in
+        bool found = false;
+        for_each_statement(loop, [&](size_t begin, size_t end) {
+            for (size_t i = begin + 1; i + 1 < end; ++i)
+                if (tokens_[i].is("=") && tokens_[i - 1].kind == text::TokenKind::identifier &&
+                    calls_function(i, end))
+                    answers.insert(tokens_[i - 1].text);
+        });
+        for_each_statement(loop, [&](size_t begin, size_t end) {
+            for (size_t i = begin + 1; i + 2 < end; ++i) {
+                if (!tokens_[i].is("+") || !tokens_[i + 1].is("=") ||
+                    tokens_[i - 1].kind != text::TokenKind::identifier)
+                    continue;
+                const bool advances = calls_function(i, end) ||
+                                      std::ranges::any_of(answers, [&](std::string_view name) {
+                                          return mentions(i + 2, end, name);
+                                      });
+                found = found || (advances && is_used_beside(loop, tokens_[i - 1].text, begin, end));
+            }
+        });
+        return found;
+    }
+
+    /// Returns whether a statement other than that one uses the variable in a call or to compute another.
+    bool is_used_beside(const Loop& loop, std::string_view name, size_t begin, size_t end) const {
+        bool used = false;
+        for_each_statement(loop, [&](size_t from, size_t to) {
+            if (from == begin && to == end)
+                return;
+            for (size_t i = from + 1; i < to; ++i)
+                used = used || (tokens_[i].is(name) && !tokens_[i - 1].is("if") &&
+                                (mentions(from, i, "(") || mentions(from, i, "=")) &&
+                                (calls_function(from, to) || mentions(from, i, "=")));
+        });
+        return used;
+    }
+
     bool is_number(size_t at) const { return tokens_[at].kind == text::TokenKind::number; }
 
     std::vector<Loop> find_loops() const {
@@ -173,8 +238,18 @@ private:
 
     const text::LineMap& lines_;
     const std::optional<MarchPlaces>& march_;
+    const std::set<std::string, std::less<>>& functions_;
     std::vector<Token> tokens_;
 };
+
+/// Adds the names of the functions that a text defines.
+void add_functions(const text::MappedText& text, std::set<std::string, std::less<>>& names) {
+    const auto tokens = text::tokenize(text.text());
+    for (size_t i = 1; i + 1 < tokens.size(); ++i)
+        if (tokens[i - 1].kind == text::TokenKind::identifier && !tokens[i - 1].is("return") &&
+            !tokens[i - 1].is("else") && tokens[i].kind == text::TokenKind::identifier && tokens[i + 1].is("("))
+            names.insert(std::string(tokens[i].text));
+}
 
 bool speaks_of_any(std::string_view name, const std::vector<std::string_view>& words) {
     return std::ranges::any_of(words, [&](std::string_view word) { return speaks_of(name, {word}); });
@@ -197,6 +272,7 @@ std::optional<QualitySetting> around(const std::string& name, const std::string&
     if (setting.axis.values.size() < 2)
         return std::nullopt;
     setting.march = use.march;
+    setting.role = use.role;
     setting.why = fmt::format(
         "{} at {}:{}", use.march && use.role == Role::bound ? "bounds the march" : traits(use.role).does,
         use.where.file, use.where.line);
@@ -242,6 +318,28 @@ std::optional<QualitySetting> setting_of_the_only(Role role, std::vector<Literal
     return setting;
 }
 
+/// Returns settings for the largest unnamed counts of loops that look like marches, at most two: no march was
+/// found by analysis, so that several loops may be one.
+std::vector<QualitySetting> longest_marches(std::vector<Literal> literals, const scene::Scene& scene) {
+    constexpr size_t k_most = 2;
+    constexpr double k_fewest_steps = 12; // shorter loops that advance by a function warp a pattern
+    const auto count = [](const Literal& each) { return number_of(each.text).value_or(0); };
+    std::erase_if(literals, [&](const Literal& each) {
+        return each.use.role != Role::bound || count(each) < k_fewest_steps || count(each) > traits(Role::bound).most ||
+               (scene.image().bare_file && each.where.file != scene.file.string());
+    });
+    std::ranges::stable_sort(literals, std::greater<>(), count);
+    std::vector<QualitySetting> found;
+    for (const Literal& each : literals) {
+        auto setting = found.size() < k_most ? around(place_name(each.where), each.text, each.use) : std::nullopt;
+        if (!setting)
+            continue;
+        setting->why = fmt::format("{}, which bounds the march", each.text);
+        found.push_back(*std::move(setting));
+    }
+    return found;
+}
+
 /// Returns whether the number does not change the compiled text: it is in a branch of #if that is not taken,
 /// for example as the threshold of another solver.
 bool is_idle(const QualitySetting& setting, const scene::Scene& scene,
@@ -258,9 +356,13 @@ bool is_idle(const QualitySetting& setting, const scene::Scene& scene,
 QualitySettings quality_settings(const scene::Scene& scene, const std::optional<MarchPlaces>& march) {
     UsesByName uses;
     std::vector<Literal> literals;
-    Uses(scene.common, march).find(uses, literals);
+    std::set<std::string, std::less<>> functions;
+    add_functions(scene.common, functions);
     for (const scene::Pass& pass : scene.passes)
-        Uses(pass.text, march).find(uses, literals);
+        add_functions(pass.text, functions);
+    Uses(scene.common, march, functions).find(uses, literals);
+    for (const scene::Pass& pass : scene.passes)
+        Uses(pass.text, march, functions).find(uses, literals);
     QualitySettings settings;
     for (const Setting& number : own_numbers(scene)) {
         const std::vector<Use>& of_it = uses[number.name];
@@ -272,6 +374,12 @@ QualitySettings quality_settings(const scene::Scene& scene, const std::optional<
     for (const Role role : {Role::bound, Role::threshold, Role::step})
         if (auto setting = setting_of_the_only(role, literals, scene, march))
             settings.found.push_back(*std::move(setting));
+    if (!march)
+        for (QualitySetting& setting : longest_marches(literals, scene))
+            if (std::ranges::find(settings.found, setting.axis.name,
+                                  [](const QualitySetting& each) { return each.axis.name; }) ==
+                settings.found.end())
+                settings.found.push_back(std::move(setting));
     if (const auto words = compiled_words(scene))
         std::erase_if(settings.found,
                       [&](const QualitySetting& each) { return is_idle(each, scene, *words); });

@@ -1,21 +1,29 @@
 #include "lab/specimen.hpp"
 
 #include "base/error.hpp"
+#include "base/tokens.hpp"
 #include "lab/scene_numbers.hpp"
 #include "lab/study.hpp"
 #include "render/gl_sync.hpp"
 #include "shader/definitions.hpp"
+#include "shader/loops.hpp"
 #include "shader/survey.hpp"
 
 #include <GL/glcorearb.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
 #include <numeric>
 #include <set>
 
 namespace tidemark::lab {
 namespace {
+
+/// Of the uniforms that replace numbers.
+constexpr std::string_view k_setting_prefix = "tidemark_setting_";
 
 /// Returns nullopt unless the text is a single GLSL number token: a sign is a second token.
 std::optional<scene::Knob> knob_of(std::string name, const std::string& text) {
@@ -34,7 +42,7 @@ Result<TurnableScene> TurnableScene::create(scene::Scene scene, const std::vecto
     TurnableScene turnable(std::move(scene));
     std::vector<Setting> others;
     for (const Setting& setting : merged(settings)) {
-        auto knob = knob_of(fmt::format("tidemark_setting_{}", turnable.uniforms_.size()), setting.value);
+        auto knob = knob_of(fmt::format("{}{}", k_setting_prefix, turnable.uniforms_.size()), setting.value);
         if (knob && !is_knob(turnable.original_, setting.name))
             turnable.uniforms_.push_back({setting.name, *std::move(knob)});
         else
@@ -200,6 +208,54 @@ Result<std::vector<Hits>> Specimen::hits(const std::vector<View>& views) {
     return all;
 }
 
+namespace {
+
+/// Returns the most iterations that the loops' heads allow a pixel of any pass; infinity if that is unknown.
+double most_iterations_of(const scene::Scene& set, const render::Renderer& like) {
+    double most = 0;
+    for (const render::PlannedPass& planned : like.plan().passes) {
+        const auto text = read_text(set, set.passes[planned.pass], like.dialect(planned.pass), false);
+        if (!text)
+            return std::numeric_limits<double>::infinity();
+        most = std::max(most, glsl::most_iterations(**text, glsl::find_facts(**text)));
+    }
+    return most;
+}
+
+} // namespace
+
+Result<std::vector<LoopEnd>> Specimen::loop_ends(const View& view) {
+    const render::FrameState state = state_of(view, extent_);
+    std::vector<LoopEnd> all;
+    for (const render::PlannedPass& planned : renderer_->plan().passes) {
+        const auto preview = render::FrameStepper(*renderer_, state).preview(state.frame, planned.pass);
+        auto ends = TRY(lab::loop_ends(preview, false));
+        std::ranges::move(ends, std::back_inserter(all));
+    }
+    return all;
+}
+
+Result<std::vector<SourceLocation>> Specimen::cut_loops(const scene::Scene& set,
+                                                        const std::vector<View>& views) {
+    std::vector<SourceLocation> cut;
+    const double most = most_iterations_of(set, *renderer_);
+    // Loops of unknown length are looked at in one view, and only by the program that serves all settings.
+    const bool known = std::isfinite(most);
+    const bool serves_all = std::ranges::any_of(renderer_->scene().knobs, [](const scene::Knob& knob) {
+        return knob.name.starts_with(k_setting_prefix);
+    });
+    if (most <= k_safe_iterations || (!known && !serves_all) || !TRY(loop_limit()))
+        return cut;
+    for (const View& view : views) {
+        for (const LoopEnd& end : TRY(loop_ends(view)))
+            if (end.cut && std::ranges::find(cut, end.where) == cut.end())
+                cut.push_back(end.where);
+        if (!known)
+            break;
+    }
+    return cut;
+}
+
 std::vector<std::string> Specimen::kept_hashes() const {
     std::set<std::string> names;
     for (const render::PlannedPass& planned : renderer_->plan().passes)
@@ -229,8 +285,12 @@ Result<Specimen*> TurnedSpecimen::at(const std::vector<Setting>& settings, glsl:
     if (precision != precision_)
         turnable_.reset();
     precision_ = precision;
-    if (const auto knobs = turnable_ ? turnable_->knobs_at(settings) : std::nullopt) {
-        specimen_->turn(*knobs);
+    const std::string name = to_string(settings);
+    if (turnable_ && !known_.contains(name))
+        if (const auto knobs = turnable_->knobs_at(settings))
+            known_[name] = *knobs;
+    if (const auto knobs = known_.find(name); turnable_ && knobs != known_.end()) {
+        specimen_->turn(knobs->second);
         return &*specimen_;
     }
     if (own_text_only_ || !make_turnable(settings)) {
@@ -250,7 +310,53 @@ bool TurnedSpecimen::make_turnable(const std::vector<Setting>& settings) {
         return false;
     turnable_ = *std::move(turnable);
     specimen_ = *std::move(specimen);
+    known_.clear();
     return true;
+}
+
+namespace {
+
+/// How the effect of a buffer's rounding is tried: relative changes of its values, pseudo-random in sign, and
+/// the share of the picture's change that stands for rounding alone. From a double, 2^-25 moves a stored
+/// float to its neighbour so often that the change is 1.7 to 2.4 times that of rounding; floats themselves
+/// must be moved by a whole step.
+struct Nudge {
+    const char* relative;
+    double share;
+};
+constexpr Nudge k_double_nudge{"2.98023224e-8", 0.6}, k_float_nudge{"6.0e-8", 0.35};
+
+/// Appended to a pass whose own mainImage has another name.
+constexpr std::string_view k_nudged_pass = R"(
+void mainImage(out vec4 tidemark_c, in vec2 tidemark_p) {{
+    {}(tidemark_c, tidemark_p);
+    int tidemark_k = int(tidemark_p.x) * 1973 + int(tidemark_p.y) * 9277 + iFrame * 26699;
+    tidemark_k = (tidemark_k * 7919) & 65535;
+    vec4 tidemark_s = vec4(float((tidemark_k / 16) % 2), float((tidemark_k / 32) % 2),
+                           float((tidemark_k / 64) % 2), float((tidemark_k / 128) % 2));
+    tidemark_c *= 1.0 + {} * (2.0 * tidemark_s - 1.0);
+}}
+)";
+
+} // namespace
+
+std::optional<scene::Scene> with_nudged_buffers(scene::Scene scene, glsl::Precision precision, double& share) {
+    const Nudge& nudge = precision == glsl::Precision::single ? k_float_nudge : k_double_nudge;
+    share = nudge.share;
+    constexpr const char* k_own = "tidemark_exact_image";
+    for (scene::Pass& pass : scene.passes) {
+        if (pass.kind != scene::PassKind::buffer)
+            continue;
+        std::vector<text::Edit> edits;
+        for (const text::Token& token : text::tokenize(pass.text.text()))
+            if (token.is("mainImage"))
+                edits.push_back({token.begin, token.end(), k_own});
+        if (edits.empty())
+            return std::nullopt;
+        pass.text.apply(edits);
+        pass.text.append(fmt::format(k_nudged_pass, k_own, nudge.relative), "rounding.glsl", 1);
+    }
+    return scene;
 }
 
 } // namespace tidemark::lab

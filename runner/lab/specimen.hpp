@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "lab/hits.hpp"
+#include "lab/instrumented_pass.hpp"
 #include "lab/march_hits.hpp"
 #include "lab/scene_numbers.hpp"
 #include "lab/study.hpp"
@@ -89,6 +90,14 @@ public:
     /// Returns the names of the hash functions that compute in floats although the recipe asks for doubles.
     std::vector<std::string> kept_hashes() const;
 
+    /// Returns how the loops of all passes end in the view, in any pixel (lab/instrumented_pass.hpp).
+    Result<std::vector<LoopEnd>> loop_ends(const View& view);
+    /// Returns where the driver cuts a loop in any of the views. It draws only if the numbers of `set`, the
+    /// scene at the present settings, allow so many iterations.
+    Result<std::vector<SourceLocation>> cut_loops(const scene::Scene& set, const std::vector<View>& views);
+    /// Returns whether the picture depends on passes whose results are stored as floats.
+    bool has_buffers() const { return renderer_->plan().passes.size() > 1 || renderer_->plan().feedback; }
+
     double compile_milliseconds() const { return compile_milliseconds_; }
     /// Returns the time of the first frame, which includes deferred compilation in the driver.
     double first_draw_milliseconds() const { return first_draw_milliseconds_; }
@@ -122,6 +131,8 @@ public:
     /// Returns the scene at these settings, valid until the next call. The error is that of the author's own
     /// text.
     Result<Specimen*> at(const std::vector<Setting>& settings, glsl::Precision precision);
+    /// Returns whether the present specimen has uniforms in the place of its settings' numbers.
+    bool has_uniforms() const { return turnable_.has_value(); }
 
 private:
     bool make_turnable(const std::vector<Setting>& settings);
@@ -132,7 +143,13 @@ private:
     glsl::Precision precision_ = glsl::Precision::single;
     std::optional<TurnableScene> turnable_; ///< source of `specimen_`; nullopt: the scene's own text
     std::optional<Specimen> specimen_;
-    bool own_text_only_ = false; ///< the driver rejects the text with uniforms
+    std::map<std::string, std::vector<scene::Knob>> known_; ///< knobs of `turnable_`, by settings
+    bool own_text_only_ = false;                            ///< the driver rejects the text with uniforms
 };
+
+/// Returns the scene with each value of its buffers changed by about the rounding of a float, in pseudo-random
+/// directions; nullopt if a buffer has no mainImage of its own. `share` of the picture's change stands for the
+/// effect of rounding itself.
+std::optional<scene::Scene> with_nudged_buffers(scene::Scene scene, glsl::Precision precision, double& share);
 
 } // namespace tidemark::lab

@@ -282,12 +282,26 @@ std::vector<Setting> beside(const Study& study, int steps, bool second) {
         if (is_int(*value)) {
             const long long was = std::stoll(setting.value), is = std::stoll(*value);
             const long long one = *ratio > 1 ? 1 : -1;
-            const long long odd = (was - is) % 2 != 0 ? is : is + one;
-            value = fmt::format("{}", std::max(odd + (second ? one : 0), 1LL));
+            const bool even = std::ranges::find(study.even, setting.name) != study.even.end();
+            const long long changed = ((was - is) % 2 != 0) != even ? is : is + one;
+            const long long further = even ? 2 * one : one;
+            value = fmt::format("{}", std::max(changed + (second ? further : 0), even ? 2LL : 1LL));
         }
         setting.value = *std::move(value);
     }
     return settings;
+}
+
+std::vector<std::string> knobs_with_even_values(const Study& study) {
+    std::vector<std::string> names;
+    for (const Axis& axis : axes_of(study)) {
+        const auto is_even = [](const std::string& text) {
+            return is_int(text) && number_of(text) && std::fmod(*number_of(text), 2) == 0;
+        };
+        if (axis.values.size() > 1 && std::ranges::all_of(axis.values, is_even))
+            names.push_back(axis.name);
+    }
+    return names;
 }
 
 namespace {
@@ -302,7 +316,8 @@ public:
     Result<Study> read(const Json& json) {
         Study study;
         known(json, "",
-              {"about", "size", "views", "series", "reference", "sources", "model", "omissions", "promise"});
+              {"about", "size", "views", "series", "reference", "even", "sources", "model", "omissions",
+               "promise"});
         if (json.contains("about"))
             study.about = string_of(json["about"], "/about");
         if (json.contains("size"))
@@ -320,6 +335,9 @@ public:
         });
         each(json, "omissions", "", [&](const Json& item, const std::string& at) {
             study.omissions.push_back(string_of(item, at));
+        });
+        each(json, "even", "", [&](const Json& item, const std::string& at) {
+            study.even.push_back(string_of(item, at));
         });
         if (json.contains("promise"))
             study.promise = promise(json["promise"]);

@@ -86,6 +86,10 @@ struct Study {
     std::vector<Setting> model;         ///< settings without the scene's own approximations
     std::vector<std::string> omissions; ///< parts of the scene that were left out, and why
     Promise promise;
+    std::vector<std::string> even; ///< knobs whose values must be even, as Simpson's rule wants it
+    bool as_it_is = false; ///< the pictures' truth is the unchanged scene
+    bool promote = true; ///< the pictures' truth is drawn in double if possible
+    int first_step = 0;  ///< of the ladder of ever stricter settings, if earlier ones are known to differ
     bool rays = true; ///< also measures hits, if the scene provides them
     /// Seconds. A step of the reference pictures' ladder that takes longer is its last: the next one would
     /// take twice as long, in doubles several times.
@@ -143,6 +147,10 @@ std::vector<Setting> strictest(const Study& study, int steps);
 /// Returns settings off that ladder, which reveal values that repeat on it: each number that can continue is
 /// 1.37 times as strict, and a whole number changes between odd and even. With `second`, a whole number is
 /// one step further, so no cycle of any length stays hidden, and other numbers are 1.71 times as strict.
+/// Numbers of `study.even` stay even.
 std::vector<Setting> beside(const Study& study, int steps, bool second);
+
+/// Returns the knobs whose given values are all even numbers.
+std::vector<std::string> knobs_with_even_values(const Study& study);
 
 } // namespace tidemark::lab

@@ -2,7 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/measurement.hpp"
-#include "lab/march_hits.hpp"
+#include "base/tokens.hpp"
 #include "lab/specimen.hpp"
 #include "lab/study.hpp"
 
@@ -98,69 +98,6 @@ double pooled_rmse(const std::vector<image::Image>& left, const std::vector<imag
 
 namespace {
 
-ProvedHits none(std::string why) {
-    return {.why_not = std::move(why)};
-}
-
-Standard standard_of(const PassFunction& function, const std::vector<Setting>& settings,
-                     const std::vector<TrueHits>& views) {
-    const SourceLocation where = function.locate(function.loops().front().line);
-    Standard standard;
-    standard.method = fmt::format(
-        "{} the distance that {}:{} tests{}, proved from the text by interval "
-        "arithmetic on every piece of a ray, in real arithmetic on rays set up in double",
-        views.front().surface == ir::Surface::zero ? "first zeros of" : "first places below the threshold of",
-        where.file, where.line, settings.empty() ? "" : fmt::format(" with {}", to_string(settings)));
-    double squares = 0;
-    size_t looked_at = 0, unknown = 0;
-    for (const TrueHits& view : views) {
-        squares += view.half_width * view.half_width * double(view.looked_at);
-        looked_at += view.looked_at;
-        unknown += view.unknown;
-    }
-    standard.uncertainty = std::sqrt(squares / double(std::max<size_t>(1, looked_at)));
-    standard.check = fmt::format(
-        "{} of {} rays, evenly spread; each hit is known to lie between two places, {} are unknown",
-        looked_at, views.size() * views.front().hits.size(), unknown);
-    standard.blind = unknown;
-    return standard;
-}
-
-} // namespace
-
-Result<ProvedHits> proved_hits(const scene::Scene& scene, const Study& study, const KeepGoing& keep_going) {
-    const std::vector<Setting> settings = strictest(study, 0);
-    const scene::Scene set = TRY(with(scene, settings));
-    const size_t image = set.image_index();
-    const auto function = PassFunction::create(set, set.passes[image]);
-    if (!function)
-        return none("the text cannot be analysed: " + function.error().message);
-    if (function->loops().empty())
-        return ProvedHits{{}, "no ray-marching loop found in Image", false};
-    auto renderer =
-        TRY(render::Renderer::create(set, {.extent = study.extent, .samples = image::SampleType::f32}));
-    std::vector<TrueHits> views;
-    HitTruth truth;
-    for (const View& view : study.views) {
-        const render::FrameState state = state_of(view, study.extent);
-        render::FrameStepper(renderer, state).draw(state.frame);
-        auto hits = true_hits({*function, renderer, image, inputs_of(state)},
-                              study.proof_seconds / double(study.views.size()), keep_going);
-        if (!hits)
-            return none("interrupted");
-        if (double(hits->unknown) > k_most_blind * double(hits->looked_at))
-            return none(fmt::format("{} of {} rays cannot be decided by proof from the text", hits->unknown,
-                                    hits->looked_at));
-        truth.views.push_back(hits->hits);
-        truth.footprints.push_back(plain_footprint(study.extent));
-        views.push_back(*std::move(hits));
-    }
-    truth.standard = standard_of(*function, settings, views);
-    return ProvedHits{.truth = std::move(truth)};
-}
-
-namespace {
-
 constexpr int k_most_refinements = 6;
 /// With three changes, a ratio that rises can be detected.
 constexpr size_t k_wanted_changes = 3;
@@ -178,7 +115,9 @@ struct Shown {
     std::vector<image::Image> pictures;
     std::vector<Hits> hits;
     std::vector<std::string> kept_hashes;
-    double seconds = 0; ///< time it took
+    double seconds = 0;    ///< time it took
+    std::string cut{};     ///< the loops that the driver ended; empty: none
+    bool buffered = false; ///< it was drawn from buffers of floats
 };
 
 std::vector<double> plain_footprints(size_t views, Extent extent) {
@@ -212,10 +151,12 @@ double noise_of(const std::vector<Hits>& hits) {
 class Ladder {
 public:
     Ladder(const scene::Scene& scene, const Study& study, const KeepGoing& keep_going)
-        : study_(study), keep_going_(keep_going), precision_(study.precision),
+        : scene_(scene), study_(study), keep_going_(keep_going), precision_(study.precision),
           specimen_(scene, study.extent, study.rays ? HitSource::main_hit : HitSource::none) {}
 
     Result<PictureTruth> climb() {
+        if (study_.as_it_is)
+            return unchanged();
         TRY(begin());
         while (step_up())
             ;
@@ -233,6 +174,7 @@ private:
         const Stopwatch watch;
         Specimen* const specimen = TRY(specimen_.at(settings, precision_));
         Shown shown{std::move(settings), {}, {}, specimen->kept_hashes()};
+        shown.buffered = specimen->has_buffers();
         if (!keep_going_())
             return std::optional<Shown>{};
         shown.pictures = specimen->pictures(study_.views);
@@ -244,29 +186,75 @@ private:
             auto hits = TRY(specimen->hits(view));
             shown.hits.push_back(std::move(hits));
         }
+        const scene::Scene set = TRY(with(scene_, shown.settings));
+        if (const auto cut = specimen->cut_loops(set, study_.views); cut && !cut->empty())
+            shown.cut = to_string(*cut, k_safe_iterations);
         shown.seconds = watch.elapsed().wall * 1e-3;
         return std::optional<Shown>(std::move(shown));
     }
 
+    /// Returns the scene as it is, which has no error of its own by definition.
+    Result<PictureTruth> unchanged() {
+        auto shown = TRY(show({}));
+        if (!shown)
+            return fail(ErrorCode::check_failed, "interrupted before there was a reference");
+        take_first(*std::move(shown));
+        PictureTruth found = truth();
+        found.standard = {"the scene as it is", 0.0, "exact: settings are compared with the scene itself",
+                          too_blind(found.standard.blind, study_.extent.pixels() * study_.views.size()),
+                          found.standard.blind};
+        found.hit_standard = {};
+        found.hits.clear();
+        return found;
+    }
+
     /// Draws the first rung, in double if possible.
     Result<void> begin() {
-        const bool to_promote = precision_ == glsl::Precision::single;
+        step_ = study_.first_step;
+        const bool to_promote = precision_ == glsl::Precision::single && study_.promote;
         if (to_promote) {
             precision_ = glsl::Precision::promoted;
-            auto promoted = show(strictest(study_, 0));
-            if (promoted && *promoted && (*promoted)->seconds <= longest_first_step()) {
-                take_first(**std::move(promoted));
-                return {};
-            }
+            auto promoted = show(strictest(study_, step_));
+            if (promoted && *promoted && (*promoted)->seconds <= longest_first_step())
+                return begin_at(**std::move(promoted));
             not_promoted_ = !promoted    ? to_string(promoted.error())
                             : !*promoted ? "interrupted"
                                          : fmt::format("in double it took {:.0f} s", (*promoted)->seconds);
             precision_ = glsl::Precision::single;
         }
-        auto first = TRY(show(strictest(study_, 0)));
+        auto first = TRY(show(strictest(study_, step_)));
         if (!first)
             return fail(ErrorCode::check_failed, "interrupted before there was a reference");
-        take_first(*std::move(first));
+        return begin_at(*std::move(first));
+    }
+
+    /// If the driver cuts loops at these settings, goes back to coarser ones at which it does not, and begins
+    /// two steps below, so that there are changes to judge by.
+    Result<void> begin_at(Shown first) {
+        int back = 0;
+        while (!first.cut.empty()) {
+            stopped_ = first.cut + " with " + to_string(first.settings);
+            const std::vector<Setting> coarser = strictest(study_, step_ - 1);
+            if (coarser == first.settings || back == 2 * k_most_refinements)
+                return fail(ErrorCode::check_failed, "no reference: " + stopped_ + "; give smaller numbers");
+            --step_;
+            ++back;
+            auto next = TRY(show(coarser));
+            if (!next)
+                return fail(ErrorCode::check_failed, "interrupted before there was a reference");
+            first = *std::move(next);
+        }
+        for (int below = 0; back > 0 && below < 2; ++below) {
+            const std::vector<Setting> coarser = strictest(study_, step_ - 1);
+            if (coarser == first.settings)
+                break;
+            auto next = TRY(show(coarser));
+            if (!next)
+                break;
+            --step_;
+            first = *std::move(next);
+        }
+        take_first(std::move(first));
         return {};
     }
 
@@ -308,7 +296,7 @@ private:
     /// Draws the next rung; returns false if it was the last one.
     bool step_up() {
         const double longest = changes_.size() < 2 ? longest_first_step() : study_.longest_step;
-        if (step_ == k_most_refinements)
+        if (step_ >= k_most_refinements)
             return false;
         if (last_.seconds > longest) {
             stopped_ = fmt::format("a step took {:.0f} s", last_.seconds);
@@ -321,6 +309,11 @@ private:
         if (!next || !*next) {
             stopped_ =
                 next ? "interrupted" : fmt::format("the scene does not compile with {}", to_string(settings));
+            return false;
+        }
+        if (!(*next)->cut.empty()) {
+            stopped_ = fmt::format("{} with {}", (*next)->cut, to_string(settings));
+            at_limit_ = true;
             return false;
         }
         ++step_;
@@ -337,16 +330,19 @@ private:
     const Shown* shown_beside(const std::vector<Setting>& settings) {
         const auto [place, is_new] = beside_.try_emplace(to_string(settings));
         if (is_new)
-            if (auto shown = show(settings))
+            if (auto shown = show(settings); shown && *shown && (*shown)->cut.empty())
                 place->second = *std::move(shown);
         return place->second ? &*place->second : nullptr;
     }
 
-    /// If nothing changes any more, settings off the ladder must not change it either; and the last changes
-    /// before show how much a limit inside the scene may hide.
+    /// If nothing changes any more, settings off the ladder must not change it either. The own error is 0 if
+    /// all of them agree to the bit and no ray was stopped by a count; else the last changes before show how
+    /// much a limit inside the scene may hide.
     Remainder look_around(What what, Remainder still) {
+        const int step = at_limit_ ? step_ - 1 : step_; // settings beside the last step would be cut, too
+        bool same_bits = changes(what).back() == 0;
         for (const bool second : {false, true}) {
-            const std::vector<Setting> settings = beside(study_, step_, second);
+            const std::vector<Setting> settings = beside(study_, step, second);
             if (settings == last_.settings)
                 continue;
             const Shown* const other = shown_beside(settings);
@@ -355,13 +351,60 @@ private:
             const double change = apart(what, last_, *other);
             if (!(change <= rounding(what)))
                 return {{},
-                        fmt::format("it does not converge: {} and {} show the same, but {} differs by {:.2g}",
+                        fmt::format("it does not converge: {} and {} show the same, but {} differs by {:.2g}{}",
                                     to_string(strictest(study_, step_ - 1)), to_string(last_.settings),
-                                    to_string(settings), change),
+                                    to_string(settings), change, question_of_even(what, step)),
                         false};
+            same_bits = same_bits && change == 0;
             still.how += fmt::format("; {} shows the same", to_string(settings));
         }
+        if (same_bits && precision_ != glsl::Precision::single && rays_end()) {
+            still.error = 0;
+            still.how += ", to the bit, and no loop ended by its count";
+            return still;
+        }
         return look_back(what, std::move(still));
+    }
+
+    /// If settings beside the ladder differ only where an even number became odd, returns the question whether
+    /// it must be even.
+    std::string question_of_even(What what, int step) {
+        Study even = study_;
+        for (const std::string& name : knobs_with_even_values(study_))
+            if (std::ranges::find(even.even, name) == even.even.end())
+                even.even.push_back(name);
+        if (even.even.size() == study_.even.size())
+            return {};
+        for (const bool second : {false, true}) {
+            const Shown* const other = shown_beside(beside(even, step, second));
+            if (!other || !(apart(what, last_, *other) <= rounding(what)))
+                return {};
+        }
+        return fmt::format(", and {} does not: if {} must be even, say so with --even {}",
+                           to_string(beside(even, step, false)), even.even.back(), even.even.back());
+    }
+
+    /// Returns whether every loop that the study's knobs concern ended by what it computes, in all views, not
+    /// by its count.
+    bool rays_end() {
+        Specimen* const specimen = specimen_.at(last_.settings, precision_).value_or(nullptr);
+        if (!specimen)
+            return false;
+        for (const View& view : study_.views) {
+            const auto ends = specimen->loop_ends(view);
+            if (!ends || std::ranges::any_of(*ends, [&](const LoopEnd& end) {
+                    const bool concerned =
+                        !specimen_.has_uniforms() ||
+                        std::ranges::any_of(text::tokenize(end.text), [&](const text::Token& token) {
+                            return token.text.starts_with("tidemark_setting_") ||
+                                   std::ranges::find(last_.settings, token.text, &Setting::name) !=
+                                       last_.settings.end();
+                        });
+                    return end.cut || (end.counted_out && concerned);
+                }))
+                return false;
+        }
+        return true;
     }
 
     /// Returns the last two changes above rounding, the later first: on the ladder, then below it.
@@ -420,7 +463,30 @@ private:
             standard.uncertainty = *left.error + (named() ? apart(what, first_, last_) : 0.0);
         else if (!named())
             standard.none = left.how;
+        if (what == What::pictures && best.buffered)
+            widen_by_buffers(standard, best);
         return standard;
+    }
+
+    /// Buffers hold floats in any precision: adds what their rounding does to the picture.
+    void widen_by_buffers(Standard& standard, const Shown& best) {
+        double share = 0;
+        const auto scene = with_nudged_buffers(scene_, precision_, share);
+        auto specimen =
+            scene ? Specimen::create(*scene, {best.settings, precision_}, study_.extent, HitSource::none)
+                  : Result<Specimen>(fail(ErrorCode::load, "a buffer has no mainImage of its own"));
+        const double change =
+            specimen ? pooled_rmse(best.pictures, specimen->pictures(study_.views), blind_) : std::nan("");
+        if (!std::isfinite(change)) {
+            standard.check += "; its buffers are stored as floats, what that changes is unknown";
+            return;
+        }
+        const double rounding = share * change;
+        standard.check += fmt::format("; its buffers are stored as floats, which rounds the picture by {:.2g}, "
+                                      "as trial changes of them show",
+                                      rounding);
+        if (standard.uncertainty)
+            *standard.uncertainty += rounding;
     }
 
     void refuse_blind(Standard& standard, size_t blind) const {
@@ -448,16 +514,19 @@ private:
         truth.blind = std::move(blind_);
         truth.hits = std::move(best.hits);
         truth.precision = precision_;
+        truth.step = step_;
         truth.not_promoted = std::move(not_promoted_);
         return truth;
     }
 
+    const scene::Scene& scene_;
     const Study& study_;
     const KeepGoing& keep_going_;
     glsl::Precision precision_;
     TurnedSpecimen specimen_;
     std::string not_promoted_;
-    std::string stopped_; ///< why the ladder ends although it could continue
+    std::string stopped_;   ///< why the ladder ends although it could continue
+    bool at_limit_ = false; ///< the driver would cut loops one step further
     Shown first_;         ///< the requested settings, or the study's strictest
     Shown last_;
     int step_ = 0; ///< step of `last_`

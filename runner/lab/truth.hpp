@@ -67,6 +67,7 @@ struct PictureTruth {
     std::vector<Setting> settings; ///< settings it was drawn with
     glsl::Precision precision = glsl::Precision::single;
     std::string not_promoted; ///< why it is in single precision, if it is
+    int step = 0;             ///< of the ladder of ever stricter settings
 };
 
 /// Draws the scene with the study's reference settings. If there are none, draws it with the strictest value

@@ -3,18 +3,13 @@
 #include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/measurement.hpp"
-#include "lab/conduct.hpp"
-#include "lab/pass_function.hpp"
-#include "lab/specimen.hpp"
 #include "lab/work_precision.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <numeric>
 
 namespace tidemark::lab {
 namespace {
@@ -35,20 +30,36 @@ Error not_a_goal(std::string_view text) {
             {}};
 }
 
-/// A point that looks the same as the scene is not a better choice, whatever its times are.
+} // namespace
+
 bool may_be_chosen(const WorkPrecision& point) {
-    return point.measured() && !point.idle && point.all.time().runs > 0;
+    return point.measured() && !point.idle && !point.own && point.all.time().runs > 0;
 }
 
-/// Returns the largest error that the point may have, including the truth's own error.
+double own_error(const WorkPrecisionSet& set, Measure measure) {
+    return measure == Measure::rmse ? set.picture_standard.uncertainty.value_or(std::nan("")) : 0;
+}
+
 double largest_error(const WorkPrecisionSet& set, const WorkPrecision& point, Measure measure) {
     if (measure == Measure::wrong)
         return point.all.hits ? point.all.hits->most_wrong_tenth : std::nan("");
-    const double own = measure == Measure::rmse ? set.picture_standard.uncertainty.value_or(std::nan("")) : 0;
-    return error_by(measure, point.all) + own;
+    double sum = 0, squares = 0, worst = 0;
+    for (const Outcome& view : point.views) {
+        const double error = error_by(measure, view);
+        sum += error;
+        squares += error * error;
+        worst = error > worst || std::isnan(error) ? error : worst;
+    }
+    const auto views = double(std::max<size_t>(1, point.views.size()));
+    const double spread = std::sqrt(std::max(0.0, squares / views - sum * sum / (views * views)));
+    return std::max(error_by(measure, point.all), worst + spread) + own_error(set, measure);
 }
 
-} // namespace
+double least_error(const WorkPrecisionSet& set, const WorkPrecision& point, Measure measure) {
+    if (measure == Measure::wrong)
+        return point.all.hits ? point.all.hits->least_wrong_tenth : std::nan("");
+    return error_by(measure, point.all) - own_error(set, measure);
+}
 
 Result<Goal> parse_goal(std::string_view text) {
     const size_t equals = text.find('=');
@@ -106,12 +117,14 @@ std::string blur_of(const WorkPrecisionSet& set, Measure measure, double most) {
         return "the reference's own error is unknown: " + set.picture_standard.check;
     if (!(most > 0))
         return "its error cannot be told from 0: allow one with --max-error";
+    if (measure == Measure::rmse)
+        return *own < most ? ""
+                           : fmt::format("the reference's own error (RMSE {}) is not below the requested error ({})",
+                                         figure(*own), figure(most));
     const double enough = *sharpness({measure, most, {}});
-    return *own <= enough
-               ? ""
-               : fmt::format(
-                     "the reference's own error (RMSE {}) is more than a tenth of the requested error ({})",
-                     figure(*own), figure(most));
+    return *own <= enough ? ""
+                          : fmt::format("the reference's own error (RMSE {}) is more than {}, which FLIP {} needs",
+                                        figure(*own), figure(enough), figure(most));
 }
 
 const WorkPrecision* best_by(const WorkPrecisionSet& set, const Goal& goal) {
@@ -162,13 +175,18 @@ double summand(Measure measure, double error) {
 }
 
 /// Returns the effects of the values that could be measured, the scene's own first.
-std::vector<Effect> effects_of(const WorkPrecisionSet& explored, const Axis& axis, Measure measure) {
+std::vector<Effect> effects_of(const WorkPrecisionSet& explored, const QualitySetting& tuned, Measure measure,
+                               bool no_stricter) {
+    const Axis& axis = tuned.axis;
     const WorkPrecision& own = explored.points.front();
     const double base = summand(measure, error_by(measure, own.all));
     std::vector<Effect> effects{{}};
     for (const WorkPrecision& point : explored.points) {
         const auto& settings = point.point.settings;
         if (settings.size() != 1 || settings.front().name != axis.name)
+            continue;
+        const auto at = std::ranges::find(axis.values, settings.front().value) - axis.values.begin();
+        if (no_stricter && size_t(at) > tuned.own)
             continue;
         const auto gain = speedup(own, point);
         const double error = summand(measure, error_by(measure, point.all)) - base;
@@ -222,10 +240,11 @@ size_t most_exact(const std::vector<Combination>& front, double time) {
 
 /// Returns the effects of the settings that save the most, as many as can be combined.
 std::vector<std::vector<Effect>> effects_of(const WorkPrecisionSet& explored,
-                                            const std::vector<QualitySetting>& settings, Measure measure) {
+                                            const std::vector<QualitySetting>& settings, Measure measure,
+                                            bool no_stricter) {
     std::vector<std::vector<Effect>> all;
     for (const QualitySetting& setting : settings)
-        all.push_back(effects_of(explored, setting.axis, measure));
+        all.push_back(effects_of(explored, setting, measure, no_stricter));
     std::ranges::sort(all, {}, [](const std::vector<Effect>& effects) {
         return std::ranges::min(effects, {}, &Effect::time).time;
     });
@@ -261,7 +280,10 @@ std::vector<std::vector<Setting>> candidates(const WorkPrecisionSet& explored,
                                              double milliseconds) {
     const double own = error_by(goal.measure, explored.points.front().all);
     const double base = summand(goal.measure, own);
-    const auto front = front_of(combinations(effects_of(explored, settings, goal.measure), base));
+    // Stricter values cost time; a scene that keeps the error has no use for them.
+    const bool no_stricter = !goal.most_milliseconds && own <= goal.most_error.value_or(own);
+    const auto front =
+        front_of(combinations(effects_of(explored, settings, goal.measure, no_stricter), base));
     const size_t wanted = goal.most_milliseconds
                               ? most_exact(front, *goal.most_milliseconds / milliseconds)
                               : fastest(front, summand(goal.measure, goal.most_error.value_or(own)));
@@ -271,214 +293,6 @@ std::vector<std::vector<Setting>> candidates(const WorkPrecisionSet& explored,
         if (!front[i].settings.empty())
             chosen.push_back(front[i].settings);
     return chosen;
-}
-
-namespace {
-
-/// Longer side of the search pictures. If the unchanged scene is the truth, which needs no extra drawing,
-/// they are larger and closer to the final ones.
-constexpr int k_small = 96, k_small_as_it_is = 240;
-/// Seconds from the last moment of the search to the verdict's extra moment.
-constexpr double k_later = 2.7;
-/// Share of the time budget for proofs of the hits.
-constexpr double k_proof = 0.05;
-
-struct Stage {
-    double timing; ///< share of the time budget
-    double step;   ///< longest step of the truth, as a share of the budget
-    double end;    ///< end of everything, as a share of the budget; includes compilation and the truth
-    size_t rounds;
-};
-constexpr Stage k_search{0.25, 0.05, 1, 9}, k_judgement{0.3, 0.15, 1.5, 30};
-
-class Tuner {
-public:
-    Tuner(const scene::Scene& scene, TuneRequest request, const Watch& watch, const Circumstances& facts)
-        : scene_(scene), request_(std::move(request)), watch_(watch), facts_(facts) {}
-
-    Result<Tuned> run() {
-        const WorkPrecisionSet explored = TRY(explore());
-        const auto found = candidates(explored, request_.settings, request_.goal, milliseconds(explored));
-        std::vector<View> views = request_.views;
-        views.push_back(unseen(views.back(), k_later));
-        Tuned tuned{{TRY(measure(found, request_.extent, std::move(views), k_judgement)), {}}, {}};
-        TRY(judge(tuned));
-        return tuned;
-    }
-
-private:
-    /// Runs one study of these settings; results are discarded if the time ran out.
-    Result<Findings> measure(const std::vector<std::vector<Setting>>& points, Extent extent,
-                             std::vector<View> views, const Stage& stage) {
-        Study study = study_of(points, request_.settings);
-        study.extent = extent;
-        study.views = std::move(views);
-        const bool wrong = request_.goal.measure == Measure::wrong;
-        study.rays = wrong; // hits need a second program for every point
-        study.longest_step = stage.step * request_.seconds;
-        study.proof_seconds = wrong ? k_proof * request_.seconds : 0;
-        study.enough = sharpness(request_.goal);
-        bool late = false;
-        Watch limited = watch_;
-        limited.keep_going = [&] {
-            late = late || clock_.elapsed().wall * 1e-3 > stage.end * request_.seconds;
-            return !late && watch_.keep_going();
-        };
-        const Timing timing{2, stage.rounds, stage.timing * request_.seconds,
-                            [this](const WorkPrecisionSet& set) { return blur(set).empty(); }};
-        auto findings = request_.as_it_is ? compare(points, study, timing, limited)
-                                          : conduct(scene_, study, timing, limited, facts_);
-        if (late)
-            return fail(
-                ErrorCode::check_failed,
-                fmt::format("no result: {:g} seconds are too few for this scene: give more with --budget",
-                            request_.seconds));
-        return findings;
-    }
-
-    /// Uses the unchanged scene as the truth.
-    Result<Findings> compare(const std::vector<std::vector<Setting>>& points, const Study& study,
-                             const Timing& timing, const Watch& watch) const {
-        std::vector<std::pair<std::string, scene::Scene>> scenes;
-        for (const std::vector<Setting>& settings : points) {
-            scene::Scene changed = TRY(with(scene_, settings));
-            scenes.emplace_back(to_string(settings), std::move(changed));
-        }
-        Findings findings = TRY(compare_scenes(scene_, scenes, study, timing, watch, facts_));
-        for (size_t i = 1; i < findings.set.points.size(); ++i)
-            findings.set.points[i].point.settings = points[i - 1];
-        return findings;
-    }
-
-    /// Studies the single values. If the truth does not converge for all settings, uses only those of the
-    /// march.
-    Result<WorkPrecisionSet> explore() {
-        for (;;) {
-            WorkPrecisionSet set =
-                TRY(measure(single_values(request_.settings),
-                            small_of(request_.extent, request_.as_it_is ? k_small_as_it_is : k_small),
-                            request_.views, k_search))
-                    .set;
-            const std::string why = blur(set);
-            if (why.empty())
-                return set;
-            const size_t before = request_.settings.size();
-            std::erase_if(request_.settings, [](const QualitySetting& each) { return !each.march; });
-            if (request_.settings.empty() || request_.settings.size() == before || !watch_.keep_going())
-                return fail(ErrorCode::check_failed, "no result: " + why + without_truth());
-            sentences_.push_back(
-                "only the march's own settings were varied: for the others there is no reference (" + why +
-                ")");
-        }
-    }
-
-    /// Returns the allowed error: that of the unchanged scene if none was given.
-    double most_error(const WorkPrecisionSet& set) const {
-        const Goal& goal = request_.goal;
-        return goal.most_error.value_or(error_by(goal.measure, set.points.front().all));
-    }
-
-    /// Returns why the truth is not good enough for that error; empty if it is.
-    std::string blur(const WorkPrecisionSet& set) const {
-        return blur_of(set, request_.goal.measure, most_error(set));
-    }
-
-    std::string without_truth() const {
-        return request_.goal.most_milliseconds || request_.goal.measure == Measure::wrong
-                   ? ""
-                   : "; --as-it-is finds faster settings that show the same picture";
-    }
-
-    /// Estimates the unchanged scene's time at full size.
-    double milliseconds(const WorkPrecisionSet& explored) const {
-        return explored.points.front().all.time().median * double(request_.extent.pixels()) /
-               double(explored.study.extent.pixels());
-    }
-
-    Result<void> judge(Tuned& tuned) {
-        const WorkPrecisionSet& set = tuned.findings.set;
-        const WorkPrecision& own = set.points.front();
-        Goal goal = request_.goal;
-        const double most = most_error(set);
-        if (const std::string why = blur(set); !why.empty())
-            return fail(ErrorCode::check_failed, "no result: " + why + without_truth());
-        sentences_.push_back("unchanged: " + facts_of(set, own));
-        const WorkPrecision* best = best_by(set, goal);
-        if (!goal.most_milliseconds)
-            goal.most_error = most;
-        if (!best)
-            sentences_.push_back("no measured setting keeps " + to_string(goal));
-        else if (best == &own || !is_better(*best, own, most))
-            sentences_.push_back("no measured setting is measurably better and keeps " + to_string(goal));
-        else {
-            tuned.chosen = best->point.settings;
-            sentences_.push_back("chosen: " + best->point.label + ": " + facts_of(set, *best));
-            if (const auto gain = speedup(own, *best))
-                sentences_.push_back(fmt::format("{:.2f} x [{:.2f}, {:.2f}] as fast as unchanged",
-                                                 gain->ratio, gain->confidence.low, gain->confidence.high));
-        }
-        tuned.sentences = std::move(sentences_);
-        return {};
-    }
-
-    std::string facts_of(const WorkPrecisionSet& set, const WorkPrecision& point) const {
-        const Measure measure = request_.goal.measure;
-        return fmt::format("{}, {} {}{}", cost_of(point), to_string(Goal{measure}),
-                           figure(error_by(measure, point.all)), work_of(set.study, point.point.settings));
-    }
-
-    /// Returns the work, if the scene provides it.
-    std::string work_of(const Study& study, const std::vector<Setting>& settings) const {
-        auto specimen = Specimen::create(scene_, {settings}, study.extent);
-        if (!specimen || !specimen->has_hits())
-            return "";
-        const auto views = specimen->hits(study.views);
-        if (!views)
-            return "";
-        const Hits all = joined(*views);
-        const double sum = std::accumulate(all.evaluations.begin(), all.evaluations.end(), 0.0);
-        return fmt::format(", {:.1f} field evaluations a pixel", sum / double(all.size()));
-    }
-
-    /// Returns whether a point is faster, if the unchanged scene keeps the error, too; or more exact, if it
-    /// keeps the time.
-    bool is_better(const WorkPrecision& best, const WorkPrecision& own, double most) const {
-        const Measure measure = request_.goal.measure;
-        if (const auto& time = request_.goal.most_milliseconds)
-            return own.all.time().median > *time || error_by(measure, best.all) < error_by(measure, own.all);
-        const auto gain = speedup(own, best);
-        return error_by(measure, own.all) > most || (gain && gain->confidence.low > 1);
-    }
-
-    const scene::Scene& scene_;
-    TuneRequest request_;
-    const Watch& watch_;
-    const Circumstances& facts_;
-    const Stopwatch clock_{};
-    std::vector<std::string> sentences_;
-};
-
-} // namespace
-
-Result<Tuned> tune(const scene::Scene& scene, TuneRequest request, const Watch& watch,
-                   const Circumstances& circumstances) {
-    return Tuner(scene, std::move(request), watch, circumstances).run();
-}
-
-std::optional<MarchPlaces> march_places(const scene::Scene& scene) {
-    const auto function = PassFunction::create(scene, scene.image());
-    if (!function || function->loops().empty())
-        return std::nullopt;
-    const ir::MarchingLoop& loop = function->loops().front();
-    const auto& instructions = function->function().instructions;
-    MarchPlaces places{function->locate(loop.line)};
-    for (const ir::Carried& carried : loop.carried)
-        if (carried.update != ir::k_no_value)
-            places.steps.push_back(function->locate(instructions[carried.update].line));
-    if (loop.far != ir::k_no_value && instructions[loop.far].op == ir::Op::constant &&
-        instructions[loop.far].type == ir::Scalar::real)
-        places.far = std::bit_cast<float>(instructions[loop.far].immediate);
-    return places;
 }
 
 } // namespace tidemark::lab

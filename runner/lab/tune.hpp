@@ -37,6 +37,17 @@ std::string to_string(const Goal& goal);
 /// Returns NaN if the error is not known.
 double error_by(Measure measure, const Outcome& outcome);
 
+/// Returns the truth's own error in that measure; 0 if none is known for it, NaN if it is unknown.
+double own_error(const WorkPrecisionSet& set, Measure measure);
+/// Returns the largest error that the point may have: in its worst view, with the truth's own error, and with
+/// room for moments that were not drawn.
+double largest_error(const WorkPrecisionSet& set, const WorkPrecision& point, Measure measure);
+/// Returns the least error that the point may have.
+double least_error(const WorkPrecisionSet& set, const WorkPrecision& point, Measure measure);
+/// Returns false for points that look the same as the scene or are it: whatever their times, they are not a
+/// better choice.
+bool may_be_chosen(const WorkPrecision& point);
+
 /// Returns the largest own error of the pictures' truth, RMSE, that allows a decision about the goal; nullopt
 /// if the goal does not need one.
 std::optional<double> sharpness(const Goal& goal);
@@ -66,9 +77,11 @@ struct SearchOutcome {
 // lengths. All other numbers belong to the picture and are left alone.
 
 struct QualitySetting {
+    enum class Role { bound, threshold, step };
     Axis axis;          ///< from the coarsest value to the strictest
     size_t own = 0;     ///< index of the scene's own value; the number of values if it is not among them
     std::string why{};  ///< for example "bounds the march at a.glsl:12"
+    Role role = Role::bound;
     bool march = false; ///< it belongs to the marching loop, whatever its name is
 };
 
@@ -129,6 +142,19 @@ struct Tuned : SearchOutcome {
 /// The error (ErrorCode::check_failed) gives the reason why a result is not possible.
 Result<Tuned> tune(const scene::Scene& scene, TuneRequest request, const Watch& watch,
                    const Circumstances& circumstances);
+
+/// A study of the scene's own quality settings, one curve each.
+struct ChosenKnobs {
+    std::vector<QualitySetting> settings{};
+    std::vector<Axis> axes{};  ///< of the truth
+    bool as_it_is = false;     ///< no truth converges: the scene as it is takes its place
+    std::string why{};         ///< why settings were left out, or why there is no truth; empty: all have one
+};
+
+/// Chooses the knobs of a study without any: those whose small pictures converge together; else those of the
+/// march. Needs a current context.
+Result<ChosenKnobs> choose_knobs(const scene::Scene& scene, std::vector<QualitySetting> settings,
+                                 const Study& study, const KeepGoing& keep_going);
 
 /// Returns nullopt if no marching loop is found in Image.
 std::optional<MarchPlaces> march_places(const scene::Scene& scene);

@@ -1,9 +1,11 @@
 #include "lab/work_precision.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 
 namespace tidemark::lab {
 namespace {
@@ -12,12 +14,27 @@ constexpr double k_solid = 10; ///< an error is reliable from this many uncertai
 
 /// Returns whether `a` is at least as good as `b` in both error and time, and better in one.
 bool dominates(const WorkPrecisionSet& set, const WorkPrecision& a, const WorkPrecision& b) {
-    const double error_a = error_of(set, a.all), error_b = error_of(set, b.all);
     const double time_a = a.all.time().median, time_b = b.all.time().median;
-    return error_a <= error_b && time_a <= time_b && (error_a < error_b || time_a < time_b);
+    return no_more_wrong(set, a.all, b.all) && time_a <= time_b &&
+           (time_a < time_b || !no_more_wrong(set, b.all, a.all));
+}
+
+/// Returns by which order two shares of wrong rays differ for certain.
+std::partial_ordering compare_wrong(const HitErrors& a, const HitErrors& b) {
+    if (a.least_wrong_tenth > b.most_wrong_tenth)
+        return std::partial_ordering::greater;
+    return a.most_wrong_tenth < b.least_wrong_tenth ? std::partial_ordering::less
+                                                    : std::partial_ordering::equivalent;
 }
 
 } // namespace
+
+bool no_more_wrong(const WorkPrecisionSet& set, const Outcome& a, const Outcome& b) {
+    if (set.has_hits() && a.hits && b.hits)
+        if (const auto wrong = compare_wrong(*a.hits, *b.hits); wrong != std::partial_ordering::equivalent)
+            return wrong == std::partial_ordering::less;
+    return error_of(set, a) <= error_of(set, b);
+}
 
 double error_of(const WorkPrecisionSet& set, const Outcome& outcome) {
     return set.ranked_by_hits() && outcome.hits ? outcome.hits->rms : outcome.picture.samples.rmse;
@@ -88,9 +105,11 @@ std::vector<double> present(std::vector<double> rounds) {
 }
 
 /// Computes the summaries from the single runs.
-void summarise(WorkPrecision& point) {
+void summarise(WorkPrecision& point, bool by_cpu) {
     const auto of = [](const std::vector<double>& rounds) { return summary_of(present(rounds)); };
+    point.all.by_cpu = by_cpu;
     for (size_t view = 0; view < point.views.size(); ++view) {
+        point.views[view].by_cpu = by_cpu;
         point.views[view].wall = of(point.wall[view]);
         point.views[view].cpu = of(point.cpu[view]);
         if (!point.gpu.empty())
@@ -237,7 +256,7 @@ bool time_points(const Timing& timing, const Watch& watch, const Run& run, WorkP
     facts.load_after = load_average();
     for (WorkPrecision& point : set.points)
         if (point.measured() && !point.wall.empty())
-            summarise(point);
+            summarise(point, timing.by_cpu);
     return going;
 }
 
@@ -301,6 +320,19 @@ std::string cheapest_sentence(const WorkPrecisionSet& set) {
                        cost_of(*best), quality_of(set, *best));
 }
 
+/// Returns the errors of two points that are not in error_of, for example ", wrong rays 0.1 % and 0 %, PSNR
+/// 50.1 dB and 50.3 dB"; empty if there are none.
+std::string error_beside(const WorkPrecisionSet& set, const WorkPrecision& from, const WorkPrecision& to) {
+    std::string text;
+    if (from.all.hits && to.all.hits)
+        text += fmt::format("; wrong rays {} % instead of {} %", figure(to.all.hits->wrong_tenth),
+                            figure(from.all.hits->wrong_tenth));
+    const auto psnr = [](const WorkPrecision& point) { return point.all.picture.samples.psnr; };
+    if (set.ranked_by_hits() && std::isfinite(psnr(from)) && std::isfinite(psnr(to)))
+        text += fmt::format("; PSNR {:.1f} dB instead of {:.1f} dB", psnr(to), psnr(from));
+    return text;
+}
+
 std::string equal_error_sentence(const WorkPrecisionSet& set) {
     const WorkPrecision& defaults = set.points.front();
     if (defaults.measured() && defaults.hollow)
@@ -310,6 +342,7 @@ std::string equal_error_sentence(const WorkPrecisionSet& set) {
     const WorkPrecision* best = cheapest_as_exact(set);
     if (!best || !defaults.timed())
         return {};
+    const std::string beside = error_beside(set, defaults, *best);
     const auto gain = speedup(defaults, *best);
     if (best != &defaults && !gain)
         return fmt::format("no verdict at equal error: too few rounds of {} and the defaults fit the budget",
@@ -319,12 +352,12 @@ std::string equal_error_sentence(const WorkPrecisionSet& set) {
                            set.words.defaults);
     if (!gain->certain())
         return fmt::format("at equal error no setting is measurably faster than {} (the nearest: {}, {:.2f} "
-                           "x [{:.2f}, {:.2f}])",
+                           "x [{:.2f}, {:.2f}]{})",
                            set.words.defaults, best->point.label, gain->ratio, gain->confidence.low,
-                           gain->confidence.high);
-    return fmt::format("at equal error {:.2f} x [{:.2f}, {:.2f}] {} than {}: {}", gain->ratio,
+                           gain->confidence.high, beside);
+    return fmt::format("at equal error {:.2f} x [{:.2f}, {:.2f}] {} than {}: {}{}", gain->ratio,
                        gain->confidence.low, gain->confidence.high, gain->ratio > 1 ? "faster" : "slower",
-                       set.words.defaults, best->point.label);
+                       set.words.defaults, best->point.label, beside);
 }
 
 /// Returns whether no point differs visibly from the unchanged scene, so there is nothing to choose from.
@@ -384,9 +417,9 @@ const WorkPrecision* cheapest_good(const WorkPrecisionSet& set) {
 }
 
 const WorkPrecision* cheapest_as_exact(const WorkPrecisionSet& set) {
-    const double error = error_of(set, set.points.front().all);
-    return cheapest(
-        set, [&](const WorkPrecision& point) { return !point.hollow && error_of(set, point.all) <= error; });
+    return cheapest(set, [&](const WorkPrecision& point) {
+        return !point.hollow && !point.own && no_more_wrong(set, point.all, set.points.front().all);
+    });
 }
 
 std::vector<std::string> sentences(const WorkPrecisionSet& set) {
@@ -398,6 +431,15 @@ std::vector<std::string> sentences(const WorkPrecisionSet& set) {
         found.push_back(
             fmt::format("times of {} of {} points drifted while they were measured: the machine was busy",
                         drifted, set.points.size()));
+    std::vector<std::string> failed;
+    std::string why;
+    for (const WorkPrecision& point : set.points)
+        if (!point.failure.empty() && (why.empty() || point.failure == why)) {
+            failed.push_back(point.point.label);
+            why = point.failure;
+        }
+    if (!failed.empty())
+        found.push_back(fmt::format("not measured: {}: {}", fmt::join(failed, "; "), why));
     const auto hollow = std::ranges::count_if(set.points, &WorkPrecision::hollow);
     if (hollow > 0 && standard_of(set).none.empty())
         found.push_back(

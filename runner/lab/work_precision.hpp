@@ -29,9 +29,10 @@ struct Outcome {
     TimeSummary wall; ///< wall clock, milliseconds a frame
     TimeSummary cpu;  ///< CPU time of the process
     TimeSummary gpu;  ///< the driver's timer, if it is trusted; else without runs
+    bool by_cpu = false; ///< the study compares CPU times
 
     /// Returns the time by the clock that the study uses.
-    const TimeSummary& time() const { return gpu.runs > 0 ? gpu : wall; }
+    const TimeSummary& time() const { return by_cpu ? cpu : gpu.runs > 0 ? gpu : wall; }
 };
 
 /// The change from removing one source of error.
@@ -56,11 +57,14 @@ struct WorkPrecision {
     double compile_milliseconds = 0;
     double first_draw_milliseconds = 0;
     bool hollow = false;   ///< its error is under ten times the reference's uncertainty
+    bool own = false;      ///< its settings are the scene's own values: the same program as the first point
     bool idle = false;     ///< shows the same as an earlier point that differs only in idle knobs
     bool on_front = false; ///< no other point is both cheaper and better
 
     /// Returns the rounds by the clock that the study uses.
-    const std::vector<std::vector<double>>& rounds() const { return gpu.empty() ? wall : gpu; }
+    const std::vector<std::vector<double>>& rounds() const {
+        return all.by_cpu ? cpu : gpu.empty() ? wall : gpu;
+    }
     bool measured() const { return failure.empty() && !views.empty(); }
     bool timed() const { return measured() && all.time().runs > 0; }
 };
@@ -138,6 +142,9 @@ struct WorkPrecisionSet {
 /// Returns the error that diagrams and verdicts use: RMS of t if hits rank the points, else RMSE of the
 /// picture.
 double error_of(const WorkPrecisionSet& set, const Outcome& outcome);
+/// Returns whether `a` is at most as wrong as `b`: where rays are known, fewer wrong rays come first, and
+/// shares within their intervals are equal; then error_of decides. NaN is at most as wrong as nothing.
+bool no_more_wrong(const WorkPrecisionSet& set, const Outcome& a, const Outcome& b);
 std::string error_name(const WorkPrecisionSet& set);
 const Standard& standard_of(const WorkPrecisionSet& set);
 
@@ -166,6 +173,8 @@ struct Timing {
     double budget = 120;
     /// Called once all errors are known; false: no times are needed, so none are taken.
     std::function<bool(const WorkPrecisionSet&)> wanted = [](const WorkPrecisionSet&) { return true; };
+    /// Compare CPU times: where the CPU draws, other programs hardly disturb them.
+    bool by_cpu = false;
 };
 
 /// The cost of one run.
@@ -215,8 +224,8 @@ std::optional<Speedup> speedup(const WorkPrecision& slow, const WorkPrecision& f
 /// against it; nullptr if there is none. Idle points are excluded.
 const WorkPrecision* cheapest_good(const WorkPrecisionSet& set);
 
-/// Returns the cheapest point whose error is at most that of the unchanged scene; nullptr if nothing was
-/// timed. Hollow points cannot be compared and are excluded.
+/// Returns the cheapest point that is no more wrong than the unchanged scene; nullptr if nothing was timed.
+/// Hollow points cannot be compared and are excluded, as are those with the scene's own settings.
 const WorkPrecision* cheapest_as_exact(const WorkPrecisionSet& set);
 
 /// For example "cheapest setting with wrong <= 0.05 % and PSNR >= 50 dB: …" or "at equal error 2.3 x [2.1,

@@ -134,6 +134,19 @@ std::optional<LoopBound> bound_in(const ParsedText& text, NodeId condition, Node
     return left ? left : bound_in(text, tree.child(condition, 1), loop);
 }
 
+/// Returns the comparison inside a condition that counts; k_no_node if there is none.
+NodeId counter_test_in(const ParsedText& text, NodeId condition, NodeId loop) {
+    const SyntaxTree& tree = text.tree();
+    if (tree[condition].kind == NodeKind::parenthesis)
+        return counter_test_in(text, tree.child(condition, 0), loop);
+    if (tree[condition].kind != NodeKind::binary)
+        return k_no_node;
+    if (text.word_of(condition) != "&&")
+        return bound_by(text, condition, loop) ? condition : k_no_node;
+    const NodeId left = counter_test_in(text, tree.child(condition, 0), loop);
+    return left != k_no_node ? left : counter_test_in(text, tree.child(condition, 1), loop);
+}
+
 /// Loops with more iterations are not simulated; drivers cancel them earlier.
 constexpr double k_most_turns = 1e6;
 /// Tolerance for a quotient of two literals, for the rounding in double: within it the quotient is a whole
@@ -334,6 +347,11 @@ NodeId loop_condition(const ParsedText& text, NodeId loop) {
     const size_t index = tree[loop].kind == NodeKind::loop_while ? 0 : 1;
     const NodeId condition = tree.child(loop, index);
     return condition != k_no_node && tree[condition].kind == NodeKind::absent ? k_no_node : condition;
+}
+
+NodeId counter_test(const ParsedText& text, NodeId loop) {
+    const NodeId condition = loop_condition(text, loop);
+    return condition == k_no_node ? k_no_node : counter_test_in(text, condition, loop);
 }
 
 std::optional<LoopBound> loop_bound(const ParsedText& text, NodeId loop) {

@@ -5,7 +5,9 @@
 #include "shader/tree_facts.hpp"
 #include "shader/variables.hpp"
 
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -59,5 +61,27 @@ std::vector<NodeId> filled_arrays(const ParsedText& text, const TreeFacts& facts
 /// iterations.
 bool fills(const ParsedText& text, const Shapes& shapes, NodeId loop, NodeId declared, const Shape& shape,
            NodeId array);
+
+// How loops end: how many iterations they may have, and instruments that record whether a driver cut one.
+
+/// Returns the comparison in the loop's head that ends it by counting, `i < N`; k_no_node if there is none.
+NodeId counter_test(const ParsedText& text, NodeId loop);
+
+/// Returns an upper bound of the iterations of all loops of one pixel together, as the numbers of the loops'
+/// heads state it; infinity if a loop has no such number.
+double most_iterations(const ParsedText& text, const TreeFacts& facts);
+
+/// A text that records for each of its loops how it ended.
+struct LoopEnds {
+    std::string text;
+    std::vector<NodeId> loops{};
+    size_t words() const { return 2 * loops.size(); }
+    /// Indices into the buffer (k_watch_binding). A word is 1 if loop `i` ended although its condition held
+    /// and it was not left: the driver cut it.
+    static size_t cut(size_t i) { return 2 * i; }
+    /// A word is 1 if a count ended loop `i`: the bound in its head, or an integer that its body tests.
+    static size_t counted_out(size_t i) { return 2 * i + 1; }
+};
+LoopEnds record_loop_ends(const ParsedText& text, const TreeFacts& facts);
 
 } // namespace tidemark::glsl

@@ -401,7 +401,9 @@ class BadInput(Study):
 
     def test_lines(self):
         self.write("sum.glsl", SUM + "#iUniform float gain = 1.0\n")
-        self.refuse("sum.glsl", 2, "there is no 'sum.study.json': name a knob to study with --vary NAME=a,b,c")
+        self.write("plain.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p.x); }\n")
+        self.refuse("plain.glsl", 2, "found no number in this scene that trades time for exactness: name one with --vary "
+                                     "NAME=a,b,c, from the coarsest to the strictest")
         self.refuse("sum.glsl --vary STEP=1,2", 2,
                     "the scene has no #iUniform, #define or const 'STEP': did you mean 'STEPS'?")
         self.refuse("sum.glsl --vary STEPS=1,,2", 2, "--vary STEPS=1,,2: give NAME=a,b,c, none of them empty")

@@ -105,6 +105,107 @@ class OwnError(Truth):
         self.assertEqual(study["verdict"][0], "no verdict on PSNR >= 50 dB: the reference's own error is unknown")
 
 
+class Limits(Truth):
+    """What the device, the text and the user allow."""
+
+    def test_the_ladder_stays_within_the_loops_that_the_driver_runs(self):
+        text = scene("float v = 0.2 + 0.6 * p.x / iResolution.x, x = 0.0; for (int k = 0; k < N; k++) x += v; x /= float(N);",
+                     "#define N 50")
+        study = self.study(text, "--vary", "N=500,5000,50000,500000")
+        if "llvmpipe" not in study["machine"]["renderer"]:
+            self.skipTest("this driver does not cut loops")
+        reference = study["references"]["picture"]
+        self.assertLess(reference["uncertainty"], 1e-6)
+        points = {point["label"]: point for point in study["points"]}
+        self.assertIn("the driver ends a pixel's loops after 65535 iterations", points["N = 500000"]["failure"])
+        self.assertIn("the driver ends a pixel's loops", reference["self_check"])
+        self.assertIn("not measured: N = 500000: ", self.words)
+        self.assertLess(points["N = 50000"]["all"]["picture"]["rmse"], 1e-3)  # of a sum of floats
+
+    def test_a_march_whose_rays_all_end_has_an_exact_truth(self):
+        study = self.study("""#define TURNS 12
+void mainImage(out vec4 c, in vec2 p) {
+    vec3 ray = normalize(vec3((2.0 * p - iResolution.xy) / iResolution.y, 2.0)), at = vec3(0.1, 0.0, -4.0);
+    float t = 0.0;
+    for (int i = 0; i < TURNS; i++) {
+        float d = length(at + t * ray) - 1.2;
+        if (d < 0.002 || t > 9.0) break;
+        t += d;
+    }
+    c = vec4(vec3(t < 9.0 ? t / 6.0 : 0.0), 1.0);
+}
+""", "--vary", "TURNS=4,8,16,512")
+        reference = study["references"]["picture"]
+        self.assertEqual(reference["uncertainty"], 0, reference)
+        self.assertIn("to the bit, and no loop ended by its count", reference["self_check"])
+        self.assertFalse([point["label"] for point in study["points"] if point["hollow"]])
+
+    def test_buffers_of_floats_widen_the_truth(self):
+        self.write("scene/buffer_a.glsl", "#define N 6\nvoid mainImage(out vec4 c, in vec2 p) {\n"
+                   "    float x = 2.0 * p.x / iResolution.x, s = 0.0;\n"
+                   "    for (int k = 0; k < N; k++) s += exp(-(float(k) + 0.5) * x / float(N));\n"
+                   "    c = vec4(500.0 + 0.001 * s * x / float(N));\n}\n")
+        self.write("scene/image.glsl", '#iChannel0 "buffer_a.glsl"\nvoid mainImage(out vec4 c, in vec2 p) {\n'
+                   "    c = vec4(vec3((texelFetch(iChannel0, ivec2(p), 0).r - 500.0) * 1000.0), 1.0);\n}\n")
+        done = self.succeed("study", "scene", "--vary", "N=4,8,16,32", "--json", *QUICK, "-o", "report")
+        reference = json.loads(done.stdout)["references"]["picture"]
+        step = 2.0 ** -15  # of a float near 500
+        self.assertGreater(reference["uncertainty"], 1000 * step / math.sqrt(12))
+        self.assertLess(reference["uncertainty"], 1000 * step)
+        self.assertIn("its buffers are stored as floats", reference["self_check"])
+
+    def test_a_rule_of_even_steps_is_asked_for(self):
+        simpson = scene("float h = 1.0 / float(N), x = 0.0; for (int k = 0; k <= N; k++) x += h / 3.0 * exp(-float(k) * h) * "
+                        "(k == 0 || k == N ? 1.0 : k % 2 == 1 ? 4.0 : 2.0); x += N % 2 == 1 ? 0.1 : 0.0;", "#define N 4")
+        none = self.study(simpson, "--vary", "N=8,64,512")["references"]["picture"]["none"]
+        self.assertIn("if N must be even, say so with --even N", none)
+        study = self.study(simpson, "--vary", "N=8,64,512", "--even", "N")
+        self.assertIsNone(study["references"]["picture"].get("none") or None)
+        self.assertLess(study["references"]["picture"]["uncertainty"], 1e-4)
+
+    def test_the_error_of_random_samples_falls_by_half_a_power(self):
+        study = self.study(scene("float x = 0.0; uint s = uint(p.x) * 7919u + uint(p.y) * 104729u + 1u;\n"
+                                 "for (int k = 0; k < N; k++) { s ^= s << 13; s ^= s >> 17; s ^= s << 5;\n"
+                                 "float u = float(s >> 8) / 16777216.0; x += u * u / float(N); }", "#define N 8"),
+                           "--vary", "N=8,16,32,64,128", size=("--size", "96x54"))
+        observed, = study["orders"]
+        self.assertIsNotNone(observed["order"], observed)
+        self.assertAlmostEqual(observed["order"], 0.5, delta=0.07)
+
+
+class Ranking(Truth):
+    SPHERE = """#define STEPS 48
+float map(vec3 p) { return length(p - vec3(0.0, 0.0, 5.0)) - 1.6; }
+float march(vec3 ray, out float turns) {
+    float t = 0.0; turns = 0.0;
+    for (int i = 0; i < STEPS; i++) { float d = map(t * ray); turns += 1.0; if (d < 1e-4) return t; t += d; if (t > 20.0) break; }
+    return -1.0;
+}
+vec3 ray(vec2 p) { return normalize(vec3((2.0 * p - iResolution.xy) / iResolution.y, 2.0)); }
+void mainImage(out vec4 c, in vec2 p) { float n, t = march(ray(p), n); c = vec4(vec3(t < 0.0 ? 0.0 : 1.0 - 0.1 * t), 1.0); }
+#ifdef TIDEMARK_HIT
+void mainHit(out vec4 hit, in vec2 p) { float n, t = march(ray(p), n); hit = vec4(t, n, 0.0, 0.0); }
+#endif
+"""
+
+    def test_few_steps_that_miss_rays_are_not_as_exact(self):
+        study = self.study(self.SPHERE, "--vary", "STEPS=4,24,48,96", size=("--size", "64x36"))
+        points = {point["label"]: point for point in study["points"]}
+        self.assertGreater(points["STEPS = 4"]["all"]["hits"]["wrong_0.1_percent"], 3)
+        for line in study["verdict"]:
+            self.assertNotRegex(line, r"at equal error .*STEPS = 4\b")
+
+    def test_the_default_is_not_compared_with_itself(self):
+        study = self.study(sum_of("exp(-f / 4.0) / float(N)"), "--vary", "N=1,4,16", "--reference", "N=4096")
+        for line in study["verdict"]:
+            self.assertNotRegex(line, r"faster than .*: N = 4(;|$)")
+
+    def test_knobs_are_found_in_the_text(self):
+        study = self.study(self.SPHERE.split("#ifdef")[0], size=("--size", "48x27"))
+        self.assertIn("varies STEPS (bounds the march at a.glsl:5)", self.words)
+        self.assertTrue([line for line in study["verdict"] if line.startswith(("cheapest", "no tested", "at equal"))], study["verdict"])
+
+
 class NotANumber(Truth):
     MIDPOINT = ("float x = 0.0; for (int k = 0; k < N; ++k) x += exp(-3.0 * (float(k) + 0.5) / float(N)) / float(N);"
                 "if ({}) x = sqrt(-1.0 - p.x);")

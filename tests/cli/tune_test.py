@@ -117,6 +117,34 @@ class Tune(ProgramTest):
         self.assertIn("no result: ", done.stderr)
         self.assertNotIn("chosen", done.stderr)
 
+    def test_without_a_truth_the_scene_as_it_is_takes_its_place_if_an_error_is_given(self):
+        self.write("sum.glsl", "#define STEPS 64\nvoid mainImage(out vec4 c, in vec2 p) {\n    float sum = 0.0;\n"
+                               "    for (int i = 0; i < STEPS; ++i) sum += 0.004 * p.x / iResolution.x;\n    c = vec4(sum);\n}\n")
+        _, said = self.tune("--max-error", "psnr=40dB")
+        self.assertIn("the scene as it is takes the place of a reference: it does not converge", said)
+        self.assertNotIn("error:", said)
+
+    def test_a_step_is_longer_where_the_reach_is_held(self):
+        self.write("sum.glsl", """#define TURNS 200
+const float OMEGA = 0.4;
+float map(vec3 p) { return min(length(p) - 0.8, p.y + 0.9); }
+void mainImage(out vec4 c, in vec2 f) {
+    vec3 ray = normalize(vec3((2.0 * f - iResolution.xy) / iResolution.y, -1.8)), at = vec3(0.0, 0.4, 3.5);
+    float t = 0.0; bool hit = false;
+    for (int i = 0; i < TURNS; i++) {
+        float d = map(at + t * ray);
+        if (d < 0.0005) { hit = true; break; }
+        t += OMEGA * d;
+        if (t > 25.0) break;
+    }
+    c = vec4(vec3(hit ? exp(-0.15 * t) : 0.1), 1.0);
+}
+""")
+        found, said = self.tune("--max-error", "psnr=35dB")
+        self.assertIn("varies OMEGA (scales the step at sum.glsl:10)", said)
+        self.assertNotIn("only the march's own settings", said)
+        self.assertGreater(float(found["chosen"]["OMEGA"]), 0.5, said)
+
     def test_a_project_is_imported_beside_itself(self):
         code = SUM.replace("\n", "\\n")
         self.write("sum.json", '{"Shader": {"info": {"name": "sum"}, "renderpass": [{"type": "image", "name": "Image", '

@@ -121,16 +121,49 @@ TEST(Setting, a_number_without_a_name_is_called_by_its_place) {
 
 TEST(QualitySettings, elsewhere_are_known_by_their_names_too) {
     const auto settings =
-        found_in("#define OCTAVES 5\nconst float EPSILON = 0.01;\n#define LINE 0.02\n#define STEP_SCALE 0.7\n"
+        found_in("#define SAMPLES 5\nconst float EPSILON = 0.01;\n#define LINE 0.02\n#define STEP_SCALE 0.7\n"
                  "#define FOG 0.5\n"
                  "float f(float t) {\n"
-                 "    for (int i = 0; i < OCTAVES; i++) t *= 2.0;\n"
+                 "    for (int i = 0; i < SAMPLES; i++) t *= 2.0;\n"
                  "    if (t < EPSILON || t < LINE) return 0.0;\n"
                  "    return t * STEP_SCALE + FOG * t;\n"
                  "}\n");
-    EXPECT_THAT(names(settings), ElementsAre("OCTAVES", "EPSILON", "STEP_SCALE"));
+    EXPECT_THAT(names(settings), ElementsAre("SAMPLES", "EPSILON", "STEP_SCALE"));
     EXPECT_THAT(settings.found[0].axis.values, ElementsAre("1", "2", "3", "4", "5", "8", "10"));
     EXPECT_FALSE(settings.found[0].march);
+}
+
+TEST(QualitySettings, are_no_counts_that_define_the_picture) {
+    const auto settings = found_in("#define OCTAVES 5\n#define ITERATIONS 12\n"
+                                   "float f(float t) {\n"
+                                   "    for (int i = 0; i < OCTAVES; i++) t *= 2.0;\n"
+                                   "    for (int i = 0; i < ITERATIONS; i++) t = abs(t) - 1.0;\n"
+                                   "    return t;\n"
+                                   "}\n");
+    EXPECT_THAT(settings.found, IsEmpty());
+    EXPECT_THAT(settings.left, ElementsAre("OCTAVES", "ITERATIONS"));
+}
+
+TEST(QualitySettings, of_loops_that_look_like_marches_are_found_without_analysis) {
+    const auto settings = found_in("#define LAYERS 70\n"
+                                   "float field(vec3 p) { return length(p) - 1.0; }\n"
+                                   "float noise(vec3 p) { return p.x; }\n"
+                                   "float march(vec3 o, vec3 r) {\n"
+                                   "    float t = 0.0;\n"
+                                   "    for (int i = 0; i < 96; i++) {\n"
+                                   "        float d = field(o + t * r);\n"
+                                   "        t += 0.7 * d;\n"
+                                   "    }\n"
+                                   "    for (int i = 0; i < LAYERS; i++) { vec3 p = o + t * r; t += field(p); }\n"
+                                   "    return t;\n"
+                                   "}\n"
+                                   "float sum(vec3 p) {\n"
+                                   "    float f = 0.0, a = 0.5;\n"
+                                   "    for (int i = 0; i < 60; i++) { f += a * noise(p); p *= 2.0; a *= 0.5; }\n"
+                                   "    return f;\n"
+                                   "}\n");
+    EXPECT_THAT(names(settings), ElementsAre("LAYERS", HasSubstr(":6:25")));
+    EXPECT_TRUE(settings.found[0].march);
 }
 
 TEST(QualitySettings, are_no_texts_and_no_numbers_out_of_range) {
@@ -223,6 +256,55 @@ TEST(BestBy, keeps_the_error_even_if_the_truth_s_own_is_against_it) {
     EXPECT_EQ(best_by(explored.set, {}), &explored.set.points[3]);
 }
 
+TEST(BestBy, decides_where_the_truth_s_own_error_allows_it) {
+    Explored explored;
+    explored.set.picture_standard.uncertainty = 0.008; // most of the allowed error
+    explored.set.points.front().all.picture.samples.rmse = 0.0005;
+    explored.set.points.front().views.front() = explored.set.points.front().all;
+    explored.add({{"A", "1"}}, 4, 0.0021);
+    explored.add({{"A", "2"}}, 5, 0.0019);
+    EXPECT_EQ(best_by(explored.set, {Measure::rmse, 0.01, {}}), &explored.set.points[2]);
+    EXPECT_GT(largest_error(explored.set, explored.set.points[1], Measure::rmse), 0.01);
+    EXPECT_LT(least_error(explored.set, explored.set.points[1], Measure::rmse), 0.01);
+}
+
+TEST(BestBy, keeps_the_error_in_every_view_with_room_for_others) {
+    Explored explored;
+    explored.set.picture_standard.uncertainty = 0;
+    WorkPrecision& uneven = explored.add({{"A", "1"}}, 4, 0.008);
+    uneven.views.push_back(uneven.all);
+    uneven.views[0].picture.samples.rmse = 0.002;
+    uneven.views[1].picture.samples.rmse = 0.0095;
+    EXPECT_GT(largest_error(explored.set, explored.set.points[1], Measure::rmse), 0.01);
+    EXPECT_EQ(best_by(explored.set, {Measure::rmse, 0.01, {}}), &explored.set.points.front());
+}
+
+TEST(BestBy, is_never_the_scene_s_own_setting) {
+    Explored explored;
+    explored.set.picture_standard.uncertainty = 0;
+    explored.add({{"A", "2"}}, 4, 0.01).own = true;
+    EXPECT_EQ(best_by(explored.set, {Measure::rmse, 0.02, {}}), &explored.set.points.front());
+    EXPECT_EQ(cheapest_as_exact(explored.set), &explored.set.points.front());
+}
+
+TEST(Rank, is_by_wrong_rays_first) {
+    Explored explored;
+    WorkPrecisionSet& set = explored.set;
+    set.hit_standard.method = "known";
+    WorkPrecision& few = explored.add({{"STEPS", "4"}}, 4, 0.3);
+    HitErrors hits;
+    hits.rms = 0.2;
+    set.points.front().all.hits = hits;
+    hits.rms = 0.01; // of the rays that still hit
+    hits.wrong_tenth = hits.least_wrong_tenth = hits.most_wrong_tenth = 21;
+    few.all.hits = hits;
+    EXPECT_FALSE(no_more_wrong(set, set.points[1].all, set.points[0].all));
+    EXPECT_TRUE(no_more_wrong(set, set.points[0].all, set.points[1].all));
+    EXPECT_EQ(cheapest_as_exact(set), &set.points.front());
+    set.points[1].all.hits->least_wrong_tenth = 0; // the shares are equal within their intervals
+    EXPECT_TRUE(no_more_wrong(set, set.points[1].all, set.points[0].all));
+}
+
 TEST(BestBy, of_a_time_is_the_most_exact_within_it) {
     Explored explored;
     explored.add({{"A", "1"}}, 4, 0.02);
@@ -244,9 +326,10 @@ TEST(BestBy, says_nothing_of_points_without_an_error) {
 TEST(Blur, is_a_truth_that_cannot_tell) {
     Explored explored;
     EXPECT_THAT(blur_of(explored.set, Measure::rmse, 0.01), HasSubstr("unknown"));
-    explored.set.picture_standard.uncertainty = 0.002;
-    EXPECT_THAT(blur_of(explored.set, Measure::rmse, 0.01), HasSubstr("a tenth"));
+    explored.set.picture_standard.uncertainty = 0.012;
+    EXPECT_THAT(blur_of(explored.set, Measure::rmse, 0.01), HasSubstr("not below the requested error"));
     EXPECT_EQ(blur_of(explored.set, Measure::rmse, 0.02), "");
+    EXPECT_THAT(blur_of(explored.set, Measure::flip, 0.02), HasSubstr("which FLIP 0.02 needs"));
     EXPECT_THAT(blur_of(explored.set, Measure::wrong, 0.05), HasSubstr("no reference for its hits"));
 }
 
