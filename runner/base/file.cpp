@@ -186,6 +186,26 @@ Result<OutputPath::Place> OutputPath::place() const {
 
 namespace {
 
+/// Returns the name of an existing file that differs from `path` in the case of its letters, or in backslashes
+/// for slashes; empty if there is none.
+std::string name_nearby(const fs::path& path) {
+    std::string name = path.string();
+    std::error_code ignored;
+    if (name.find('\\') != std::string::npos) {
+        std::ranges::replace(name, '\\', '/');
+        return fs::exists(name, ignored) ? name : std::string();
+    }
+    constexpr int k_most = 10'000; // entries of a large folder are not all read for a hint
+    const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
+    const std::string wanted = lower_case(path.filename().string());
+    int left = k_most;
+    for (fs::directory_iterator entry(folder, ignored), end; !ignored && entry != end && left-- > 0;
+         entry.increment(ignored))
+        if (lower_case(entry->path().filename().string()) == wanted)
+            return entry->path().filename().string();
+    return {};
+}
+
 /// Returns why nothing exists at `path`; names the dangling link if there is one on the way.
 std::string why_missing(const fs::path& path) {
     fs::path way;
@@ -199,7 +219,8 @@ std::string why_missing(const fs::path& path) {
                    ? fmt::format("it is a link to '{}', which does not exist", target)
                    : fmt::format("'{}' is a link to '{}', which does not exist", way.string(), target);
     }
-    return "no such file";
+    const std::string near = name_nearby(path);
+    return near.empty() ? "no such file" : fmt::format("no such file; did you mean '{}'?", near);
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include <cassert>
 #include <limits>
 #include <optional>
+#include <set>
 
 namespace tidemark::text {
 namespace {
@@ -219,12 +220,22 @@ std::optional<Include> include_at(std::string_view text, const std::vector<Token
     if (!first.is("<") || last == tokens.begin() + end)
         return std::nullopt;
     const std::string_view name = text.substr(first.end(), last->begin - first.end());
-    if (!name.starts_with(k_library))
-        return std::nullopt;
-    include.name = name.substr(k_library.size());
-    include.of_library = true;
+    include.of_library = name.starts_with(k_library);
+    include.in_angles = !include.of_library;
+    include.name = include.of_library ? name.substr(k_library.size()) : name;
     include.end = last->end();
     return include;
+}
+
+bool has_pragma_once(std::string_view text) {
+    if (text.find("once") == std::string_view::npos)
+        return false;
+    const std::vector<Token> tokens = tokenize(text);
+    for (size_t i = 0; i + 2 < tokens.size(); ++i)
+        if (tokens[i].first_on_line && tokens[i].is("#") && tokens[i + 1].is("pragma") &&
+            tokens[i + 2].is("once"))
+            return true;
+    return false;
 }
 
 /// Files that include others twice double the text at each level: a few small files could run for ever.
@@ -267,6 +278,8 @@ private:
 
     Result<void> paste(const fs::path& path, const std::string& text) {
         chain_.push_back({path});
+        if (has_pragma_once(text))
+            once_.insert(path);
         size_t copied = 0;
         int line = 1;
         for (const Include& include : find_includes(text)) {
@@ -285,9 +298,24 @@ private:
         return {};
     }
 
+    /// Keeps the line: it may be meant for another host, and the driver decides whether it counts.
+    void leave(const fs::path& from, const Include& include, const std::string& text) {
+        const std::string_view line =
+            std::string_view(text).substr(include.begin, include.end - include.begin);
+        result_.text.append(line, from.string(), include.line);
+    }
+
     Result<void> follow(const fs::path& from, const Include& include, const std::string& text) {
+        if (include.in_angles && !include.conditional)
+            return refuse(fmt::format("write the file's name in quotes: #include \"{}\"", include.name));
+        if (include.in_angles) {
+            leave(from, include, text);
+            return {};
+        }
         const fs::path folder = include.of_library ? library_ : from.parent_path();
         const fs::path target = (folder / include.name).lexically_normal();
+        if (once_.contains(target))
+            return {};
         for (const Level& level : chain_)
             if (level.file == target)
                 return refuse(fmt::format("'{}' includes itself", include.name));
@@ -299,10 +327,8 @@ private:
             include.name.empty() ? fail(ErrorCode::load, "#include \"\" names no file") : expand(target);
         if (pasted || !pasted.error().diagnostics.empty())
             return pasted;
-        if (include.conditional) { // may be meant for another host; the driver decides whether it counts
-            const std::string_view line =
-                std::string_view(text).substr(include.begin, include.end - include.begin);
-            result_.text.append(line, from.string(), include.line);
+        if (include.conditional) {
+            leave(from, include, text);
             return {};
         }
         return refuse(pasted.error().message);
@@ -323,6 +349,7 @@ private:
     std::vector<fs::path> missing_;
     size_t followed_ = 0;
     std::vector<Level> chain_;
+    std::set<fs::path> once_; ///< files with `#pragma once`
 };
 
 } // namespace

@@ -92,10 +92,11 @@ struct Include {
     int line = 0;
     std::string name = {};
     bool of_library = false;
+    bool in_angles = false;   ///< `<name>` that is not in our library
     bool conditional = false; ///< is inside an #if
 };
 
-/// Returns the includes in text order, without `#include <name>` of other libraries.
+/// Returns the includes in text order.
 std::vector<Include> find_includes(std::string_view text);
 
 struct ExpandedText {

@@ -254,8 +254,10 @@ UniformTable::Names CompiledScene::names_of(size_t pass, const glsl::Dialect& di
 }
 
 GLenum CompiledScene::format_of(size_t pass) const {
-    return scene_.passes[pass].kind == PassKind::image && options_.samples == SampleType::u8 ? GL_RGBA8
-                                                                                             : GL_RGBA32F;
+    const scene::Pass& drawn = scene_.passes[pass];
+    const bool bytes =
+        drawn.stores_bytes || (drawn.kind == PassKind::image && options_.samples == SampleType::u8);
+    return bytes ? GL_RGBA8 : GL_RGBA32F;
 }
 
 } // namespace tidemark::render

@@ -31,6 +31,7 @@ struct SamplingWishes {
     std::optional<Filter> minify;
     std::optional<Mipmaps> mipmaps;
     std::optional<Wrap> wrap;
+    std::optional<bool> vflip;
     bool cubemap = false;
 };
 
@@ -42,6 +43,7 @@ Sampling sampling_of(const Channel& channel, const SamplingWishes& wishes) {
     sampling.minify = wishes.minify.value_or(sampling.minify);
     sampling.mipmaps = wishes.mipmaps.value_or(sampling.mipmaps);
     sampling.wrap = wishes.wrap.value_or(sampling.wrap);
+    sampling.vflip = wishes.vflip.value_or(sampling.vflip);
     return sampling;
 }
 
@@ -76,6 +78,7 @@ private:
     // Grammar
     bool at_directive() const;
     void follow_conditionals();
+    Status check_spelling() const;
     Status read_directive();
     Status read_channel(std::string_view keyword, const SourceLocation& where);
     Status read_channel_source(size_t number, const SourceLocation& where);
@@ -182,9 +185,29 @@ void DirectiveReader::follow_conditionals() {
         depth_ = std::max(0, depth_ - 1);
 }
 
+/// Refuses a misspelled directive, such as `#iUnifrom`.
+Result<void> DirectiveReader::check_spelling() const {
+    if (!next_is("#") || !peek()->first_on_line || position_ + 1 >= tokens_.size() || depth_ > 0)
+        return {};
+    const std::string_view keyword = tokens_[position_ + 1].text;
+    if (keyword.size() < 4 || (keyword[0] != 'i' && keyword[0] != 'I') || keyword == "include")
+        return {};
+    const std::string_view name = keyword.substr(0, keyword.find_first_of("0123456789"));
+    const std::string meant =
+        nearest_name(name, {"iUniform", "iKeyboard", "iVertex", "iSize", "iFirstPersonControls", "iChannel",
+                            "ifdef", "ifndef", "include"});
+    if (!meant.starts_with("i") || meant == name || meant == "ifdef" || meant == "ifndef" ||
+        meant == "include")
+        return {};
+    return fail(error_at(place_of(*peek()), fmt::format("there is no directive '#{}': did you mean '#{}{}'?",
+                                                        keyword, meant, keyword.substr(name.size()))));
+}
+
 Result<Directives> DirectiveReader::read_all() {
     while (peek()) {
         follow_conditionals();
+        if (conditional_ == Conditional::read && !at_directive())
+            TRY(check_spelling());
         if (!at_directive() || (depth_ > 0 && conditional_ == Conditional::leave)) {
             ++position_;
             continue;
@@ -249,6 +272,12 @@ Result<void> DirectiveReader::read_channel(std::string_view keyword, const Sourc
 }
 
 Result<void> DirectiveReader::read_channel_source(size_t number, const SourceLocation& where) {
+    if (!at_end() && peek()->kind != TokenKind::string) {
+        const std::string_view line = text::line_of(text_.text(), peek()->line);
+        std::string_view rest = line.substr(size_t(peek()->column - 1));
+        rest = rest.substr(0, rest.find_first_of(" \t\r"));
+        return fail(error_at(here(), fmt::format("the name needs quotes: #iChannel{} \"{}\"", number, rest)));
+    }
     auto name = TRY(expect_string());
     if (name.starts_with("file://"))
         name.erase(0, std::string_view("file://").size());
@@ -281,7 +310,7 @@ Result<void> DirectiveReader::read_channel_parameter(SamplingWishes& wishes) {
         {"Repeat", Wrap::repeat}, {"Clamp", Wrap::clamp}, {"Mirror", Wrap::mirror}};
 
     if (!peek())
-        return wanted("MinFilter, MagFilter, WrapMode or Type");
+        return wanted("MinFilter, MagFilter, WrapMode, VFlip or Type");
     const SourceLocation where = here();
     const std::string parameter(tokens_[position_++].text);
     auto value = TRY(expect_string());
@@ -316,9 +345,15 @@ Result<void> DirectiveReader::read_channel_parameter(SamplingWishes& wishes) {
             return fail(error_at(where, fmt::format("Type \"{}\": give Texture2D or CubeMap", value)));
         return {};
     }
-    return fail(
-        error_at(where, fmt::format("unknown parameter '{}': give MinFilter, MagFilter, WrapMode or Type",
-                                    parameter)));
+    if (parameter == "VFlip") {
+        if (value != "true" && value != "false")
+            return fail(error_at(where, fmt::format("VFlip \"{}\": give true or false", value)));
+        wishes.vflip = value == "true";
+        return {};
+    }
+    return fail(error_at(
+        where, fmt::format("unknown parameter '{}': give MinFilter, MagFilter, WrapMode, VFlip or Type",
+                           parameter)));
 }
 
 /// `800x450` is several tokens: a number and those glued to it.
@@ -395,6 +430,12 @@ Result<void> DirectiveReader::read_knob_values(Knob& knob) {
                                              knob.name)));
     if (!has_default)
         knob.value = knob.range->low;
+    for (size_t i = 0; knob.range && i < size_t(info(knob.type).components); ++i)
+        if (knob.value[i] < knob.range->low[i] || knob.value[i] > knob.range->high[i])
+            return fail(
+                error_at(knob.where, fmt::format("the default of '{}' is {}, outside of its range {} to {}",
+                                                 knob.name, to_string(knob), to_string(knob, knob.range->low),
+                                                 to_string(knob, knob.range->high))));
     knob.initial = knob.value;
     return {};
 }

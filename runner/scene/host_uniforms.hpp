@@ -71,9 +71,9 @@ struct HostUniform {
     bool image = true;   ///< has a value in passes that draw pictures
     bool sound = false;  ///< declared in the Sound pass
     bool common = false; ///< declared on the site where it compiles Common by itself
-    /// Names on glslsandbox.com, in glslViewer and in the VS Code extension. A text outside of a project, or
-    /// one with its own `main`, gets the value by these names too.
-    std::array<std::string_view, 2> other_names{};
+    /// Names on glslsandbox.com, in glslViewer, in Bonzomatic and in the VS Code extension. A text outside of
+    /// a project, or one with its own `main`, gets the value by these names too.
+    std::array<std::string_view, 3> other_names{};
     Follows follows = Follows::nothing;
     RangeOverTime over_time{};
     /// A scene that needs the value looks wrong on ShaderToy's site, where it is zero.
@@ -93,13 +93,13 @@ inline constexpr std::array k_host_uniforms{
     HostUniform{.value = HostValue::resolution,
                 .name = "iResolution",
                 .type = "vec3",
-                .other_names = {"resolution", "u_resolution"},
+                .other_names = {"resolution", "u_resolution", "v2Resolution"},
                 .meaning = "size of the picture in pixels; z is 1",
                 .script = "[...size, 1]"},
     HostUniform{.value = HostValue::time,
                 .name = "iTime",
                 .type = "float",
-                .other_names = {"time", "u_time"},
+                .other_names = {"time", "u_time", "fGlobalTime"},
                 .follows = Follows::clock,
                 .over_time = k_between_ends,
                 .meaning = "seconds since the start",
@@ -107,7 +107,7 @@ inline constexpr std::array k_host_uniforms{
     HostUniform{.value = HostValue::time_delta,
                 .name = "iTimeDelta",
                 .type = "float",
-                .other_names = {"u_delta"},
+                .other_names = {"u_delta", "fFrameTime"},
                 .follows = Follows::clock,
                 .over_time = k_any_from_0,
                 .meaning = "seconds since the previous frame",

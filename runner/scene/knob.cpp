@@ -249,17 +249,39 @@ size_t end_of_value(const std::vector<Token>& tokens, size_t equals) {
     return std::min(i + 1, tokens.size());
 }
 
+/// Returns whether the token is the name in `#iUniform TYPE NAME`, or in `uniform TYPE NAME` for a plain
+/// knob.
+bool declares(const std::vector<Token>& tokens, size_t name, bool plain) {
+    if (!plain)
+        return name >= 3 && tokens[name - 3].is("#") && tokens[name - 2].is("iUniform");
+    for (size_t i = name; i-- > 0 && !tokens[i].is(";") && !tokens[i].is("}");)
+        if (tokens[i].is("uniform"))
+            return true;
+    return false;
+}
+
 /// Returns the range from the end of a knob's name to the end of its default, if it has one.
-std::optional<Span> place_of_default(const std::vector<Token>& tokens, std::string_view name) {
-    for (size_t i = 0; i + 3 < tokens.size(); ++i) {
-        if (!tokens[i].is("#") || !tokens[i + 1].is("iUniform") || !tokens[i + 3].is(name))
+std::optional<Span> place_of_default(const std::vector<Token>& tokens, const Knob& knob) {
+    for (size_t i = 0; i < tokens.size(); ++i) {
+        if (!tokens[i].is(knob.name) || !declares(tokens, i, knob.plain))
             continue;
-        const size_t behind = i + 4;
-        const bool has_default = behind < tokens.size() && tokens[behind].is("=");
-        const size_t end = has_default ? end_of_value(tokens, behind) : behind;
-        return Span{tokens[i + 3].end(), tokens[end - 1].end()};
+        const size_t next = i + 1;
+        const bool has_default = next < tokens.size() && tokens[next].is("=");
+        const size_t end = has_default ? end_of_value(tokens, next) : next;
+        return Span{tokens[i].end(), tokens[end - 1].end()};
     }
     return std::nullopt;
+}
+
+/// Formats the knob's value for the place of its default: `2.0`, `vec2(1, 0.5)` for a plain knob, whose
+/// default is GLSL.
+std::string default_of(const Knob& knob) {
+    if (!knob.plain)
+        return to_literal(knob);
+    std::string text = to_string(knob);
+    if (knob.type == KnobType::float1 && text.find_first_of(".e") == std::string::npos)
+        text += ".0";
+    return text;
 }
 
 } // namespace
@@ -267,10 +289,11 @@ std::optional<Span> place_of_default(const std::vector<Token>& tokens, std::stri
 Result<std::string> with_defaults(std::string_view text, const std::vector<Knob>& knobs) {
     std::string changed(text);
     for (const Knob& knob : knobs) {
-        const auto place = place_of_default(text::tokenize(changed), knob.name);
+        const auto place = place_of_default(text::tokenize(changed), knob);
         if (!place)
-            return fail(ErrorCode::write, fmt::format("there is no line '#iUniform … {}' in it", knob.name));
-        changed.replace(place->begin, place->end - place->begin, " = " + to_literal(knob));
+            return fail(ErrorCode::write, fmt::format("there is no line '{} … {}' in it",
+                                                      knob.plain ? "uniform" : "#iUniform", knob.name));
+        changed.replace(place->begin, place->end - place->begin, " = " + default_of(knob));
     }
     return changed;
 }

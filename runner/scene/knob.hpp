@@ -32,7 +32,8 @@ void set(std::vector<T>& settings, const T& setting) {
         *known = setting;
 }
 
-// A knob: a uniform that the scene declares with `#iUniform` for the user to change.
+// A knob: a uniform for the user to change, which the scene declares with `#iUniform`, or with `uniform`
+// alone in a text for another host.
 
 enum class KnobType { float1, vec2, vec3, vec4, color3, int1, ivec2, ivec3, ivec4 };
 
@@ -64,6 +65,7 @@ struct Knob {
     std::optional<KnobRange> range{}; ///< a slider's range; a value may lie outside
     std::optional<KnobValue> step{};
     SourceLocation where{};
+    bool plain = false; ///< declared as `uniform float NAME;` in the text itself
 };
 
 /// A value given for a knob. It can be parsed and printed without the scene that declares the knob.

@@ -178,8 +178,22 @@ Result<PassLoader::FileText> PassLoader::read(const fs::path& file) {
             note_file(scene_, path);
     auto directives = TRY(take_directives(expanded.text, conditional_));
     scene_.warnings.insert(scene_.warnings.end(), directives.warnings.begin(), directives.warnings.end());
+    OtherHosts others;
+    if (conditional_ == Conditional::read) {
+        std::array<bool, k_channel_count> taken{};
+        std::ranges::transform(directives.sources, taken.begin(),
+                               [](const std::string& source) { return !source.empty(); });
+        others = read_other_hosts(expanded.text, taken, directives.knobs);
+        for (Knob& knob : others.knobs)
+            if (!knob_of_name_.contains(knob.name))
+                directives.knobs.push_back(std::move(knob));
+        for (Diagnostic& warning : others.warnings)
+            if (std::ranges::find(scene_.warnings, warning) == scene_.warnings.end())
+                scene_.warnings.push_back(std::move(warning));
+    }
     TRY(add_knobs(std::move(directives.knobs)));
-    return FileText{std::move(expanded.text), std::move(directives), std::move(expanded.files)};
+    return FileText{std::move(expanded.text), std::move(directives), std::move(expanded.files),
+                    std::move(others)};
 }
 
 /// A knob that several passes declare with the same type is one knob: it has one slider and one value.
@@ -238,7 +252,9 @@ Result<void> PassLoader::load(size_t draft) {
         scene_.moves_view = scene_.moves_view || file.directives.moves_view;
         included_[draft] = std::move(file.files);
         loading_.push_back(draft);
-        auto bound = bind(draft, file.directives);
+        drafts_[draft].pass.definitions = std::move(file.others.definitions);
+        auto bound =
+            bind(draft, file.directives).and_then([&] { return bind_other_hosts(draft, file.others); });
         loading_.pop_back();
         if (!bound)
             return bound;
@@ -261,6 +277,33 @@ Result<void> PassLoader::bind(size_t draft, const Directives& directives) {
         channel.input = std::move(input);
         drafts_[draft].pass.channels[i] = std::move(channel);
     }
+    return {};
+}
+
+Result<void> PassLoader::bind_other_hosts(size_t draft, const OtherHosts& others) {
+    constexpr Sampling k_clamped = k_buffer_sampling;
+    if (others.last_frame) {
+        drafts_[draft].pass.channels[*others.last_frame] = {PassOutput{draft}, k_clamped, {}};
+        drafts_[draft].pass.stores_bytes = true;
+    }
+    if (drafts_[draft].buffer)
+        drafts_[draft].pass.definitions += fmt::format("#define BUFFER_{}\n", *drafts_[draft].buffer);
+    else if (!others.buffers.empty() && viewer_buffers_.empty()) {
+        for (size_t i = 0; i < others.buffers.size(); ++i) {
+            Draft buffer;
+            buffer.pass.kind = PassKind::buffer;
+            buffer.pass.name = fmt::format("BUFFER_{}", i);
+            buffer.file = drafts_[draft].file;
+            buffer.buffer = i;
+            viewer_buffers_.push_back(add(std::move(buffer)));
+        }
+        for (const size_t buffer : viewer_buffers_)
+            TRY(load(buffer));
+    }
+    for (size_t i = 0; i < std::min(others.buffers.size(), viewer_buffers_.size()); ++i)
+        if (others.buffers[i])
+            drafts_[draft].pass.channels[*others.buffers[i]] = {
+                PassOutput{viewer_buffers_[i]}, k_clamped, {}};
     return {};
 }
 

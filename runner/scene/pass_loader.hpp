@@ -5,9 +5,11 @@
 #include "base/error.hpp"
 #include "scene/directives.hpp"
 #include "scene/load_scene.hpp"
+#include "scene/other_hosts.hpp"
 #include "scene/scene.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -18,6 +20,8 @@ namespace tidemark::scene {
 struct Draft {
     Pass pass;                  ///< PassOutput::pass is an index into the drafts
     std::filesystem::path file; ///< its source file; empty for a pass from JSON
+    /// Compiled with BUFFER_N defined, as glslViewer compiles the passes in one text.
+    std::optional<size_t> buffer{};
 };
 
 /// Checks that every pass defines its entry function, sorts the drafts into drawing order (buffers as in
@@ -60,12 +64,15 @@ private:
         text::MappedText text;
         Directives directives;
         std::vector<std::filesystem::path> files;
+        OtherHosts others{};
     };
 
     Result<FileText> read(const std::filesystem::path& file);
     /// `image` is Image's file; empty for other passes and Common.
     Result<void> take_size(const Directives& directives, const std::filesystem::path& image);
     Result<void> add_knobs(std::vector<Knob> knobs);
+    /// Binds what a text for another host reads: its last frame, and glslViewer's buffers.
+    Result<void> bind_other_hosts(size_t draft, const OtherHosts& others);
     Result<void> bind(size_t draft, const Directives& directives);
     Result<ChannelInput> input_of(size_t draft, const Channel& channel, const std::string& source);
     Result<ChannelInput> output_of_file(size_t reader, const std::filesystem::path& file,
@@ -81,7 +88,8 @@ private:
     std::vector<Draft> drafts_;
     std::unordered_map<std::string, size_t> knob_of_name_; ///< indices into the scene's knobs
     std::vector<size_t> order_;
-    std::vector<size_t> loading_; ///< buffers waiting for those that they read
+    std::vector<size_t> viewer_buffers_; ///< the drafts of BUFFER_0, BUFFER_1 and so on
+    std::vector<size_t> loading_;        ///< buffers waiting for those that they read
     struct Common {
         std::filesystem::path file;
         text::MappedText text;

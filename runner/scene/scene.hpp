@@ -46,7 +46,9 @@ struct Pass {
     text::MappedText text; ///< includes pasted, directives blanked out, line numbers unchanged
     Channels channels;
     bool keyboard_helpers = false; ///< has `#iKeyboard`: isKeyDown(Key_A) and the like must be declared
-    bool bare_file = false; ///< not part of a project: SHADER_TOY is defined, as in the VS Code extension
+    bool bare_file = false;    ///< not part of a project: SHADER_TOY is defined, as in the VS Code extension
+    std::string definitions{}; ///< `#define` lines that precede the text, for names of other hosts
+    bool stores_bytes = false; ///< a buffer of 8 bits a channel, as other hosts' `backbuffer`
 };
 
 struct Scene {

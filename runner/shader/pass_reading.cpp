@@ -51,6 +51,8 @@ text::MappedText whole_text(const scene::Scene& scene, const scene::Pass& pass) 
         text.append_generated(fmt::format("#define {} 1\n", k_hit_macro));
     if (pass.bare_file && pass.text.text().find(k_extension_macro) != std::string::npos)
         text.append_generated(fmt::format("#define {}\n", k_extension_macro));
+    if (!pass.definitions.empty())
+        text.append_generated(pass.definitions);
     text.append(scene.common);
     text.append(pass.text);
     return text;

@@ -174,4 +174,15 @@ TEST(ChannelDirectives, what_is_missing_is_said) {
     EXPECT_THAT(refusal("#iChannel0 \"\""), naming("dir/a.glsl:1: error:", "is empty"));
 }
 
+TEST(ChannelDirectives, vflip_turns_a_picture_over) {
+    EXPECT_TRUE(channel_0("#iChannel0 \"a.png\"").sampling.vflip);
+    EXPECT_FALSE(channel_0("#iChannel0 \"a.png\"\n#iChannel0::VFlip \"false\"").sampling.vflip);
+    EXPECT_NE(refusal("#iChannel0::VFlip \"no\"").find("give true or false"), std::string::npos);
+}
+
+TEST(ChannelDirectives, a_name_without_quotes_is_shown_with_them) {
+    EXPECT_EQ(refusal("\n#iChannel2 file://a/b.png // x"),
+              "dir/a.glsl:2:12: error: the name needs quotes: #iChannel2 \"file://a/b.png\"");
+}
+
 } // namespace tidemark::scene::channel_directives_test

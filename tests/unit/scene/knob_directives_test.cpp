@@ -198,4 +198,17 @@ TEST(KnobDirectives, what_is_missing_is_said) {
                 naming("dir/a.glsl:1:20: error:", "a number", "the end of the line"));
 }
 
+TEST(KnobDirectives, a_default_outside_of_its_range_is_refused) {
+    EXPECT_EQ(refusal("\n#iUniform float a = 3.0 in { 0.0, 2.0 }"),
+              "dir/a.glsl:2: error: the default of 'a' is 3, outside of its range 0 to 2");
+}
+
+TEST(KnobDirectives, a_misspelled_directive_suggests_the_right_one) {
+    EXPECT_EQ(refusal("#iUnifrom float a = 3.0"),
+              "dir/a.glsl:1:1: error: there is no directive '#iUnifrom': did you mean '#iUniform'?");
+    EXPECT_NE(refusal("#iChanel1 \"a.png\"").find("'#iChannel1'"), std::string::npos);
+    EXPECT_EQ(refusal("#if 0\n#iUnifrom\n#endif"), "it was read");
+    EXPECT_EQ(refusal("#ifdef A\n#endif\n#define iUnifrom 1"), "it was read");
+}
+
 } // namespace tidemark::scene::knob_directives_test
