@@ -186,8 +186,8 @@ Result<OutputPath::Place> OutputPath::place() const {
 
 namespace {
 
-/// Returns the name of an existing file that differs from `path` in the case of its letters, or in backslashes
-/// for slashes; empty if there is none.
+/// Returns the name of an existing file that differs from `path` in the case of its letters, or in
+/// backslashes for slashes; empty if there is none.
 std::string name_nearby(const fs::path& path) {
     std::string name = path.string();
     std::error_code ignored;

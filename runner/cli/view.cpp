@@ -156,8 +156,7 @@ void add_scale_options(Command command, ViewOptions& options) {
         names.push_back(scale.name());
     command
         .add_option(
-            "--scale",
-            [&options](const std::string& name) { options.scale = RenderScale::named(name); },
+            "--scale", [&options](const std::string& name) { options.scale = RenderScale::named(name); },
             "Initial render scale: rendered pixels per window pixel, along a side [1]")
         .type_name(fmt::format("{}", fmt::join(names, "|")))
         .check(one_of(names));

@@ -212,8 +212,8 @@ LongerMarch MarchRays::march_longer(glm::ivec2 pixel, uint32_t most) const {
         loop.header, loop.entry);
     const std::vector<float> before = outputs(as_is), after = outputs(longer);
     for (size_t i = 0; i < before.size(); ++i)
-        result.shows |= !(std::abs(std::clamp(after[i], 0.0f, 1.0f) - std::clamp(before[i], 0.0f, 1.0f)) <=
-                          k_shown_step);
+        result.shows |=
+            !(std::abs(std::clamp(after[i], 0.0f, 1.0f) - std::clamp(before[i], 0.0f, 1.0f)) <= k_shown_step);
     return result;
 }
 

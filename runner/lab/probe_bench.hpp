@@ -39,7 +39,8 @@ struct Outside {
     size_t pass = 0;    ///< index in the scene
     glsl::DomainSite site{};
 
-    /// Returns whether it is a texel outside of its texture or level, which is 0 on ShaderToy's site and here.
+    /// Returns whether it is a texel outside of its texture or level, which is 0 on ShaderToy's site and
+    /// here.
     bool is_texel() const { return site.kind == glsl::DomainKind::fetch; }
 };
 

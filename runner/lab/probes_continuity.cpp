@@ -239,9 +239,10 @@ Result<Answer> ask_hashes(ProbeBench& bench) {
     if (!sines.empty())
         answer.sentence = "fract of a large sine gives different numbers on each GPU: " + listed(sines);
     if (!products.empty())
-        answer.sentence += fmt::format("{}fract of a large product gives different numbers on a GPU with fused "
-                                       "multiply-add: {}",
-                                       sines.empty() ? "" : "; ", listed(products));
+        answer.sentence +=
+            fmt::format("{}fract of a large product gives different numbers on a GPU with fused "
+                        "multiply-add: {}",
+                        sines.empty() ? "" : "; ", listed(products));
     if (answer.sentence.empty())
         return Answer{Verdict::pass,
                       "no random numbers from large sines, nor from products that rounding changes"};

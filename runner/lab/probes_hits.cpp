@@ -144,8 +144,8 @@ Result<Answer> ask_lipschitz_sweep(ProbeBench& bench) {
             continue;
         most = overstepping;
         answer = {overstepping <= allowed_percent ? Verdict::pass
-                  : bench.has_main_hit()           ? Verdict::warn
-                                                   : Verdict::note,
+                  : bench.has_main_hit()          ? Verdict::warn
+                                                  : Verdict::note,
                   fmt::format("at worst, with {}: {:.3g} % of the rays take a sample below the surface, "
                               "{:.3g} % run out of steps",
                               set, overstepping, flagged(hits, glsl::k_hit_exhausted)),

@@ -291,13 +291,17 @@ Result<Answer> ask_edges(ProbeBench& bench) {
     if (!texts)
         return Answer{Verdict::not_applicable, "the text cannot be analysed: " + to_string(texts.error())};
     std::vector<std::string> reversed, others;
+    Answer answer{Verdict::warn};
     for (const PassText& pass : *texts)
         for (const glsl::WrongEdges& each : glsl::find_wrong_edges(*pass.text, pass.facts)) {
             const std::string said = sentence_for(*pass.text, each);
             const bool clamps = glsl::called_name(*pass.text, each.call) == "clamp";
             auto& list = clamps || each.equal ? others : reversed;
-            if (!said.empty() && std::ranges::find(list, said) == list.end())
-                list.push_back(said);
+            if (said.empty() || std::ranges::find(list, said) != list.end())
+                continue;
+            list.push_back(said);
+            if (clamps || each.equal)
+                add_place(answer, pass.text->spelled(pass.text->tree()[each.call].begin));
         }
     const std::string known =
         reversed.empty()
@@ -306,7 +310,8 @@ Result<Answer> ask_edges(ProbeBench& bench) {
     if (others.empty())
         return Answer{Verdict::pass,
                       known.empty() ? "no clamp or smoothstep has its edges in the wrong order" : known};
-    return Answer{Verdict::warn, listed(others) + (known.empty() ? "" : "; " + known)};
+    answer.sentence = listed(others) + (known.empty() ? "" : "; " + known);
+    return answer;
 }
 
 Result<std::vector<Seam>> find_seams(ProbeBench& bench, const std::vector<PassText>& texts) {
@@ -325,7 +330,7 @@ Result<std::vector<Seam>> find_seams(ProbeBench& bench, const std::vector<PassTe
             const double percent = after ? visibly_different_percent(before, *after) : 0;
             if (percent > 0 && percent < k_most_of_a_seam)
                 found.push_back(
-                    {place,
+                    {place, pass.text->spelled(pass.text->tree()[each.call].begin),
                      fmt::format("{}: the coordinates of `{}` jump by {}, so that pixels at the "
                                  "jump read a blurred mipmap: a line in {:.2g} % of the picture",
                                  place, shortened(pass.text->excerpt(each.call)), each.jump, percent),
@@ -344,7 +349,10 @@ Result<Answer> ask_seams(ProbeBench& bench) {
     std::vector<std::string> sentences;
     for (const Seam& seam : found)
         sentences.push_back(seam.sentence);
-    return Answer{Verdict::fail, listed(sentences), found[0].where, std::move(found[0].picture)};
+    Answer answer{Verdict::fail, listed(sentences), found[0].where, std::move(found[0].picture)};
+    for (const Seam& seam : found)
+        add_place(answer, seam.location);
+    return answer;
 }
 
 } // namespace tidemark::lab

@@ -53,7 +53,8 @@ std::string sentence_for(const glsl::ParsedText& text, const glsl::WrongEdges& e
 
 /// A line in the picture where a look-up's coordinates jump: pixels there read a mipmap that is too small.
 struct Seam {
-    std::string place;    ///< `a.glsl:4`
+    std::string place; ///< `a.glsl:4`
+    SourceLocation location;
     std::string sentence; ///< place, look-up, and how much of the picture changes without the jump
     FrameState where;
     image::Image picture; ///< the difference

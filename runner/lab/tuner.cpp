@@ -45,11 +45,12 @@ struct Stage {
 };
 constexpr Stage k_search{0.15, 0.05, 1, 7}, k_judgement{0.25, 0.1, 1.5, 15};
 
-/// Returns the axes by which a truth becomes stricter. A step that is scaled down reaches less far, so its scale
-/// is held unless the count of the march grows with it.
+/// Returns the axes by which a truth becomes stricter. A step that is scaled down reaches less far, so its
+/// scale is held unless the count of the march grows with it.
 std::vector<Axis> axes_of_truth(const std::vector<QualitySetting>& settings) {
-    const bool counts = std::ranges::any_of(
-        settings, [](const QualitySetting& each) { return each.march && each.role == QualitySetting::Role::bound; });
+    const bool counts = std::ranges::any_of(settings, [](const QualitySetting& each) {
+        return each.march && each.role == QualitySetting::Role::bound;
+    });
     std::vector<Axis> axes;
     for (const QualitySetting& each : settings)
         if (counts || each.role != QualitySetting::Role::step)
@@ -74,7 +75,8 @@ public:
         found = TRY(screened(std::move(found)));
         std::vector<View> views = request_.views;
         for (const double later : k_later)
-            if (later == k_later.front() || views.back().state.frame < 120 || !render::may_have_feedback(scene_))
+            if (later == k_later.front() || views.back().state.frame < 120 ||
+                !render::may_have_feedback(scene_))
                 views.push_back(unseen(request_.views.back(), later));
         Tuned tuned{{TRY(measure(found, request_.extent, std::move(views), k_judgement)), {}}, {}};
         TRY(judge(tuned));
@@ -138,12 +140,10 @@ private:
         return findings;
     }
 
-    Extent small() const {
-        return small_of(request_.extent, request_.as_it_is ? k_small_as_it_is : k_small);
-    }
+    Extent small() const { return small_of(request_.extent, request_.as_it_is ? k_small_as_it_is : k_small); }
 
-    /// Studies the single values. Without a truth for all settings, takes only those of the march; without one
-    /// for them, the scene as it is becomes the truth if an error was given.
+    /// Studies the single values. Without a truth for all settings, takes only those of the march; without
+    /// one for them, the scene as it is becomes the truth if an error was given.
     Result<WorkPrecisionSet> explore() {
         if (by_hits())
             return explore_hits();
@@ -176,8 +176,8 @@ private:
     }
 
     void say_why_only_march(const std::string& why) {
-        sentences_.push_back("only the march's own settings were varied: for the others there is no reference (" +
-                             why + ")");
+        sentences_.push_back(
+            "only the march's own settings were varied: for the others there is no reference (" + why + ")");
     }
 
     /// Finds small pictures to which the scene converges, in single precision if that is enough.
@@ -305,9 +305,8 @@ private:
         for (const WorkPrecision* point : points)
             if (kept.size() < k_judged)
                 kept.push_back(point->point.settings);
-        const auto exact = std::ranges::min_element(points, {}, [&](const WorkPrecision* point) {
-            return error_by(measure, point->all);
-        });
+        const auto exact = std::ranges::min_element(
+            points, {}, [&](const WorkPrecision* point) { return error_by(measure, point->all); });
         if (exact != points.end() && std::ranges::find(kept, (*exact)->point.settings) == kept.end())
             kept.back() = (*exact)->point.settings;
         return kept;

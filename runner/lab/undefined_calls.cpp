@@ -211,9 +211,9 @@ Result<Answer> ask_bounds(ProbeBench& bench) {
             sentences.push_back(outside.sentence);
             const Verdict level = outside.is_texel() ? Verdict::note : Verdict::warn;
             if (level > answer.verdict || !answer.where) {
-                answer.effect =
-                    (outside.is_texel() ? "other hosts may draw garbage: " : "other GPUs may draw garbage: ") +
-                    outside.what;
+                answer.effect = (outside.is_texel() ? "other hosts may draw garbage: "
+                                                    : "other GPUs may draw garbage: ") +
+                                outside.what;
                 answer.where = outside.where;
                 answer.places.clear();
             }

@@ -1,8 +1,8 @@
 // Cures and cuts that are proposed for any text: each is put into it, or says that it cannot be, and what
 // comes of it is a text that is read again.
 #include "fuzz.hpp"
-#include "shader/fixes.hpp"
 #include "shader/cuts.hpp"
+#include "shader/fixes.hpp"
 #include "shader/undefined_behaviour.hpp"
 
 #include <iterator>

@@ -1,7 +1,7 @@
 // Cuts: what is proposed to be left out of a text, and what the text then says.
 #include "glsl_support.hpp"
-#include "shader/loops.hpp"
 #include "shader/cuts.hpp"
+#include "shader/loops.hpp"
 
 #include <gtest/gtest.h>
 

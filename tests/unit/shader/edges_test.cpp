@@ -1,4 +1,5 @@
-// Edges in the wrong order, coordinates that jump, whole quotients and negative dividends: what is found, and the fix.
+// Edges in the wrong order, coordinates that jump, whole quotients and negative dividends: what is found, and
+// the fix.
 #include "glsl_support.hpp"
 #include "shader/fixes.hpp"
 #include "shader/undefined_behaviour.hpp"
@@ -28,7 +29,8 @@ std::string without_seams(const std::string& body) {
     const auto read = parsed(k_front + body + " }\n");
     const TreeFacts facts = find_facts(*read);
     std::vector<Cure> cures;
-    for (const JumpingLookUp& each : find_jumping_look_ups(*read, facts, [](std::string_view) { return true; }))
+    for (const JumpingLookUp& each :
+         find_jumping_look_ups(*read, facts, [](std::string_view) { return true; }))
         if (auto cure = smooth_look_up(*read, facts, each))
             cures.push_back(*std::move(cure));
     return fixed(body, cures);
@@ -61,17 +63,19 @@ TEST(Edges, AreOrderedWhereTheTextStatesThemInTheWrongOrder) {
 
 TEST(Edges, AreLeftWhereTheyAreInOrderOrUnknown) {
     for (const char* const body :
-         {"float f = smoothstep(0.4, 0.5, u.x);", "float f = clamp(u.x, 0.0, 1.0);", "float f = clamp(u.x, u.y, 0.0);",
-          "float e = 0.9; e = 0.1; float f = smoothstep(e, 0.5, u.x);", "float f = clamp(u.x, 0.5, 0.5);"})
+         {"float f = smoothstep(0.4, 0.5, u.x);", "float f = clamp(u.x, 0.0, 1.0);",
+          "float f = clamp(u.x, u.y, 0.0);", "float e = 0.9; e = 0.1; float f = smoothstep(e, 0.5, u.x);",
+          "float f = clamp(u.x, 0.5, 0.5);"})
         EXPECT_EQ(with_ordered_edges(body), body);
 }
 
 TEST(Seams, AreTakenFromTheLookUp) {
     EXPECT_EQ(without_seams("vec4 c = texture(tex, fract(u.xy * 4.0));"),
               "vec4 c = textureGrad(tex, fract(u.xy * 4.0), dFdx((u.xy * 4.0)), dFdy((u.xy * 4.0)));");
-    EXPECT_EQ(without_seams("vec2 q = floor(u.xy * 8.0) / 8.0; vec4 c = texture(tex, q);"),
-              "vec2 q = floor(u.xy * 8.0) / 8.0; vec4 c = textureGrad(tex, q, dFdx(((0.0 * (u.xy * 8.0)) / 8.0)), "
-              "dFdy(((0.0 * (u.xy * 8.0)) / 8.0)));");
+    EXPECT_EQ(
+        without_seams("vec2 q = floor(u.xy * 8.0) / 8.0; vec4 c = texture(tex, q);"),
+        "vec2 q = floor(u.xy * 8.0) / 8.0; vec4 c = textureGrad(tex, q, dFdx(((0.0 * (u.xy * 8.0)) / 8.0)), "
+        "dFdy(((0.0 * (u.xy * 8.0)) / 8.0)));");
     EXPECT_EQ(without_seams("vec4 c = texture(tex, vec2(atan(u.y, u.x), 0.5));"),
               "vec4 c = textureGrad(tex, vec2(atan(u.y, u.x), 0.5), "
               "(dot(dFdx(vec2(atan(u.y, u.x), 0.5)), dFdx(vec2(atan(u.y, u.x), 0.5))) < "
