@@ -295,8 +295,9 @@ const scene::Pass* shown_pass(const scene::Scene& scene, const std::string& name
 /// size and the kind of the shown pass; null if it could not be loaded.
 Result<CapturePlan> plan_of_options(const CaptureOptions& options, const scene::Scene* files) {
     CapturePlan plan;
-    plan.frames = TRY(resolve(files && !options.likeness ? sized(options.frames, *files) : options.frames,
-                              options.likeness ? options.likeness->sequence : FrameSequence()));
+    plan.options = options;
+    plan.frames = TRY(resolve(files && !options.like_frames ? sized(options.frames, *files) : options.frames,
+                              options.like_frames.value_or(FrameSequence())));
     plan.states = states_of(plan.frames);
     const scene::Pass* const shown = files ? shown_pass(*files, plan.frames.state.pass) : nullptr;
     plan.cube = shown && shown->kind == scene::PassKind::cubemap;
@@ -306,14 +307,12 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options, const scene::
         numbers = TRY(frames_of_sheet(options, plan.frames, *plan.sheet));
     }
     const size_t count = plan.sheet ? 1 : std::unordered_set(numbers.begin(), numbers.end()).size();
-    auto output = TRY(options.output ? OutputName::parse(*options.output, count)
+    plan.output = TRY(options.output ? OutputName::parse(*options.output, count)
                                      : OutputName::of_scene(options.scene.path, count));
-    plan.output = std::move(output);
     if (plan.to_picture_files() && !plan.sheet)
         drop_repeats(numbers);
     plan.codec = TRY(parse_codec(options.codec, plan.output));
-    const auto depth = TRY(parse_depth(options.depth, plan.output, plan.codec, plan.frames.state.pass));
-    plan.depth = depth;
+    plan.depth = TRY(parse_depth(options.depth, plan.output, plan.codec, plan.frames.state.pass));
     plan.transfer = TRY(parse_transfer(options.transfer, plan));
     plan.pace = pace_of(numbers, plan.frames.state.fps);
     plan.exposure = exposure_of(options, plan.depth);
@@ -335,16 +334,6 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options, const scene::
     };
     if (plan.output.video())
         plan.segments = segments_of(numbers, plan.pace, options.state_every);
-    plan.tile_side = options.tile;
-    plan.device = options.device;
-    plan.timeout = options.timeout;
-    plan.request = options.scene;
-    plan.like = options.like;
-    plan.likeness = options.likeness;
-    plan.json = options.json;
-    plan.resume = options.resume;
-    plan.loop = options.loop;
-    plan.state_every = options.state_every;
     return check_output(plan, options).map([&] { return std::move(plan); });
 }
 
@@ -378,7 +367,7 @@ constexpr size_t k_frames_worth_a_trial = 64;
 
 /// Plans a trial of the first and the last frame, in their states of the sequence but with empty buffers.
 /// While a recording changes knobs, they cannot be constants in a program.
-Result<std::optional<PlannedTrial>> plan_trial(const CaptureOptions& options, const CapturePlan& plan) {
+Result<std::optional<TrialPlan>> plan_trial(const CaptureOptions& options, const CapturePlan& plan) {
     const std::vector<int>& frames = plan.frames.frames;
     const bool turned = plan.frames.input && turns_knobs(*plan.frames.input);
     if (turned && options.allowed_difference)
@@ -389,10 +378,8 @@ Result<std::optional<PlannedTrial>> plan_trial(const CaptureOptions& options, co
     if (options.plain || turned || !(options.allowed_difference || long_enough))
         return std::nullopt;
     const int first = plan.scene.passes.size() > 1 ? 0 : frames.front(); // buffers begin at frame 0
-    return PlannedTrial{options.allowed_difference ? glsl::Specialise::constants
-                                                   : glsl::Specialise::invariant_uniforms,
-                        {inputs_of(plan.states(first)), inputs_of(plan.states(frames.back())), frames.size(),
-                         options.allowed_difference}};
+    return TrialPlan{inputs_of(plan.states(first)), inputs_of(plan.states(frames.back())), frames.size(),
+                     options.allowed_difference};
 }
 
 /// Assigns whole segments of a video to the shard, since segments are encoded separately.
@@ -418,6 +405,65 @@ Result<void> take_shard(const CaptureOptions& options, CapturePlan& plan) {
     else
         plan.frames.frames = frames_of(*plan.shard, plan.frames.frames, plan.scene);
     return {};
+}
+
+/// Returns the size of the tiles; nothing if frames are drawn whole.
+Result<std::optional<Extent>> choose_tile(const CapturePlan& plan) {
+    const int limit = gl::query_capabilities().largest_target;
+    if (plan.options.tile)
+        return render::tile_of_side(*plan.options.tile, limit).map([](Extent tile) {
+            return std::optional(tile);
+        });
+    const bool whole = plan.output.video() || plan.layers || plan.sheet;
+    const auto tile =
+        whole ? std::nullopt
+              : render::tile_for(plan.drawing.extent, 4 * image::size_of(plan.drawing.samples), limit);
+    return plan.exposure.several() && !tile ? plan.drawing.extent : tile; // one tile, shifted for each sample
+}
+
+/// Rejects options that the compiled scene does not allow.
+Result<void> check_compiled(const CapturePlan& plan, const render::Renderer& renderer) {
+    const auto refuse = [](std::string why) { return fail(ErrorCode::usage, std::move(why)); };
+    if (plan.options.tile && !renderer.tiles())
+        return refuse(fmt::format(
+            "--tile: {} cannot be drawn in tiles: it is a cube, another pass reads it, or it discards pixels",
+            renderer.shown_pass().name));
+    if (plan.options.loop && renderer.tiles() && renderer.tiles()->count() > 1)
+        return refuse("--loop: frames drawn in tiles cannot be compared; give a smaller --size");
+    if (plan.exposure.several() && renderer.shown_pass().kind != scene::PassKind::image)
+        return refuse("--samples: only frames of Image can be averaged");
+    if (plan.exposure.several() && !renderer.tiles())
+        return refuse("--samples: Image cannot be drawn several times per frame: a pass reads it, or it "
+                      "discards pixels");
+    if (plan.exposure.shutter > 0 && renderer.plan().feedback)
+        return refuse("--shutter: this scene reads its own last frame, so there are no moments between two "
+                      "frames; --samples alone smooths its edges");
+    return {};
+}
+
+/// Returns the faster of two programs if a trial is planned. No trial in tiles: the picture is too
+/// large to draw it for one.
+Result<Trial> choose_renderer(const CapturePlan& plan, render::RenderOptions drawing) {
+    if (!plan.trial || drawing.tile)
+        return Trial{TRY(render::Renderer::create(plan.scene, drawing))};
+    drawing.specialise =
+        plan.trial->allowed ? glsl::Specialise::constants : glsl::Specialise::invariant_uniforms;
+    auto trial = TRY(choose_program(plan.scene, drawing, *plan.trial));
+    if (!trial.said.empty())
+        say(trial.said);
+    return trial;
+}
+
+Result<Trial> compile_all(const CapturePlan& plan, Interrupt& interrupt) {
+    const Interrupt::Immediate at_once(interrupt);
+    Watchdog watchdog;
+    const Watchdog::Watch watch(watchdog, {"compiling", plan.options.timeout});
+    const auto tile = TRY(choose_tile(plan));
+    render::RenderOptions drawing = plan.drawing;
+    drawing.tile = tile;
+    auto compiled = TRY(choose_renderer(plan, drawing));
+    TRY(check_compiled(plan, compiled.renderer));
+    return compiled;
 }
 
 } // namespace
@@ -482,68 +528,6 @@ Result<SoundPlan> plan_sound(const CaptureOptions& options) {
     return SoundPlan{std::move(scene), std::move(output), options.device, precision_of(options.scene),
                      duration};
 }
-
-namespace {
-
-/// Returns the size of the tiles; nothing if frames are drawn whole.
-Result<std::optional<Extent>> choose_tile(const CapturePlan& plan) {
-    const int limit = gl::query_capabilities().largest_target;
-    if (plan.tile_side)
-        return render::tile_of_side(*plan.tile_side, limit).map([](Extent tile) {
-            return std::optional(tile);
-        });
-    const bool whole = plan.output.video() || plan.layers || plan.sheet;
-    const auto tile =
-        whole ? std::nullopt
-              : render::tile_for(plan.drawing.extent, 4 * image::size_of(plan.drawing.samples), limit);
-    return plan.exposure.several() && !tile ? plan.drawing.extent : tile; // one tile, shifted for each sample
-}
-
-/// Rejects options that the compiled scene does not allow.
-Result<void> check_compiled(const CapturePlan& plan, const render::Renderer& renderer) {
-    const auto refuse = [](std::string why) { return fail(ErrorCode::usage, std::move(why)); };
-    if (plan.tile_side && !renderer.tiles())
-        return refuse(fmt::format(
-            "--tile: {} cannot be drawn in tiles: it is a cube, another pass reads it, or it discards pixels",
-            renderer.shown_pass().name));
-    if (plan.loop && renderer.tiles() && renderer.tiles()->count() > 1)
-        return refuse("--loop: frames drawn in tiles cannot be compared; give a smaller --size");
-    if (plan.exposure.several() && renderer.shown_pass().kind != scene::PassKind::image)
-        return refuse("--samples: only frames of Image can be averaged");
-    if (plan.exposure.several() && !renderer.tiles())
-        return refuse("--samples: Image cannot be drawn several times per frame: a pass reads it, or it "
-                      "discards pixels");
-    if (plan.exposure.shutter > 0 && renderer.plan().feedback)
-        return refuse("--shutter: this scene reads its own last frame, so there are no moments between two "
-                      "frames; --samples alone smooths its edges");
-    return {};
-}
-
-/// Returns the faster of two programs if a trial is planned. No trial in tiles: the picture is too
-/// large to draw it for one.
-Result<Trial> choose_renderer(const CapturePlan& plan, render::RenderOptions drawing) {
-    if (!plan.trial || drawing.tile)
-        return Trial{TRY(render::Renderer::create(plan.scene, drawing))};
-    drawing.specialise = plan.trial->as_far_as;
-    auto trial = TRY(choose_program(plan.scene, drawing, plan.trial->frames));
-    if (!trial.said.empty())
-        say(trial.said);
-    return trial;
-}
-
-Result<Trial> compile_all(const CapturePlan& plan, Interrupt& interrupt) {
-    const Interrupt::Immediate at_once(interrupt);
-    Watchdog watchdog;
-    const Watchdog::Watch watch(watchdog, {"compiling", plan.timeout});
-    const auto tile = TRY(choose_tile(plan));
-    render::RenderOptions drawing = plan.drawing;
-    drawing.tile = tile;
-    auto compiled = TRY(choose_renderer(plan, drawing));
-    TRY(check_compiled(plan, compiled.renderer));
-    return compiled;
-}
-
-} // namespace
 
 Result<Trial> compile(const CapturePlan& plan, Interrupt& interrupt) {
     if (!plan.frames.frames.empty())

@@ -54,6 +54,26 @@ std::vector<glsl::Cure> in_file(std::span<const glsl::Cure> cures, const std::st
     return those;
 }
 
+/// Saves the changes that were not made as a .diff file next to the first of `files`. Returns the error, with
+/// the name of that file added.
+tl::unexpected<Error> with_difference(Error error, std::span<const ChangedFile> files) {
+    std::string text;
+    for (const ChangedFile& file : files)
+        text += difference(file);
+    constexpr int k_attempts = 100;
+    for (int i = 1; i <= k_attempts; ++i) {
+        const std::string name =
+            fmt::format("{}{}.diff", files.front().file, i == 1 ? "" : fmt::format(".{}", i));
+        std::error_code ignored;
+        if (std::filesystem::exists(std::filesystem::symlink_status(name, ignored)))
+            continue; // belongs to the user
+        if (write_file(OutputPath(name), std::as_bytes(std::span(text))))
+            error.message += fmt::format("; the change is saved in '{}'", name);
+        break;
+    }
+    return fail(std::move(error));
+}
+
 } // namespace
 
 Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
@@ -110,30 +130,6 @@ std::string difference(const ChangedFile& file) {
             text += fmt::format("@@ -{0} +{0} @@\n-{1}\n+{2}\n", i + 1, before[i], after[i]);
     return text;
 }
-
-namespace {
-
-/// Saves the changes that were not made as a .diff file next to the first of `files`. Returns the error, with
-/// the name of that file added.
-tl::unexpected<Error> with_difference(Error error, std::span<const ChangedFile> files) {
-    std::string text;
-    for (const ChangedFile& file : files)
-        text += difference(file);
-    constexpr int k_attempts = 100;
-    for (int i = 1; i <= k_attempts; ++i) {
-        const std::string name =
-            fmt::format("{}{}.diff", files.front().file, i == 1 ? "" : fmt::format(".{}", i));
-        std::error_code ignored;
-        if (std::filesystem::exists(std::filesystem::symlink_status(name, ignored)))
-            continue; // belongs to the user
-        if (write_file(OutputPath(name), std::as_bytes(std::span(text))))
-            error.message += fmt::format("; the change is saved in '{}'", name);
-        break;
-    }
-    return fail(std::move(error));
-}
-
-} // namespace
 
 Result<void> write_files(const std::vector<ChangedFile>& files) {
     for (const ChangedFile& file : files) {

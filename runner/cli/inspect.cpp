@@ -1,5 +1,3 @@
-// The marching loops that are found in a pass, for `inspect`.
-
 #include "cli/inspect.hpp"
 
 #include "base/error.hpp"
@@ -35,10 +33,10 @@
 #include <vector>
 
 namespace tidemark::cli {
+namespace {
 
-// The size of a scene's compiled passes, in bytes of the driver's own program format and in instructions if
-// its compiler reports them, for each level of specialisation.
-
+/// The size of a compiled pass, in bytes of the driver's own program format and in instructions if its
+/// compiler reports them.
 struct DriverCode {
     size_t bytes = 0; ///< 0: the driver has no program binaries
     std::vector<glsl::InstructionCount> instructions{};
@@ -51,7 +49,12 @@ using CompiledSizes = std::array<DriverCode, 4>;
 /// Construct it before the process has a context.
 class FreshDriverCache {
 public:
-    FreshDriverCache();
+    FreshDriverCache() {
+        if (folder_.path().empty())
+            return;
+        ::setenv("MESA_SHADER_CACHE_DIR", folder_.path().c_str(), 1);
+        platform::do_without_full_driver_cache();
+    }
 
 private:
     ScratchFolder folder_;
@@ -89,11 +92,7 @@ Json marches_of(const scene::Scene& scene, const scene::Pass& pass) {
     return loops;
 }
 
-namespace {
-
 using glsl::Specialise;
-
-constexpr const char* k_cache_variable = "MESA_SHADER_CACHE_DIR";
 
 const DriverCode& of(const CompiledSizes& sizes, Specialise how) {
     return sizes[size_t(how)];
@@ -155,15 +154,6 @@ std::string to_line(std::string_view what, const CompiledSizes& sizes,
         figure(of(sizes, Specialise::invariant_uniforms)), figure(of(sizes, Specialise::constants)));
 }
 
-} // namespace
-
-FreshDriverCache::FreshDriverCache() {
-    if (folder_.path().empty())
-        return;
-    ::setenv(k_cache_variable, folder_.path().c_str(), 1);
-    platform::do_without_full_driver_cache();
-}
-
 /// Returns the sizes of each pass of the scene; nothing for a pass that does not link. A context must be
 /// current.
 std::vector<std::optional<CompiledSizes>> compiled_sizes(const scene::Scene& scene,
@@ -190,8 +180,6 @@ Json to_json(const CompiledSizes& sizes) {
             {"long_sequence", code_json(of(sizes, Specialise::invariant_uniforms))},
             {"constant_knobs", code_json(of(sizes, Specialise::constants))}};
 }
-
-namespace {
 
 struct InspectOptions {
     SceneRequest scene;

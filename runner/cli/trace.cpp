@@ -25,6 +25,7 @@
 #include <string>
 
 namespace tidemark::cli {
+namespace {
 
 struct TraceReport {
     std::string scene{};
@@ -34,8 +35,6 @@ struct TraceReport {
     lab::PixelRequest request{};
     lab::PixelTrace trace{};
 };
-
-namespace {
 
 using lab::LineInCall;
 using lab::PixelTrace;
@@ -323,8 +322,6 @@ Json json_of(const LineInCall& call) {
     return json;
 }
 
-} // namespace
-
 std::string trace_text(const TraceReport& report) {
     std::string text = head(report) + colour(report.trace);
     return text + (report.trace.asked ? line_text(report) : summary(report.trace));
@@ -360,8 +357,6 @@ Json trace_json(const TraceReport& report) {
     }
     return json;
 }
-
-namespace {
 
 struct TraceCommand {
     SceneRequest scene;

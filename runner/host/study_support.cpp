@@ -32,6 +32,15 @@ OutputPath report_folder(const OutputPath& folder, bool complete) {
     return complete || !finished ? folder : folder.beside("-interrupted");
 }
 
+/// Returns the program's version, the time and the number of cores.
+lab::Circumstances circumstances_now() {
+    lab::Circumstances facts;
+    facts.tidemark = k_version;
+    facts.started = fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::localtime(std::time(nullptr)));
+    facts.cores = int(std::thread::hardware_concurrency());
+    return facts;
+}
+
 } // namespace
 
 lab::Watch StudyWatcher::watch() {
@@ -54,14 +63,6 @@ Result<void> StudyWatcher::finish() {
         error.message += "; the measurement was discarded, try a smaller --size";
         return error;
     });
-}
-
-lab::Circumstances circumstances_now() {
-    lab::Circumstances facts;
-    facts.tidemark = k_version;
-    facts.started = fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::localtime(std::time(nullptr)));
-    facts.cores = int(std::thread::hardware_concurrency());
-    return facts;
 }
 
 lab::Circumstances circumstances_of(const scene::Scene& scene) {

@@ -293,6 +293,12 @@ tl::unexpected<Error> refuse(const gl::Texture& texture) {
                             texture.extent.width, texture.extent.height, texture.depth));
 }
 
+std::vector<std::string> sampler_names(int unit) {
+    if (unit == k_keyboard_unit)
+        return {"iKeyboard"};
+    return {fmt::format("iChannel{}", unit), fmt::format("iCh{}.sampler", unit)};
+}
+
 } // namespace
 
 Result<ChannelTextures::Index> ChannelTextures::require(const scene::Channel& channel) {
@@ -364,16 +370,6 @@ gl::SamplerHandle make_sampler(const scene::Sampling& sampling) {
                             sampling.magnify == Filter::linear ? GL_LINEAR : GL_NEAREST,
                             k_wrap[size_t(sampling.wrap)]);
 }
-
-namespace {
-
-std::vector<std::string> sampler_names(int unit) {
-    if (unit == k_keyboard_unit)
-        return {"iKeyboard"};
-    return {fmt::format("iChannel{}", unit), fmt::format("iCh{}.sampler", unit)};
-}
-
-} // namespace
 
 Result<BoundChannel> make_channel(const gl::Program& program, int unit, const scene::Channel& channel,
                                   ChannelTextures& textures) {

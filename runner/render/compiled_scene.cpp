@@ -127,15 +127,6 @@ private:
     std::optional<Error> unpromotable_; ///< set if a construct has no double form
 };
 
-} // namespace
-
-Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass, const LinkOptions& options) {
-    const Doing doing(fmt::format("compiling {} of '{}'", pass.name, scene.file.string()));
-    return Linker(scene, pass, options).link();
-}
-
-namespace {
-
 using image::SampleType;
 using scene::PassKind;
 
@@ -161,6 +152,11 @@ bool reads(const scene::Pass& reader, size_t pass) {
 }
 
 } // namespace
+
+Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass, const LinkOptions& options) {
+    const Doing doing(fmt::format("compiling {} of '{}'", pass.name, scene.file.string()));
+    return Linker(scene, pass, options).link();
+}
 
 Result<CompiledScene> CompiledScene::create(scene::Scene scene, const RenderOptions& options) {
     CompiledScene compiled(std::move(scene), options);
