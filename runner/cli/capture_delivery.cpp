@@ -1,13 +1,10 @@
 #include "cli/capture_delivery.hpp"
 
-#include "base/error.hpp"
 #include "host/console.hpp"
-#include "host/frame_files.hpp"
 #include "host/gl_context.hpp"
 #include "host/moment.hpp"
 #include "host/scene_report.hpp"
 #include "media/file_samples.hpp"
-#include "media/image.hpp"
 #include "media/sound_file.hpp"
 #include "render/sound_renderer.hpp"
 
@@ -18,8 +15,6 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
-#include <utility>
-#include <vector>
 
 namespace tidemark::cli {
 namespace {

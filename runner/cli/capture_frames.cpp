@@ -1,9 +1,7 @@
 #include "cli/capture_frames.hpp"
 
 #include "base/encoding.hpp"
-#include "base/error.hpp"
 #include "base/extent.hpp"
-#include "base/file.hpp"
 #include "host/json.hpp"
 #include "host/scene_report.hpp"
 
@@ -138,13 +136,11 @@ void Sheet::add(const image::Image& cell) {
 Result<Shard> parse_shard(std::string_view text) {
     if (text == "slurm")
         return shard_of_slurm();
-    const size_t slash = std::min(text.find('/'), text.size());
-    const auto number = number_from<int>(text.substr(0, slash));
-    const auto count = number_from<int>(text.substr(std::min(slash + 1, text.size())));
-    if (!number || !count || *number < 1 || *number > *count || *count > k_most_shards)
+    const std::vector<int> numbers = numbers_from<int>(text, '/');
+    if (numbers.size() != 2 || numbers[0] < 1 || numbers[0] > numbers[1] || numbers[1] > k_most_shards)
         return fail(ErrorCode::usage,
                     fmt::format("--shard {}: give K/N with K from 1 to N, as in 2/8, or slurm", text));
-    return Shard{*number - 1, *count};
+    return Shard{numbers[0] - 1, numbers[1]};
 }
 
 std::vector<int> frames_of(const Shard& shard, const std::vector<int>& frames, const scene::Scene& scene) {

@@ -3,18 +3,13 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/supervision.hpp"
-#include "cli/capture_frames.hpp"
 #include "cli/capture_resume.hpp"
 #include "host/console.hpp"
-#include "host/frame_files.hpp"
 #include "host/scene_report.hpp"
-#include "host/supervision.hpp"
-#include "media/picture_file.hpp"
 #include "media/texture_files.hpp"
 #include "media/video_output.hpp"
 #include "render/gl_context.hpp"
 #include "render/picture_parts.hpp"
-#include "render/renderer.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -29,6 +24,13 @@ using image::Alpha;
 using image::SampleDepth;
 using image::SampleType;
 using image::Transfer;
+
+/// Returns a function that makes the error `OPTION: why`.
+auto refusal(std::string option) {
+    return [option = std::move(option)](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("{}: {}", option, why));
+    };
+}
 
 /// Keeps floats for passes other than Image: a buffer is state, and a half float would turn 1e6 into
 /// infinity.
@@ -61,27 +63,23 @@ Result<SampleDepth> parse_depth(const std::string& text, const OutputName& outpu
 }
 
 Result<Transfer> parse_transfer(const std::string& text, const CapturePlan& plan) {
-    const auto refuse = [](std::string_view why) {
-        return fail(ErrorCode::usage, fmt::format("--transfer {}", why));
-    };
+    const auto refuse = refusal("--transfer " + text);
     if (text.empty())
         return drawn_transfer(plan.frames.state.pass);
     if (text == "srgb")
         return Transfer::srgb;
     if (text != "linear")
-        return refuse(fmt::format("{}: give srgb or linear", text));
+        return refuse("give srgb or linear");
     if (!plan.to_picture_files())
-        return refuse("linear: videos and raw frames on standard output are always sRGB");
+        return refuse("videos and raw frames on standard output are always sRGB");
     if (plan.depth == SampleDepth::u8)
-        return refuse("linear: 8 bits of linear light show steps in dark areas: give --depth 16, or an .exr");
+        return refuse("8 bits of linear light show steps in dark areas: give --depth 16, or an .exr");
     return Transfer::linear;
 }
 
 /// Returns how Image's alpha is drawn and stored in the file.
 Result<Alpha> parse_alpha(const std::string& text, const CapturePlan& plan) {
-    const auto refuse = [&](std::string_view why) {
-        return fail(ErrorCode::usage, fmt::format("--alpha {}: {}", text, why));
-    };
+    const auto refuse = refusal("--alpha " + text);
     if (text.empty() || text == "opaque")
         return Alpha::where_needed;
     if (text != "keep" && text != "premultiplied")
@@ -106,9 +104,7 @@ Result<Alpha> parse_alpha(const std::string& text, const CapturePlan& plan) {
 /// Returns the sample depth of the passes written in addition to Image. Buffers are state, so they keep
 /// floats by default.
 Result<std::optional<SampleDepth>> parse_layers(const CaptureOptions& options, const CapturePlan& plan) {
-    const auto refuse = [](std::string_view why) {
-        return fail(ErrorCode::usage, fmt::format("--layers: {}", why));
-    };
+    const auto refuse = refusal("--layers");
     if (!options.layers)
         return std::nullopt;
     if (!plan.to_picture_files() || !image::holds_layers(plan.output.pattern()))
@@ -132,9 +128,7 @@ Result<std::optional<Rectangle>> parse_crop(const CaptureOptions& options, const
                                             Extent drawn) {
     if (!options.crop)
         return std::nullopt;
-    const auto refuse = [&](std::string_view why) {
-        return fail(ErrorCode::usage, fmt::format("--crop {}: {}", *options.crop, why));
-    };
+    const auto refuse = refusal("--crop " + *options.crop);
     const auto area = parse_rectangle(*options.crop);
     if (!area)
         return refuse("give X,Y,WIDTH,HEIGHT in pixels from the bottom left, as in 100,50,320,180");
@@ -153,9 +147,7 @@ constexpr double k_seconds_of_sheet = 10;
 /// Returns the frames of the sheet's cells.
 Result<std::vector<int>> frames_of_sheet(const CaptureOptions& options, const FrameSequence& asked,
                                          const SheetGrid& grid) {
-    const auto refuse = [](std::string why) {
-        return fail(ErrorCode::usage, fmt::format("--sheet: {}", why));
-    };
+    const auto refuse = refusal("--sheet");
     if (options.frames.frame || options.frames.time)
         return refuse("--frame and --time name one moment: give --frames or --duration");
     if (options.frames.frames && options.duration)
@@ -177,9 +169,7 @@ Result<std::vector<int>> frames_of_sheet(const CaptureOptions& options, const Fr
 Result<void> check_sheet(const CapturePlan& plan) {
     if (!plan.sheet)
         return {};
-    const auto refuse = [](std::string why) {
-        return fail(ErrorCode::usage, fmt::format("--sheet: {}", why));
-    };
+    const auto refuse = refusal("--sheet");
     if (!plan.to_picture_files() || plan.output.six_faces())
         return refuse("the sheet is one picture: give a .png, .jpg, .tif, .exr or .hdr");
     if (plan.cube && !plan.crop)
@@ -205,9 +195,7 @@ constexpr double k_seconds_of_sound = 60;
 
 /// Fails if existing frames could not be told from missing ones.
 Result<void> check_resume(const OutputName& output) {
-    const auto refuse = [](std::string_view why) {
-        return fail(ErrorCode::usage, fmt::format("--resume: {}", why));
-    };
+    const auto refuse = refusal("--resume");
     if (output.standard_output())
         return refuse("frames on standard output cannot be resumed");
     if (!output.video() && !image::holds_metadata(output.pattern()))
@@ -218,9 +206,7 @@ Result<void> check_resume(const OutputName& output) {
 
 /// Fails if several processes could not write to one folder, or `gather` could not check the result.
 Result<void> check_shard(const CaptureOptions& options, const OutputName& output) {
-    const auto refuse = [](std::string_view why) {
-        return fail(ErrorCode::usage, fmt::format("--shard: {}", why));
-    };
+    const auto refuse = refusal("--shard");
     if (output.standard_output())
         return refuse(
             "write files (a sequence of pictures or a video), so that `tidemark gather` can read them");

@@ -1,9 +1,6 @@
 #include "cli/capture_resume.hpp"
 
 #include "base/encoding.hpp"
-#include "base/error.hpp"
-#include "base/file.hpp"
-#include "host/frame_files.hpp"
 #include "host/json.hpp"
 #include "host/moment.hpp"
 #include "media/picture_check.hpp"

@@ -3,14 +3,12 @@
 #include "base/error.hpp"
 #include "base/software_renderer.hpp"
 #include "base/supervision.hpp"
-#include "cli/capture_resume.hpp"
 #include "host/console.hpp"
 #include "host/scene_report.hpp"
 #include "host/version.hpp"
 #include "media/comparison.hpp"
 #include "media/image.hpp"
 #include "render/exposure.hpp"
-#include "render/gl_context.hpp"
 
 #include <fmt/format.h>
 #include <malloc.h>

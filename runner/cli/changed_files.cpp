@@ -1,19 +1,15 @@
 #include "cli/changed_files.hpp"
 
-#include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/mapped_text.hpp"
 #include "base/tokens.hpp"
 #include "lab/scene_numbers.hpp"
-#include "scene/knob.hpp"
-#include "scene/scene.hpp"
 #include "shader/definitions.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <set>
 
 namespace tidemark::cli {

@@ -1,14 +1,11 @@
 #include "cli/inspect.hpp"
 
-#include "base/error.hpp"
 #include "base/folders.hpp"
 #include "cli/commands.hpp"
 #include "host/command_line.hpp"
 #include "host/console.hpp"
-#include "host/devices.hpp"
 #include "host/gl_context.hpp"
 #include "host/json.hpp"
-#include "host/requests.hpp"
 #include "host/scene_report.hpp"
 #include "host/version.hpp"
 #include "lab/pass_function.hpp"
@@ -29,8 +26,6 @@
 #include <cstdlib>
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace tidemark::cli {
 namespace {
@@ -174,7 +169,7 @@ std::string to_lines(const CompiledSizes& sizes) {
     return text;
 }
 
-Json to_json(const CompiledSizes& sizes) {
+Json sizes_json(const CompiledSizes& sizes) {
     return {{"plain", code_json(of(sizes, Specialise::nothing))},
             {"specialised", code_json(of(sizes, Specialise::unreachable))},
             {"long_sequence", code_json(of(sizes, Specialise::invariant_uniforms))},
@@ -243,7 +238,7 @@ Json json_of(const render::Renderer& renderer, const gl::Capabilities& driver, c
                   json_of(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::invariant_uniforms))},
                  {"marches", marches_of(scene, pass)}});
         if (const auto& size = sizes[facts_of_pass.pass])
-            json_of_pass["program"] = to_json(*size);
+            json_of_pass["program"] = sizes_json(*size);
     }
     if (scene.size)
         json["size"] = {scene.size->width, scene.size->height};

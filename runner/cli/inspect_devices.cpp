@@ -75,8 +75,6 @@ Result<std::vector<HeadlessDevice>> list_devices_apart() {
     }
 }
 
-using platform::HeadlessDevice;
-
 std::string_view name_of(platform::DeviceKind kind) {
     switch (kind) {
     case platform::DeviceKind::hardware: return "hardware";

@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <sstream>
 #include <string_view>
 

@@ -5,15 +5,11 @@
 
 #include "base/encoding.hpp"
 #include "base/tokens.hpp"
-#include "editor/workspace.hpp"
 #include "scene/project.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <utility>
 
 namespace tidemark::lsp {

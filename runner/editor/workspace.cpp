@@ -3,15 +3,12 @@
 #include "base/encoding.hpp"
 #include "base/folders.hpp"
 #include "base/mapped_text.hpp"
-#include "base/tokens.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/names.hpp"
 #include "shader/token_reading.hpp"
 
 #include <algorithm>
 #include <initializer_list>
-#include <string_view>
-#include <vector>
 
 namespace tidemark::lsp {
 namespace fs = std::filesystem;

@@ -11,7 +11,6 @@
 #include <condition_variable>
 #include <cstdio>
 #include <mutex>
-#include <string>
 
 namespace tidemark::cli {
 namespace {

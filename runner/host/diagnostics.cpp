@@ -6,7 +6,6 @@
 #include "base/file.hpp"
 #include "base/mapped_text.hpp"
 #include "base/tokens.hpp"
-#include "host/command_line.hpp"
 #include "host/console.hpp"
 #include "host/json.hpp"
 #include "host/requests.hpp"
@@ -19,7 +18,6 @@
 #include <mutex>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace tidemark::cli {
 namespace {

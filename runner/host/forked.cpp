@@ -15,13 +15,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace tidemark::cli {

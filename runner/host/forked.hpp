@@ -50,7 +50,7 @@ using Tell = std::function<void(std::string_view line)>;
 
 /// Limits of work in another process, which end it early.
 struct Limits {
-    /// Of all the work; under `supervise` (host/supervision.hpp) of each driver operation.
+    /// Time for all the work; under `supervise` (host/supervision.hpp), for each driver operation.
     std::optional<double> seconds{};
     uint64_t memory = 0; ///< bytes, under `supervise` with all descendants; 0: no limit
     /// Called about twenty times a second by run_forked and ForkedHelper: returns true to end the work.

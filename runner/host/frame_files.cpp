@@ -1,8 +1,6 @@
 #include "host/frame_files.hpp"
 
 #include "base/encoding.hpp"
-#include "base/error.hpp"
-#include "media/picture_file.hpp"
 #include "media/video_output.hpp"
 
 #include <fmt/format.h>

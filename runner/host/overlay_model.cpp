@@ -2,7 +2,6 @@
 
 #include "base/encoding.hpp"
 #include "base/overloaded.hpp"
-#include "host/overlay_fields.hpp"
 
 #include <fmt/format.h>
 

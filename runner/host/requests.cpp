@@ -1,14 +1,9 @@
 #include "host/requests.hpp"
 
 #include "base/encoding.hpp"
-#include "base/error.hpp"
-#include "host/command_line.hpp"
 #include "host/console.hpp"
 #include "host/diagnostics.hpp"
 #include "host/forked.hpp"
-#include "render/frame_state.hpp"
-#include "scene/load_scene.hpp"
-#include "scene/scene.hpp"
 #include "shader/definitions.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
-#include <optional>
 #include <utility>
 
 namespace tidemark::cli {

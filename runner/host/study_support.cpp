@@ -1,10 +1,6 @@
 #include "host/study_support.hpp"
 
 #include "base/encoding.hpp"
-#include "base/error.hpp"
-#include "base/file.hpp"
-#include "host/console.hpp"
-#include "host/requests.hpp"
 #include "host/version.hpp"
 #include "lab/outcome.hpp"
 #include "lab/study_report.hpp"

@@ -4,7 +4,6 @@
 #include "base/supervision.hpp"
 #include "host/console.hpp"
 #include "host/diagnostics.hpp"
-#include "host/forked.hpp"
 
 #include <fmt/format.h>
 #include <sys/prctl.h>
@@ -12,14 +11,10 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
-#include <csignal>
 #include <cstring>
 #include <ctime>
 #include <exception>
 #include <new>
-#include <optional>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>

@@ -1,7 +1,5 @@
 #include "render/buffer_views.hpp"
 
-#include "base/error.hpp"
-#include "render/gl_textures.hpp"
 #include "shader/shader_source.hpp"
 
 #include <fmt/format.h>

@@ -1,10 +1,8 @@
 #include "render/channel_textures.hpp"
 
-#include "base/error.hpp"
 #include "media/generated_textures.hpp"
 #include "media/picture_file.hpp"
 #include "media/sound_file.hpp"
-#include "media/spectrum.hpp"
 #include "media/texture_files.hpp"
 #include "media/video_input.hpp"
 #include "render/gl_context.hpp"
@@ -15,11 +13,8 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace tidemark::render {
 namespace {

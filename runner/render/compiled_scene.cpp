@@ -1,18 +1,14 @@
 #include "render/compiled_scene.hpp"
 
-#include "base/error.hpp"
 #include "base/supervision.hpp"
 #include "render/channel_textures.hpp"
-#include "render/gl_program.hpp"
 #include "shader/driver_log.hpp"
 #include "shader/pass_reading.hpp"
-#include "shader/shader_source.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <optional>
 
 namespace tidemark::render {
 namespace {

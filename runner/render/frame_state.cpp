@@ -15,8 +15,6 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
-#include <optional>
-#include <vector>
 
 namespace tidemark::render {
 namespace {

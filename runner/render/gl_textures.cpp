@@ -1,12 +1,9 @@
 #include "render/gl_textures.hpp"
 
-#include "base/extent.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <utility>
 
 namespace tidemark::gl {
 namespace {

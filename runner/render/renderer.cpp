@@ -1,6 +1,5 @@
 #include "render/renderer.hpp"
 
-#include "base/error.hpp"
 #include "base/supervision.hpp"
 
 #include <fmt/format.h>

@@ -1,11 +1,9 @@
 #include "render/sound_renderer.hpp"
 
-#include "base/error.hpp"
 #include "base/supervision.hpp"
 #include "media/sound_file.hpp"
 #include "render/compiled_scene.hpp"
 #include "render/frame_plan.hpp"
-#include "shader/shader_source.hpp"
 
 #include <fmt/format.h>
 

@@ -1,13 +1,11 @@
 #include "web/audience.hpp"
 
 #include "base/dynamic_library.hpp"
-#include "base/error.hpp"
 #include "base/overloaded.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 namespace tidemark::serve {

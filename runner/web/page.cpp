@@ -3,7 +3,6 @@
 #include "web/page.hpp"
 
 #include "base/encoding.hpp"
-#include "base/error.hpp"
 #include "base/file.hpp"
 #include "lab/report_page.hpp"
 #include "media/generated_textures.hpp"
@@ -12,7 +11,6 @@
 #include "media/texture_files.hpp"
 #include "scene/channel.hpp"
 #include "scene/host_uniforms.hpp"
-#include "scene/scene.hpp"
 #include "shader/pass_reading.hpp"
 #include "web/embedded.hpp"
 
@@ -23,7 +21,6 @@
 #include <cassert>
 #include <limits>
 #include <span>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>

@@ -1,6 +1,5 @@
 #include "web/request.hpp"
 
-#include "base/error.hpp"
 #include "host/overlay_fields.hpp"
 
 #include <fmt/format.h>
@@ -12,10 +11,8 @@
 #include <cctype>
 #include <cerrno>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <optional>
-#include <string>
 
 namespace tidemark::serve {
 namespace {
