@@ -33,12 +33,41 @@ inline std::string last_line(std::string text) {
     return text.substr(text.rfind('\n') + 1);
 }
 
-/// Returns the number of type T that the whole text spells as std::from_chars reads it: no blanks, no plus.
+/// Removes a number, as std::from_chars reads it (no blanks, no plus), from the front of `text`; returns
+/// false if there is none.
+template <class T>
+bool consume_number(std::string_view& text, T& number) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{})
+        return false;
+    text.remove_prefix(size_t(end - text.data()));
+    return true;
+}
+
+/// Removes a character from the front of `text`; returns false if the text begins otherwise.
+inline bool consume(std::string_view& text, char wanted) {
+    if (!text.starts_with(wanted))
+        return false;
+    text.remove_prefix(1);
+    return true;
+}
+
+/// Returns the number of type T that the whole text spells.
 template <class T>
 std::optional<T> number_from(std::string_view text) {
     T number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc{} && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+    return consume_number(text, number) && text.empty() ? std::optional(number) : std::nullopt;
+}
+
+/// Returns the numbers that the whole text spells, with `separator` between them; none for any other text.
+template <class T>
+std::vector<T> numbers_from(std::string_view text, char separator = ',') {
+    std::vector<T> numbers;
+    do {
+        if (!consume_number(text, numbers.emplace_back()))
+            return {};
+    } while (consume(text, separator));
+    return text.empty() ? numbers : std::vector<T>();
 }
 
 // Makes texts of scenes, files and drivers safe to show in a terminal, a title or a shell: characters that

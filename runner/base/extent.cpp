@@ -1,36 +1,25 @@
 #include "base/extent.hpp"
 
+#include "base/encoding.hpp"
+
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
+#include <vector>
 
 namespace tidemark {
 
 std::optional<Extent> parse_extent(std::string_view text) {
-    Extent extent;
-    const char* const end = text.data() + text.size();
-    const auto width = std::from_chars(text.data(), end, extent.width);
-    if (width.ec != std::errc{} || width.ptr == end || *width.ptr != 'x')
-        return std::nullopt;
-    const auto height = std::from_chars(width.ptr + 1, end, extent.height);
-    const bool whole = height.ec == std::errc{} && height.ptr == end;
-    return whole && extent.width >= 1 && extent.height >= 1 ? std::optional(extent) : std::nullopt;
+    const std::vector<int> sides = numbers_from<int>(text, 'x');
+    return sides.size() == 2 && std::ranges::min(sides) >= 1 ? std::optional(Extent{sides[0], sides[1]})
+                                                             : std::nullopt;
 }
 
 std::optional<Rectangle> parse_rectangle(std::string_view text) {
-    Rectangle area;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    for (int* const number : {&area.x, &area.y, &area.extent.width, &area.extent.height}) {
-        if (number != &area.x && (at == end || *at++ != ','))
-            return std::nullopt;
-        const auto [after, error] = std::from_chars(at, end, *number);
-        if (error != std::errc{})
-            return std::nullopt;
-        at = after;
-    }
-    return at == end && area.extent.width >= 1 && area.extent.height >= 1 ? std::optional(area)
-                                                                          : std::nullopt;
+    const std::vector<int> numbers = numbers_from<int>(text);
+    if (numbers.size() != 4 || numbers[2] < 1 || numbers[3] < 1)
+        return std::nullopt;
+    return Rectangle{numbers[0], numbers[1], {numbers[2], numbers[3]}};
 }
 
 std::string to_string(const Rectangle& area) {

@@ -1,6 +1,7 @@
 // `--like PICTURE`: takes the moment from a picture's metadata for everything that the command line leaves
 // open.
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "cli/capture_delivery.hpp"
 #include "cli/capture_plan.hpp"
@@ -28,13 +29,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <functional>
 #include <memory>
 #include <thread>
 
 namespace tidemark::cli {
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,11 +85,8 @@ void keep_inside(const std::string& picture, const SceneRequest& typed, Moment& 
 template <class T>
 std::optional<T> number_in(const image::Metadata& metadata, std::string_view name, T low, T high) {
     const std::string* const text = image::find(metadata, name);
-    T number{};
-    if (!text || std::from_chars(text->data(), text->data() + text->size(), number).ec != std::errc() ||
-        !(number >= low && number <= high))
-        return std::nullopt;
-    return number;
+    const auto number = text ? number_from<T>(*text) : std::nullopt;
+    return number && *number >= low && *number <= high ? number : std::nullopt;
 }
 
 /// Takes --crop, --samples and --shutter from the metadata if they are not given. A crop is of one pass and
@@ -122,55 +118,14 @@ SceneRequest completed(SceneRequest typed, Moment& moment) {
     return typed;
 }
 
-} // namespace
-
-Result<CaptureOptions> with_likeness(CaptureOptions options) {
-    SceneRequest& scene = options.scene;
-    if (options.like.empty())
-        return scene.path.empty()
-                   ? Result<CaptureOptions>(fail(ErrorCode::usage, "capture: SCENE is required"))
-                   : std::move(options);
-    const auto metadata = image::read_metadata(options.like);
-    if (!metadata)
-        return refuse(options.like, metadata.error());
-    Moment moment = TRY(read_moment(options.like, *metadata));
-    const Extent size = moment.sequence.state.extent;
-    if (!options.frames.size && std::max(size.width, size.height) > scene::k_largest_stated_side)
-        return refuse(options.like, fmt::format("its recorded size is {}x{}; the limit for a recorded size "
-                                                "is {} pixels on a side: give --size",
-                                                size.width, size.height, scene::k_largest_stated_side));
-    std::error_code ignored;
-    if (scene.path.empty() && !fs::exists(moment.scene.path, ignored))
-        return refuse(
-            options.like,
-            fmt::format(
-                "its scene '{}' was not found: name the scene, as in `tidemark capture SCENE --like {}`",
-                moment.scene.path.string(), options.like));
-    if (scene.path.empty())
-        scene.path = moment.scene.path;
-    keep_inside(options.like, scene, moment);
-    erase_named(scene.sets, moment.sequence.state.knobs);
-    if (!moment.sequence.input_file.empty() && !options.frames.input) {
-        options.frames.input = moment.sequence.input_file;
-        moment.sequence.state = without_recorded(std::move(moment.sequence.state));
-    }
-    scene = completed(std::move(scene), moment);
-    take_options(*metadata, options);
-    const std::string* fingerprint = image::find(*metadata, k_fingerprint);
-    options.likeness = Likeness{std::move(moment.sequence), fingerprint ? *fingerprint : ""};
-    return options;
-}
-
 /// Prints a line if the picture was drawn from another text, with other inputs, or by another driver.
 void say_what_is_unlike(const CapturePlan& plan) {
-    if (plan.like.empty() || !plan.likeness)
+    if (plan.options.like.empty())
         return;
-    const Fingerprint there = Fingerprint::parse(plan.likeness->fingerprint).of_scene();
+    const Fingerprint there = Fingerprint::parse(plan.options.like_fingerprint).of_scene();
     if (const std::string other = plan.identity.of_scene().differences(there); !other.empty())
-        say(fmt::format("the picture may differ from {}: {}", plan.like, other));
+        say(fmt::format("the picture may differ from {}: {}", plan.options.like, other));
 }
-
-namespace {
 
 /// Returns an upper bound of the state's size in bytes: two textures per buffer with four floats a pixel,
 /// each at most as large as the frame or a cubemap.
@@ -229,7 +184,7 @@ void say_what_pixels_hold(const FrameRecords& records, const CapturePlan& plan) 
     warn_of(records.not_finite(), [&](const FrameRecord& first, const std::string& others) {
         return fmt::format("{} not finite{}; find the origin with: {}",
                            pixels_are(first.not_finite, fmt::format("of frame {}", first.frame)), others,
-                           trace_command(plan.request, plan.frames, plan.states(first.frame)));
+                           trace_command(plan.options.scene, plan.frames, plan.states(first.frame)));
     });
     const bool clamped = !plan.to_picture_files() || plan.depth == image::SampleDepth::u8 ||
                          plan.depth == image::SampleDepth::u16;
@@ -253,7 +208,7 @@ void keep_what_is_there(CapturePlan& plan) {
 /// Removes files of an earlier run, which may have overlapped with this one, and saved states that have
 /// become unnecessary.
 void tidy_up(const CapturePlan& plan) {
-    if (plan.resume)
+    if (plan.options.resume)
         for (const OutputPath& file : {plan.output.of_frame(0), state_file(plan.output, 0)})
             StagedFile::remove_abandoned(file);
     if (!plan.shard && !plan.output.standard_output())
@@ -272,13 +227,13 @@ std::string interruption(const CapturePlan& plan, Capture& run) {
 
 /// Removes existing frames from the plan, and returns the state from which the rest starts.
 std::optional<SavedState> take_up(CapturePlan& plan) {
-    if (plan.resume)
+    if (plan.options.resume)
         keep_what_is_there(plan);
     else if (plan.frames.frames.empty())
         say(plan.output.video() ? "this shard has nothing to draw: there are more shards than video "
                                   "segments; a smaller --state-every makes more segments"
                                 : "this shard has nothing to draw: there are more shards than frames");
-    if (plan.frames.frames.empty() || !(plan.resume || plan.shard))
+    if (plan.frames.frames.empty() || !(plan.options.resume || plan.shard))
         return std::nullopt;
     auto state = find_state(plan);
     if (state && !plan.shard) { // all shards must draw the same program, whatever another capture chose
@@ -297,16 +252,16 @@ Result<bool> draw(Capture& run, const CapturePlan& plan, Interrupt& interrupt) {
 }
 
 Result<void> report(Capture& run, const CapturePlan& plan, bool complete) {
-    if (plan.json)
+    if (plan.options.json)
         TRY(put(dump(run.report(), 2) + "\n"));
     say_what_pixels_hold(run.records(), plan);
     if (complete && run.records().count() > 0)
         if (const std::string warning = run.cut_loops_warning(); !warning.empty())
             say(warning);
     const bool written = complete || !(plan.output.video() || plan.sheet);
-    if (written && !plan.json && !plan.output.standard_output())
+    if (written && !plan.options.json && !plan.output.standard_output())
         say_what_was_written(run.records(), plan);
-    if (complete && plan.loop)
+    if (complete && plan.options.loop)
         say(run.loop().words());
     if (!complete)
         say(interruption(plan, run));
@@ -318,12 +273,12 @@ Result<int> capture_frames(CapturePlan plan) {
     std::jthread codec; // loads in parallel with the driver, which takes as long
     if (plan.to_picture_files())
         codec = image::preload_picture_codec(plan.output.pattern());
-    const auto context = TRY(platform::HeadlessContext::create(plan.device));
+    const auto context = TRY(platform::HeadlessContext::create(plan.options.device));
     plan.identity.set_device(gl::query_capabilities());
     say_what_is_unlike(plan);
     const std::optional<StagedFile> sound = draw_sound_of_video(plan, interrupt);
     const std::optional<SavedState> state = take_up(plan);
-    if (plan.frames.frames.empty() && (plan.to_picture_files() || plan.shard) && !plan.json) {
+    if (plan.frames.frames.empty() && (plan.to_picture_files() || plan.shard) && !plan.options.json) {
         tidy_up(plan);
         return 0;
     }
@@ -345,6 +300,44 @@ Result<int> capture(const CaptureOptions& typed) {
 }
 
 } // namespace
+
+Result<CaptureOptions> with_likeness(CaptureOptions options) {
+    SceneRequest& scene = options.scene;
+    if (options.like.empty())
+        return scene.path.empty()
+                   ? Result<CaptureOptions>(fail(ErrorCode::usage, "capture: SCENE is required"))
+                   : std::move(options);
+    const auto metadata = image::read_metadata(options.like);
+    if (!metadata)
+        return refuse(options.like, metadata.error());
+    Moment moment = TRY(read_moment(options.like, *metadata));
+    const Extent size = moment.sequence.state.extent;
+    if (!options.frames.size && std::max(size.width, size.height) > scene::k_largest_stated_side)
+        return refuse(options.like, fmt::format("its recorded size is {}x{}; the limit for a recorded size "
+                                                "is {} pixels on a side: give --size",
+                                                size.width, size.height, scene::k_largest_stated_side));
+    std::error_code ignored;
+    if (scene.path.empty() && !fs::exists(moment.scene.path, ignored))
+        return refuse(
+            options.like,
+            fmt::format(
+                "its scene '{}' was not found: name the scene, as in `tidemark capture SCENE --like {}`",
+                moment.scene.path.string(), options.like));
+    if (scene.path.empty())
+        scene.path = moment.scene.path;
+    keep_inside(options.like, scene, moment);
+    erase_named(scene.sets, moment.sequence.state.knobs);
+    if (!moment.sequence.input_file.empty() && !options.frames.input) {
+        options.frames.input = moment.sequence.input_file;
+        moment.sequence.state = without_recorded(std::move(moment.sequence.state));
+    }
+    scene = completed(std::move(scene), moment);
+    take_options(*metadata, options);
+    const std::string* fingerprint = image::find(*metadata, k_fingerprint);
+    options.like_frames = std::move(moment.sequence);
+    options.like_fingerprint = fingerprint ? *fingerprint : "";
+    return options;
+}
 
 void add_codec_option(Command command, std::string& codec) {
     command

@@ -1,13 +1,10 @@
 #include "cli/capture_delivery.hpp"
 
-#include "base/error.hpp"
 #include "host/console.hpp"
-#include "host/frame_files.hpp"
 #include "host/gl_context.hpp"
 #include "host/moment.hpp"
 #include "host/scene_report.hpp"
 #include "media/file_samples.hpp"
-#include "media/image.hpp"
 #include "media/sound_file.hpp"
 #include "render/sound_renderer.hpp"
 
@@ -18,8 +15,6 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
-#include <utility>
-#include <vector>
 
 namespace tidemark::cli {
 namespace {
@@ -30,6 +25,93 @@ void find(FrameRecords::Found& found, size_t pixels, const FrameRecord& record) 
     ++found.count;
     if (!found.first)
         found.first = record;
+}
+
+constexpr size_t k_block_bytes = 1 << 18; ///< fits a processor's cache while it is filled and written
+
+/// One picture of a pass that is not shown.
+struct Source {
+    std::string name;
+    size_t pass;
+    int face = 0;
+    bool cube = false;
+};
+
+std::vector<Source> sources(const render::Renderer& renderer) {
+    std::vector<Source> all;
+    for (const render::PlannedPass& planned : renderer.plan().passes) {
+        const scene::Pass& pass = renderer.scene().passes[planned.pass];
+        if (planned.pass == renderer.shown_index())
+            continue;
+        if (pass.kind != scene::PassKind::cubemap) {
+            all.push_back({pass.name, planned.pass});
+            continue;
+        }
+        for (int face = 0; face < int(k_face_names.size()); ++face)
+            all.push_back(
+                {fmt::format("{} {}", pass.name, k_face_names[size_t(face)]), planned.pass, face, true});
+    }
+    return all;
+}
+
+/// Writes RGB bytes to standard output, rows from the top down, as video tools read raw frames.
+Result<void> put_raw(const image::Image& image) {
+    const size_t row_bytes = size_t(image.extent.width) * 3;
+    const size_t rows_at_once = std::max<size_t>(1, k_block_bytes / row_bytes);
+    std::vector<std::byte> block;
+    for (int row = image.extent.height; row > 0;) {
+        const auto rows = int(std::min(rows_at_once, size_t(row)));
+        block.resize(size_t(rows) * row_bytes);
+        for (int i = 0; i < rows; ++i)
+            copy_colours(image, --row, block.data() + size_t(i) * row_bytes);
+        if (auto done = put(block); !done)
+            return done;
+    }
+    return {};
+}
+
+/// Returns the other passes in the order of drawing: `Buffer A`, and for a cube `Cube A px` to `Cube A nz`.
+/// Each has the orientation of a file with that pass or face alone, but always with alpha, so that all frames
+/// of a sequence have the same channels. Passes as large as the frame are cut to `crop`, a cube's faces are
+/// not.
+std::vector<image::PictureLayer> other_layers(const render::Renderer& renderer, image::SampleDepth depth,
+                                              const std::optional<Rectangle>& crop) {
+    const image::PictureFormat format{
+        .depth = depth, .transfer = image::Transfer::data, .alpha = image::Alpha::straight};
+    std::vector<image::PictureLayer> layers;
+    for (const Source& source : sources(renderer)) {
+        image::Image drawn = renderer.read_floats(source.pass, source.face);
+        if (source.cube)
+            drawn = image::flipped(drawn); // the first row of a face is its top row
+        else if (crop)
+            drawn = image::cropped(std::move(drawn), *crop);
+        layers.push_back({source.name, std::move(drawn), format});
+    }
+    return layers;
+}
+
+/// Returns the scene's sound from `start` on (seconds): interleaved left and right samples,
+/// render::k_sample_rate of each a second. After an interrupt the rest is silent. A context must be current.
+Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precision precision, double start,
+                                        double duration, const Interrupt& interrupt) {
+    if (constexpr double k_last = render::SoundRenderer::k_longest_seconds; start + duration > k_last)
+        return fail(
+            ErrorCode::usage,
+            fmt::format("sound cannot be longer than {} s, because iSampleOffset counts samples in an int",
+                        k_last));
+    auto renderer = TRY(render::SoundRenderer::create(scene, render::Date{}, precision));
+    const auto count = 2 * size_t(std::llround(duration * render::k_sample_rate));
+    const auto first = int(std::llround(start * render::k_sample_rate));
+    const auto block = 2 * size_t(render::SoundRenderer::block_samples());
+    std::vector<int16_t> samples;
+    Progress progress("blocks of sound", (count + block - 1) / block);
+    while (samples.size() < count && !interrupt.requested()) {
+        const std::vector<int16_t> drawn = renderer.draw(first + int(samples.size() / 2));
+        samples.insert(samples.end(), drawn.begin(), drawn.end());
+        progress.advance();
+    }
+    samples.resize(count);
+    return samples;
 }
 
 } // namespace
@@ -57,27 +139,6 @@ std::vector<image::Image> laid_out(DrawnPixels pixels, bool six_faces) {
     for (size_t face = 0; six_faces && face < cube.size(); ++face)
         pictures.push_back(image::flipped(cube[face])); // the first row of a face is its top row
     return pictures;
-}
-
-namespace {
-
-constexpr size_t k_block_bytes = 1 << 18; ///< fits a processor's cache while it is filled and written
-
-} // namespace
-
-Result<void> put_raw(const image::Image& image) {
-    const size_t row_bytes = size_t(image.extent.width) * 3;
-    const size_t rows_at_once = std::max<size_t>(1, k_block_bytes / row_bytes);
-    std::vector<std::byte> block;
-    for (int row = image.extent.height; row > 0;) {
-        const auto rows = int(std::min(rows_at_once, size_t(row)));
-        block.resize(size_t(rows) * row_bytes);
-        for (int i = 0; i < rows; ++i)
-            copy_colours(image, --row, block.data() + size_t(i) * row_bytes);
-        if (auto done = put(block); !done)
-            return done;
-    }
-    return {};
 }
 
 void add_rows(Sha256& hash, const image::Image& image) {
@@ -124,51 +185,6 @@ Result<void> BandOutput::finish() {
     return wait().and_then([&] { return stream_ ? stream_->finish() : Result<void>(); });
 }
 
-namespace {
-
-/// One picture of a pass that is not shown.
-struct Source {
-    std::string name;
-    size_t pass;
-    int face = 0;
-    bool cube = false;
-};
-
-std::vector<Source> sources(const render::Renderer& renderer) {
-    std::vector<Source> all;
-    for (const render::PlannedPass& planned : renderer.plan().passes) {
-        const scene::Pass& pass = renderer.scene().passes[planned.pass];
-        if (planned.pass == renderer.shown_index())
-            continue;
-        if (pass.kind != scene::PassKind::cubemap) {
-            all.push_back({pass.name, planned.pass});
-            continue;
-        }
-        for (int face = 0; face < int(k_face_names.size()); ++face)
-            all.push_back(
-                {fmt::format("{} {}", pass.name, k_face_names[size_t(face)]), planned.pass, face, true});
-    }
-    return all;
-}
-
-} // namespace
-
-std::vector<image::PictureLayer> other_layers(const render::Renderer& renderer, image::SampleDepth depth,
-                                              const std::optional<Rectangle>& crop) {
-    const image::PictureFormat format{
-        .depth = depth, .transfer = image::Transfer::data, .alpha = image::Alpha::straight};
-    std::vector<image::PictureLayer> layers;
-    for (const Source& source : sources(renderer)) {
-        image::Image drawn = renderer.read_floats(source.pass, source.face);
-        if (source.cube)
-            drawn = image::flipped(drawn); // the first row of a face is its top row
-        else if (crop)
-            drawn = image::cropped(std::move(drawn), *crop);
-        layers.push_back({source.name, std::move(drawn), format});
-    }
-    return layers;
-}
-
 std::vector<std::string> layer_names(const render::Renderer& renderer) {
     std::vector<std::string> names{renderer.shown_pass().name};
     for (const Source& source : sources(renderer))
@@ -179,7 +195,7 @@ std::vector<std::string> layer_names(const render::Renderer& renderer) {
 Delivery::Delivery(const CapturePlan& plan, const render::Renderer& renderer, const gl::Capabilities& driver,
                    Watchdog& watchdog, std::filesystem::path sound)
     : plan_(plan), renderer_(renderer), driver_(driver), watchdog_(watchdog), sound_(std::move(sound)),
-      records_(plan.json || plan.sheet.has_value()) {}
+      records_(plan.options.json || plan.sheet.has_value()) {}
 
 bool Delivery::in_bands() const {
     return renderer_.tiles() && !(plan_.exposure.several() && renderer_.tiles()->count() == 1);
@@ -250,7 +266,7 @@ WrittenFrame Delivery::prepare(DrawnFrame drawn) const {
 
 Result<bool> Delivery::deliver(WrittenFrame frame) {
     auto& [record, pictures] = frame;
-    if (plan_.json) {
+    if (plan_.options.json) {
         Sha256 hash;
         for (const image::Image& picture : pictures)
             add_rows(hash, picture);
@@ -265,7 +281,7 @@ Result<bool> Delivery::deliver(WrittenFrame frame) {
 Result<bool> Delivery::write(const FrameRecord& record, std::vector<image::Image> pictures) {
     image::Image& first = pictures.front();
     if (video_) {
-        auto encoded = encode(fmt::format("encoding frame {}", record.frame), plan_.timeout,
+        auto encoded = encode(fmt::format("encoding frame {}", record.frame), plan_.options.timeout,
                               [&] { return video_->push(first); });
         return encoded.map([] { return true; }).map_error([&](Error error) {
             error.message += fmt::format(" (in frame {})", record.frame);
@@ -309,7 +325,8 @@ Result<std::unique_ptr<BandOutput>> Delivery::open_bands(int frame) const {
         stream.emplace(TRY(image::PictureStream::create(plan_.output.of_frame(frame), plan_.written, alpha,
                                                         format_of(frame))));
     }
-    return std::make_unique<BandOutput>(std::move(stream), renderer_.extent(), plan_.crop, plan_.json);
+    return std::make_unique<BandOutput>(std::move(stream), renderer_.extent(), plan_.crop,
+                                        plan_.options.json);
 }
 
 void Delivery::add(FrameRecord record, BandOutput& bands) {
@@ -331,7 +348,7 @@ image::PictureFormat Delivery::format_of(int frame) const {
     // The fingerprint goes first: a JPEG without room for all metadata keeps the first entries.
     image::PictureFormat format{
         plan_.depth, {{k_fingerprint, plan_.identity.of_frame(state).text()}}, plan_.transfer, plan_.alpha};
-    for (auto& fact : metadata_of(renderer_.scene(), moment_of(plan_.request, plan_.frames, state)))
+    for (auto& fact : metadata_of(renderer_.scene(), moment_of(plan_.options.scene, plan_.frames, state)))
         format.metadata.push_back(std::move(fact));
     const Extent extent = renderer_.extent();
     format.metadata.insert(format.metadata.end(),
@@ -348,8 +365,9 @@ image::PictureFormat Delivery::format_of(int frame) const {
         format.metadata.emplace_back("Samples", std::to_string(plan_.exposure.samples));
     if (plan_.exposure.shutter > 0)
         format.metadata.emplace_back("Shutter", fmt::format("{}", plan_.exposure.shutter));
-    if (!plan_.request.defines.empty())
-        format.metadata.emplace_back("Defines", fmt::format("{}", fmt::join(plan_.request.defines, "; ")));
+    if (!plan_.options.scene.defines.empty())
+        format.metadata.emplace_back("Defines",
+                                     fmt::format("{}", fmt::join(plan_.options.scene.defines, "; ")));
     return format;
 }
 
@@ -370,28 +388,6 @@ image::PictureFormat Delivery::format_of_sheet() const {
     format.metadata.emplace_back("Frames", fmt::format("{}", fmt::join(frames, ",")));
     format.metadata.emplace_back("Times", fmt::format("{}", fmt::join(times, ",")));
     return format;
-}
-
-Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precision precision, double start,
-                                        double duration, const Interrupt& interrupt) {
-    if (constexpr double k_last = render::SoundRenderer::k_longest_seconds; start + duration > k_last)
-        return fail(
-            ErrorCode::usage,
-            fmt::format("sound cannot be longer than {} s, because iSampleOffset counts samples in an int",
-                        k_last));
-    auto renderer = TRY(render::SoundRenderer::create(scene, render::Date{}, precision));
-    const auto count = 2 * size_t(std::llround(duration * render::k_sample_rate));
-    const auto first = int(std::llround(start * render::k_sample_rate));
-    const auto block = 2 * size_t(render::SoundRenderer::block_samples());
-    std::vector<int16_t> samples;
-    Progress progress("blocks of sound", (count + block - 1) / block);
-    while (samples.size() < count && !interrupt.requested()) {
-        const std::vector<int16_t> drawn = renderer.draw(first + int(samples.size() / 2));
-        samples.insert(samples.end(), drawn.begin(), drawn.end());
-        progress.advance();
-    }
-    samples.resize(count);
-    return samples;
 }
 
 std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const Interrupt& interrupt) {

@@ -101,9 +101,6 @@ std::vector<image::Image> laid_out(DrawnPixels pixels, bool six_faces);
 // Writes a frame that is drawn in tiles, band by band from the top, to a picture file or to standard output.
 // Works on its own thread while the next band is drawn.
 
-/// Writes RGB bytes to standard output, rows from the top down, as video tools read raw frames.
-Result<void> put_raw(const image::Image& image);
-
 /// Adds the samples unchanged, rows from the top: the SHA-256 of `--json`.
 void add_rows(Sha256& hash, const image::Image& image);
 
@@ -142,13 +139,6 @@ private:
 };
 
 // Reads back the passes other than the shown one, as layers of its file.
-
-/// Returns the other passes in the order of drawing: `Buffer A`, and for a cube `Cube A px` to `Cube A nz`.
-/// Each has the orientation of a file with that pass or face alone, but always with alpha, so that all frames
-/// of a sequence have the same channels. Passes as large as the frame are cut to `crop`, a cube's faces are
-/// not.
-std::vector<image::PictureLayer> other_layers(const render::Renderer& renderer, image::SampleDepth depth,
-                                              const std::optional<Rectangle>& crop);
 
 /// Returns the names of all layers, the shown pass first.
 std::vector<std::string> layer_names(const render::Renderer& renderer);
@@ -215,11 +205,6 @@ private:
 };
 
 // `tidemark capture SCENE -o sound.wav`: writes the Sound pass to a file.
-
-/// Returns the scene's sound from `start` on (seconds): interleaved left and right samples,
-/// render::k_sample_rate of each a second. After an interrupt the rest is silent. A context must be current.
-Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precision precision, double start,
-                                        double duration, const Interrupt& interrupt);
 
 /// Returns the sound during the frames of a video, as a WAV file. Errors are printed and the video is silent,
 /// since pictures without sound are better than none.

@@ -1,9 +1,7 @@
 #include "cli/capture_frames.hpp"
 
 #include "base/encoding.hpp"
-#include "base/error.hpp"
 #include "base/extent.hpp"
-#include "base/file.hpp"
 #include "host/json.hpp"
 #include "host/scene_report.hpp"
 
@@ -17,6 +15,58 @@
 #include <numeric>
 
 namespace tidemark::cli {
+namespace {
+
+/// Returns the differences of successive frames.
+std::vector<int> strides_of(const std::vector<int>& frames) {
+    std::vector<int> strides;
+    for (size_t i = 1; i < frames.size(); ++i)
+        strides.push_back(frames[i] - frames[i - 1]);
+    return strides;
+}
+
+constexpr int k_gap = 8; ///< pixels
+/// Grey of the gaps: neither black nor white, which are common at the edges of scenes.
+constexpr uint8_t k_grey = 0x20;
+constexpr size_t k_most_cells = 1000;
+constexpr int k_most_shards = 1'000'000;
+
+/// Returns an opaque grey picture.
+image::Image blank(Extent extent, image::SampleType type) {
+    image::Image picture(extent, 4, type);
+    for (size_t i = 0; i < picture.samples(); ++i) {
+        const uint8_t sample = i % 4 == 3 ? 0xff : k_grey;
+        if (type == image::SampleType::u8)
+            picture.u8()[i] = sample;
+        else
+            picture.f32()[i] = float(sample) / 255;
+    }
+    return picture;
+}
+
+Result<int> slurm_number(const char* name, std::optional<int> otherwise = {}) {
+    const char* const text = std::getenv(name);
+    const std::optional<int> number = text ? number_from<int>(text) : otherwise;
+    if (!number)
+        return fail(ErrorCode::usage,
+                    fmt::format("--shard slurm: {} is {}; start this command as a task of `sbatch --array`",
+                                name, text ? fmt::format("'{}'", text) : "not set"));
+    return *number;
+}
+
+Result<Shard> shard_of_slurm() {
+    const int id = TRY(slurm_number("SLURM_ARRAY_TASK_ID"));
+    const int count = TRY(slurm_number("SLURM_ARRAY_TASK_COUNT"));
+    const int first = TRY(slurm_number("SLURM_ARRAY_TASK_MIN", 0));
+    const int step = TRY(slurm_number("SLURM_ARRAY_TASK_STEP", 1));
+    if (step < 1 || id < first || (id - first) % step != 0 || (id - first) / step >= count)
+        return fail(ErrorCode::usage, fmt::format("--shard slurm: task {} does not fit an array of {} tasks "
+                                                  "that starts at {}; give --array without gaps, as in 0-7",
+                                                  id, count, first));
+    return Shard{(id - first) / step, count};
+}
+
+} // namespace
 
 std::vector<int> evenly(const std::vector<int>& frames, size_t count) {
     count = std::min(count, frames.size());
@@ -32,18 +82,6 @@ std::vector<int> beginnings(double seconds, double fps, size_t count) {
         frames.push_back(int(std::floor(seconds * fps * double(i) / double(count))));
     return frames;
 }
-
-namespace {
-
-/// Returns the differences of successive frames.
-std::vector<int> strides_of(const std::vector<int>& frames) {
-    std::vector<int> strides;
-    for (size_t i = 1; i < frames.size(); ++i)
-        strides.push_back(frames[i] - frames[i - 1]);
-    return strides;
-}
-
-} // namespace
 
 VideoPace pace_of(const std::vector<int>& frames, double fps) {
     const std::vector<int> strides = strides_of(frames);
@@ -66,28 +104,6 @@ std::vector<int> ticks_of(const std::vector<int>& frames, const VideoPace& pace)
         ticks[i] = strides[i] / pace.tick;
     return ticks;
 }
-
-namespace {
-
-constexpr int k_gap = 8; ///< pixels
-/// Grey of the gaps: neither black nor white, which are common at the edges of scenes.
-constexpr uint8_t k_grey = 0x20;
-constexpr size_t k_most_cells = 1000;
-
-/// Returns an opaque grey picture.
-image::Image blank(Extent extent, image::SampleType type) {
-    image::Image picture(extent, 4, type);
-    for (size_t i = 0; i < picture.samples(); ++i) {
-        const uint8_t sample = i % 4 == 3 ? 0xff : k_grey;
-        if (type == image::SampleType::u8)
-            picture.u8()[i] = sample;
-        else
-            picture.f32()[i] = float(sample) / 255;
-    }
-    return picture;
-}
-
-} // namespace
 
 Extent SheetGrid::extent(Extent cell) const {
     return {columns * cell.width + (columns - 1) * k_gap, rows * cell.height + (rows - 1) * k_gap};
@@ -117,42 +133,14 @@ void Sheet::add(const image::Image& cell) {
     ++added_;
 }
 
-namespace {
-
-Result<int> slurm_number(const char* name, std::optional<int> otherwise = {}) {
-    const char* const text = std::getenv(name);
-    const std::optional<int> number = text ? number_from<int>(text) : otherwise;
-    if (!number)
-        return fail(ErrorCode::usage,
-                    fmt::format("--shard slurm: {} is {}; start this command as a task of `sbatch --array`",
-                                name, text ? fmt::format("'{}'", text) : "not set"));
-    return *number;
-}
-
-Result<Shard> shard_of_slurm() {
-    const int id = TRY(slurm_number("SLURM_ARRAY_TASK_ID"));
-    const int count = TRY(slurm_number("SLURM_ARRAY_TASK_COUNT"));
-    const int first = TRY(slurm_number("SLURM_ARRAY_TASK_MIN", 0));
-    const int step = TRY(slurm_number("SLURM_ARRAY_TASK_STEP", 1));
-    if (step < 1 || id < first || (id - first) % step != 0 || (id - first) / step >= count)
-        return fail(ErrorCode::usage, fmt::format("--shard slurm: task {} does not fit an array of {} tasks "
-                                                  "that starts at {}; give --array without gaps, as in 0-7",
-                                                  id, count, first));
-    return Shard{(id - first) / step, count};
-}
-
-} // namespace
-
 Result<Shard> parse_shard(std::string_view text) {
     if (text == "slurm")
         return shard_of_slurm();
-    const size_t slash = std::min(text.find('/'), text.size());
-    const auto number = number_from<int>(text.substr(0, slash));
-    const auto count = number_from<int>(text.substr(std::min(slash + 1, text.size())));
-    if (!number || !count || *number < 1 || *number > *count || *count > k_most_shards)
+    const std::vector<int> numbers = numbers_from<int>(text, '/');
+    if (numbers.size() != 2 || numbers[0] < 1 || numbers[0] > numbers[1] || numbers[1] > k_most_shards)
         return fail(ErrorCode::usage,
                     fmt::format("--shard {}: give K/N with K from 1 to N, as in 2/8, or slurm", text));
-    return Shard{*number - 1, *count};
+    return Shard{numbers[0] - 1, numbers[1]};
 }
 
 std::vector<int> frames_of(const Shard& shard, const std::vector<int>& frames, const scene::Scene& scene) {

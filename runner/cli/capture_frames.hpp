@@ -72,8 +72,6 @@ struct Shard {
     int count = 1;
 };
 
-inline constexpr int k_most_shards = 1'000'000;
-
 /// Parses `2/8`, counted from 1, or `slurm`: the variables of a Slurm array task (ErrorCode::usage if they
 /// are missing).
 Result<Shard> parse_shard(std::string_view text);

@@ -3,18 +3,13 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/supervision.hpp"
-#include "cli/capture_frames.hpp"
 #include "cli/capture_resume.hpp"
 #include "host/console.hpp"
-#include "host/frame_files.hpp"
 #include "host/scene_report.hpp"
-#include "host/supervision.hpp"
-#include "media/picture_file.hpp"
 #include "media/texture_files.hpp"
 #include "media/video_output.hpp"
 #include "render/gl_context.hpp"
 #include "render/picture_parts.hpp"
-#include "render/renderer.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -29,6 +24,13 @@ using image::Alpha;
 using image::SampleDepth;
 using image::SampleType;
 using image::Transfer;
+
+/// Returns a function that makes the error `OPTION: why`.
+auto refusal(std::string option) {
+    return [option = std::move(option)](std::string_view why) {
+        return fail(ErrorCode::usage, fmt::format("{}: {}", option, why));
+    };
+}
 
 /// Keeps floats for passes other than Image: a buffer is state, and a half float would turn 1e6 into
 /// infinity.
@@ -61,27 +63,23 @@ Result<SampleDepth> parse_depth(const std::string& text, const OutputName& outpu
 }
 
 Result<Transfer> parse_transfer(const std::string& text, const CapturePlan& plan) {
-    const auto refuse = [](std::string_view why) {
-        return fail(ErrorCode::usage, fmt::format("--transfer {}", why));
-    };
+    const auto refuse = refusal("--transfer " + text);
     if (text.empty())
         return drawn_transfer(plan.frames.state.pass);
     if (text == "srgb")
         return Transfer::srgb;
     if (text != "linear")
-        return refuse(fmt::format("{}: give srgb or linear", text));
+        return refuse("give srgb or linear");
     if (!plan.to_picture_files())
-        return refuse("linear: videos and raw frames on standard output are always sRGB");
+        return refuse("videos and raw frames on standard output are always sRGB");
     if (plan.depth == SampleDepth::u8)
-        return refuse("linear: 8 bits of linear light show steps in dark areas: give --depth 16, or an .exr");
+        return refuse("8 bits of linear light show steps in dark areas: give --depth 16, or an .exr");
     return Transfer::linear;
 }
 
 /// Returns how Image's alpha is drawn and stored in the file.
 Result<Alpha> parse_alpha(const std::string& text, const CapturePlan& plan) {
-    const auto refuse = [&](std::string_view why) {
-        return fail(ErrorCode::usage, fmt::format("--alpha {}: {}", text, why));
-    };
+    const auto refuse = refusal("--alpha " + text);
     if (text.empty() || text == "opaque")
         return Alpha::where_needed;
     if (text != "keep" && text != "premultiplied")
@@ -106,9 +104,7 @@ Result<Alpha> parse_alpha(const std::string& text, const CapturePlan& plan) {
 /// Returns the sample depth of the passes written in addition to Image. Buffers are state, so they keep
 /// floats by default.
 Result<std::optional<SampleDepth>> parse_layers(const CaptureOptions& options, const CapturePlan& plan) {
-    const auto refuse = [](std::string_view why) {
-        return fail(ErrorCode::usage, fmt::format("--layers: {}", why));
-    };
+    const auto refuse = refusal("--layers");
     if (!options.layers)
         return std::nullopt;
     if (!plan.to_picture_files() || !image::holds_layers(plan.output.pattern()))
@@ -132,9 +128,7 @@ Result<std::optional<Rectangle>> parse_crop(const CaptureOptions& options, const
                                             Extent drawn) {
     if (!options.crop)
         return std::nullopt;
-    const auto refuse = [&](std::string_view why) {
-        return fail(ErrorCode::usage, fmt::format("--crop {}: {}", *options.crop, why));
-    };
+    const auto refuse = refusal("--crop " + *options.crop);
     const auto area = parse_rectangle(*options.crop);
     if (!area)
         return refuse("give X,Y,WIDTH,HEIGHT in pixels from the bottom left, as in 100,50,320,180");
@@ -153,9 +147,7 @@ constexpr double k_seconds_of_sheet = 10;
 /// Returns the frames of the sheet's cells.
 Result<std::vector<int>> frames_of_sheet(const CaptureOptions& options, const FrameSequence& asked,
                                          const SheetGrid& grid) {
-    const auto refuse = [](std::string why) {
-        return fail(ErrorCode::usage, fmt::format("--sheet: {}", why));
-    };
+    const auto refuse = refusal("--sheet");
     if (options.frames.frame || options.frames.time)
         return refuse("--frame and --time name one moment: give --frames or --duration");
     if (options.frames.frames && options.duration)
@@ -177,9 +169,7 @@ Result<std::vector<int>> frames_of_sheet(const CaptureOptions& options, const Fr
 Result<void> check_sheet(const CapturePlan& plan) {
     if (!plan.sheet)
         return {};
-    const auto refuse = [](std::string why) {
-        return fail(ErrorCode::usage, fmt::format("--sheet: {}", why));
-    };
+    const auto refuse = refusal("--sheet");
     if (!plan.to_picture_files() || plan.output.six_faces())
         return refuse("the sheet is one picture: give a .png, .jpg, .tif, .exr or .hdr");
     if (plan.cube && !plan.crop)
@@ -205,9 +195,7 @@ constexpr double k_seconds_of_sound = 60;
 
 /// Fails if existing frames could not be told from missing ones.
 Result<void> check_resume(const OutputName& output) {
-    const auto refuse = [](std::string_view why) {
-        return fail(ErrorCode::usage, fmt::format("--resume: {}", why));
-    };
+    const auto refuse = refusal("--resume");
     if (output.standard_output())
         return refuse("frames on standard output cannot be resumed");
     if (!output.video() && !image::holds_metadata(output.pattern()))
@@ -218,9 +206,7 @@ Result<void> check_resume(const OutputName& output) {
 
 /// Fails if several processes could not write to one folder, or `gather` could not check the result.
 Result<void> check_shard(const CaptureOptions& options, const OutputName& output) {
-    const auto refuse = [](std::string_view why) {
-        return fail(ErrorCode::usage, fmt::format("--shard: {}", why));
-    };
+    const auto refuse = refusal("--shard");
     if (output.standard_output())
         return refuse(
             "write files (a sequence of pictures or a video), so that `tidemark gather` can read them");
@@ -295,8 +281,9 @@ const scene::Pass* shown_pass(const scene::Scene& scene, const std::string& name
 /// size and the kind of the shown pass; null if it could not be loaded.
 Result<CapturePlan> plan_of_options(const CaptureOptions& options, const scene::Scene* files) {
     CapturePlan plan;
-    plan.frames = TRY(resolve(files && !options.likeness ? sized(options.frames, *files) : options.frames,
-                              options.likeness ? options.likeness->sequence : FrameSequence()));
+    plan.options = options;
+    plan.frames = TRY(resolve(files && !options.like_frames ? sized(options.frames, *files) : options.frames,
+                              options.like_frames.value_or(FrameSequence())));
     plan.states = states_of(plan.frames);
     const scene::Pass* const shown = files ? shown_pass(*files, plan.frames.state.pass) : nullptr;
     plan.cube = shown && shown->kind == scene::PassKind::cubemap;
@@ -306,14 +293,12 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options, const scene::
         numbers = TRY(frames_of_sheet(options, plan.frames, *plan.sheet));
     }
     const size_t count = plan.sheet ? 1 : std::unordered_set(numbers.begin(), numbers.end()).size();
-    auto output = TRY(options.output ? OutputName::parse(*options.output, count)
+    plan.output = TRY(options.output ? OutputName::parse(*options.output, count)
                                      : OutputName::of_scene(options.scene.path, count));
-    plan.output = std::move(output);
     if (plan.to_picture_files() && !plan.sheet)
         drop_repeats(numbers);
     plan.codec = TRY(parse_codec(options.codec, plan.output));
-    const auto depth = TRY(parse_depth(options.depth, plan.output, plan.codec, plan.frames.state.pass));
-    plan.depth = depth;
+    plan.depth = TRY(parse_depth(options.depth, plan.output, plan.codec, plan.frames.state.pass));
     plan.transfer = TRY(parse_transfer(options.transfer, plan));
     plan.pace = pace_of(numbers, plan.frames.state.fps);
     plan.exposure = exposure_of(options, plan.depth);
@@ -335,16 +320,6 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options, const scene::
     };
     if (plan.output.video())
         plan.segments = segments_of(numbers, plan.pace, options.state_every);
-    plan.tile_side = options.tile;
-    plan.device = options.device;
-    plan.timeout = options.timeout;
-    plan.request = options.scene;
-    plan.like = options.like;
-    plan.likeness = options.likeness;
-    plan.json = options.json;
-    plan.resume = options.resume;
-    plan.loop = options.loop;
-    plan.state_every = options.state_every;
     return check_output(plan, options).map([&] { return std::move(plan); });
 }
 
@@ -378,7 +353,7 @@ constexpr size_t k_frames_worth_a_trial = 64;
 
 /// Plans a trial of the first and the last frame, in their states of the sequence but with empty buffers.
 /// While a recording changes knobs, they cannot be constants in a program.
-Result<std::optional<PlannedTrial>> plan_trial(const CaptureOptions& options, const CapturePlan& plan) {
+Result<std::optional<TrialPlan>> plan_trial(const CaptureOptions& options, const CapturePlan& plan) {
     const std::vector<int>& frames = plan.frames.frames;
     const bool turned = plan.frames.input && turns_knobs(*plan.frames.input);
     if (turned && options.allowed_difference)
@@ -389,10 +364,8 @@ Result<std::optional<PlannedTrial>> plan_trial(const CaptureOptions& options, co
     if (options.plain || turned || !(options.allowed_difference || long_enough))
         return std::nullopt;
     const int first = plan.scene.passes.size() > 1 ? 0 : frames.front(); // buffers begin at frame 0
-    return PlannedTrial{options.allowed_difference ? glsl::Specialise::constants
-                                                   : glsl::Specialise::invariant_uniforms,
-                        {inputs_of(plan.states(first)), inputs_of(plan.states(frames.back())), frames.size(),
-                         options.allowed_difference}};
+    return TrialPlan{inputs_of(plan.states(first)), inputs_of(plan.states(frames.back())), frames.size(),
+                     options.allowed_difference};
 }
 
 /// Assigns whole segments of a video to the shard, since segments are encoded separately.
@@ -418,6 +391,65 @@ Result<void> take_shard(const CaptureOptions& options, CapturePlan& plan) {
     else
         plan.frames.frames = frames_of(*plan.shard, plan.frames.frames, plan.scene);
     return {};
+}
+
+/// Returns the size of the tiles; nothing if frames are drawn whole.
+Result<std::optional<Extent>> choose_tile(const CapturePlan& plan) {
+    const int limit = gl::query_capabilities().largest_target;
+    if (plan.options.tile)
+        return render::tile_of_side(*plan.options.tile, limit).map([](Extent tile) {
+            return std::optional(tile);
+        });
+    const bool whole = plan.output.video() || plan.layers || plan.sheet;
+    const auto tile =
+        whole ? std::nullopt
+              : render::tile_for(plan.drawing.extent, 4 * image::size_of(plan.drawing.samples), limit);
+    return plan.exposure.several() && !tile ? plan.drawing.extent : tile; // one tile, shifted for each sample
+}
+
+/// Rejects options that the compiled scene does not allow.
+Result<void> check_compiled(const CapturePlan& plan, const render::Renderer& renderer) {
+    const auto refuse = [](std::string why) { return fail(ErrorCode::usage, std::move(why)); };
+    if (plan.options.tile && !renderer.tiles())
+        return refuse(fmt::format(
+            "--tile: {} cannot be drawn in tiles: it is a cube, another pass reads it, or it discards pixels",
+            renderer.shown_pass().name));
+    if (plan.options.loop && renderer.tiles() && renderer.tiles()->count() > 1)
+        return refuse("--loop: frames drawn in tiles cannot be compared; give a smaller --size");
+    if (plan.exposure.several() && renderer.shown_pass().kind != scene::PassKind::image)
+        return refuse("--samples: only frames of Image can be averaged");
+    if (plan.exposure.several() && !renderer.tiles())
+        return refuse("--samples: Image cannot be drawn several times per frame: a pass reads it, or it "
+                      "discards pixels");
+    if (plan.exposure.shutter > 0 && renderer.plan().feedback)
+        return refuse("--shutter: this scene reads its own last frame, so there are no moments between two "
+                      "frames; --samples alone smooths its edges");
+    return {};
+}
+
+/// Returns the faster of two programs if a trial is planned. No trial in tiles: the picture is too
+/// large to draw it for one.
+Result<Trial> choose_renderer(const CapturePlan& plan, render::RenderOptions drawing) {
+    if (!plan.trial || drawing.tile)
+        return Trial{TRY(render::Renderer::create(plan.scene, drawing))};
+    drawing.specialise =
+        plan.trial->allowed ? glsl::Specialise::constants : glsl::Specialise::invariant_uniforms;
+    auto trial = TRY(choose_program(plan.scene, drawing, *plan.trial));
+    if (!trial.said.empty())
+        say(trial.said);
+    return trial;
+}
+
+Result<Trial> compile_all(const CapturePlan& plan, Interrupt& interrupt) {
+    const Interrupt::Immediate at_once(interrupt);
+    Watchdog watchdog;
+    const Watchdog::Watch watch(watchdog, {"compiling", plan.options.timeout});
+    const auto tile = TRY(choose_tile(plan));
+    render::RenderOptions drawing = plan.drawing;
+    drawing.tile = tile;
+    auto compiled = TRY(choose_renderer(plan, drawing));
+    TRY(check_compiled(plan, compiled.renderer));
+    return compiled;
 }
 
 } // namespace
@@ -482,68 +514,6 @@ Result<SoundPlan> plan_sound(const CaptureOptions& options) {
     return SoundPlan{std::move(scene), std::move(output), options.device, precision_of(options.scene),
                      duration};
 }
-
-namespace {
-
-/// Returns the size of the tiles; nothing if frames are drawn whole.
-Result<std::optional<Extent>> choose_tile(const CapturePlan& plan) {
-    const int limit = gl::query_capabilities().largest_target;
-    if (plan.tile_side)
-        return render::tile_of_side(*plan.tile_side, limit).map([](Extent tile) {
-            return std::optional(tile);
-        });
-    const bool whole = plan.output.video() || plan.layers || plan.sheet;
-    const auto tile =
-        whole ? std::nullopt
-              : render::tile_for(plan.drawing.extent, 4 * image::size_of(plan.drawing.samples), limit);
-    return plan.exposure.several() && !tile ? plan.drawing.extent : tile; // one tile, shifted for each sample
-}
-
-/// Rejects options that the compiled scene does not allow.
-Result<void> check_compiled(const CapturePlan& plan, const render::Renderer& renderer) {
-    const auto refuse = [](std::string why) { return fail(ErrorCode::usage, std::move(why)); };
-    if (plan.tile_side && !renderer.tiles())
-        return refuse(fmt::format(
-            "--tile: {} cannot be drawn in tiles: it is a cube, another pass reads it, or it discards pixels",
-            renderer.shown_pass().name));
-    if (plan.loop && renderer.tiles() && renderer.tiles()->count() > 1)
-        return refuse("--loop: frames drawn in tiles cannot be compared; give a smaller --size");
-    if (plan.exposure.several() && renderer.shown_pass().kind != scene::PassKind::image)
-        return refuse("--samples: only frames of Image can be averaged");
-    if (plan.exposure.several() && !renderer.tiles())
-        return refuse("--samples: Image cannot be drawn several times per frame: a pass reads it, or it "
-                      "discards pixels");
-    if (plan.exposure.shutter > 0 && renderer.plan().feedback)
-        return refuse("--shutter: this scene reads its own last frame, so there are no moments between two "
-                      "frames; --samples alone smooths its edges");
-    return {};
-}
-
-/// Returns the faster of two programs if a trial is planned. No trial in tiles: the picture is too
-/// large to draw it for one.
-Result<Trial> choose_renderer(const CapturePlan& plan, render::RenderOptions drawing) {
-    if (!plan.trial || drawing.tile)
-        return Trial{TRY(render::Renderer::create(plan.scene, drawing))};
-    drawing.specialise = plan.trial->as_far_as;
-    auto trial = TRY(choose_program(plan.scene, drawing, plan.trial->frames));
-    if (!trial.said.empty())
-        say(trial.said);
-    return trial;
-}
-
-Result<Trial> compile_all(const CapturePlan& plan, Interrupt& interrupt) {
-    const Interrupt::Immediate at_once(interrupt);
-    Watchdog watchdog;
-    const Watchdog::Watch watch(watchdog, {"compiling", plan.timeout});
-    const auto tile = TRY(choose_tile(plan));
-    render::RenderOptions drawing = plan.drawing;
-    drawing.tile = tile;
-    auto compiled = TRY(choose_renderer(plan, drawing));
-    TRY(check_compiled(plan, compiled.renderer));
-    return compiled;
-}
-
-} // namespace
 
 Result<Trial> compile(const CapturePlan& plan, Interrupt& interrupt) {
     if (!plan.frames.frames.empty())

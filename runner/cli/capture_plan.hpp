@@ -22,17 +22,12 @@
 
 namespace tidemark::cli {
 
-/// The metadata of the picture that `--like` names.
-struct Likeness {
-    FrameSequence sequence;
-    std::string fingerprint; ///< Fingerprint::text
-};
-
 struct CaptureOptions {
     SceneRequest scene;
     FrameOptions frames;
-    std::string like; ///< a picture; empty: none
-    std::optional<Likeness> likeness{};
+    std::string like;                           ///< a picture; empty: none
+    std::optional<FrameSequence> like_frames{}; ///< of that picture's metadata
+    std::string like_fingerprint{};             ///< Fingerprint::text, of that picture's metadata
     std::optional<std::string> output;
     std::string depth;
     std::string transfer;
@@ -57,12 +52,6 @@ struct CaptureOptions {
     std::vector<std::string> words{}; ///< the arguments, without --shard, --resume and --json
 };
 
-/// A trial of a program with stronger optimisation than `CapturePlan::drawing` has.
-struct PlannedTrial {
-    glsl::Specialise as_far_as = glsl::Specialise::invariant_uniforms;
-    TrialPlan frames;
-};
-
 /// Frames of a video that are encoded separately.
 struct VideoSegment {
     std::vector<int> frames;
@@ -74,6 +63,7 @@ struct VideoSegment {
 };
 
 struct CapturePlan {
+    CaptureOptions options{}; ///< completed by --like
     scene::Scene scene;
     FrameSequence frames;
     render::FrameStates states; ///< of `frames`: the state of any frame by its number
@@ -94,19 +84,9 @@ struct CapturePlan {
     std::vector<VideoSegment> segments{}; ///< of a video: all its frames
     render::RenderOptions drawing;        ///< for frames drawn whole
     render::Exposure exposure;
-    std::optional<int> tile_side;
-    std::optional<PlannedTrial> trial;
-    platform::DeviceChoice device;
-    std::optional<double> timeout; ///< seconds for a frame
-    SceneRequest request;          ///< the request that `scene` was loaded with
-    std::string like;              ///< the picture to reproduce; empty: none
-    std::optional<Likeness> likeness{};
-    bool json = false;            ///< print a report of the frames, with the SHA-256 of their pixels
-    bool resume = false;          ///< continue an interrupted capture
-    bool loop = false;            ///< report whether the sequence is a seamless loop
-    int state_every = 0;          ///< frames between two saved states of buffers; 0: none is saved
-    std::optional<Shard> shard{}; ///< the shard that makes `frames`
-    std::vector<int> kept{};      ///< frames that already exist, not in `frames`
+    std::optional<TrialPlan> trial; ///< of a program with stronger optimisation than `drawing` has
+    std::optional<Shard> shard{};   ///< the shard that makes `frames`
+    std::vector<int> kept{};        ///< frames that already exist, not in `frames`
 
     /// Returns the fingerprint of a frame of the run.
     Fingerprint identity_of(int frame) const { return identity.of_frame(states(frame)); }
@@ -150,13 +130,10 @@ Result<SoundPlan> plan_sound(const CaptureOptions& options);
 // Compiles the programs that draw a plan, with tiles for large frames, and the faster of two programs if a
 // trial is planned.
 
-/// A context must be current. The plan's `timeout` applies.
+/// A context must be current. --timeout applies.
 Result<Trial> compile(const CapturePlan& plan, Interrupt& interrupt);
 
-// The options of `tidemark capture`, for other code that parses its command line.
-
-struct CaptureOptions;
-
+/// Adds the options of `tidemark capture`, also for other code that parses its command line.
 void add_capture_options(Command command, CaptureOptions& options);
 
 /// Adds --codec, for every command that makes videos.

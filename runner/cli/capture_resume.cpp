@@ -1,9 +1,6 @@
 #include "cli/capture_resume.hpp"
 
 #include "base/encoding.hpp"
-#include "base/error.hpp"
-#include "base/file.hpp"
-#include "host/frame_files.hpp"
 #include "host/json.hpp"
 #include "host/moment.hpp"
 #include "media/picture_check.hpp"
@@ -22,6 +19,7 @@
 #include <thread>
 
 namespace tidemark::cli {
+namespace fs = std::filesystem;
 namespace {
 
 Json knob_facts(const scene::Scene& scene) {
@@ -36,11 +34,11 @@ Json knob_facts(const scene::Scene& scene) {
 Json drawing_facts(const CapturePlan& plan) {
     const auto& [extent, samples, pass, precision, specialise, extras, tile, marks, keeps_alpha] =
         plan.drawing;
-    const bool differs = plan.trial && plan.trial->frames.allowed;
+    const bool differs = plan.trial && plan.trial->allowed;
     Json facts = Json::array({int(samples), int(precision), int(specialise), marks, int(plan.depth),
                               plan.output.pattern().extension().string(), plan.output.six_faces(),
                               plan.output.video() ? Json(plan.pace.fps) : Json(),
-                              differs ? Json(*plan.trial->frames.allowed) : Json()});
+                              differs ? Json(*plan.trial->allowed) : Json()});
     if (plan.exposure.several())
         facts.push_back(Json::array({plan.exposure.samples, plan.exposure.shutter}));
     if (plan.transfer != drawn_transfer(pass))
@@ -57,18 +55,6 @@ Json drawing_facts(const CapturePlan& plan) {
         facts.push_back(Json::array({"crop", to_string(*plan.crop)}));
     return facts;
 }
-
-} // namespace
-
-Fingerprint identity_of_run(const CapturePlan& plan) {
-    Fingerprint run = Fingerprint::of_scene(plan.scene, plan.request.defines, plan.frames);
-    run.add("knobs", knob_facts(plan.scene));
-    run.add("drawing", drawing_facts(plan));
-    return run;
-}
-
-namespace fs = std::filesystem;
-namespace {
 
 constexpr std::string_view k_ending = ".state";
 constexpr int k_version_of_format = 1;
@@ -140,7 +126,106 @@ std::optional<std::string_view> without_checksum(std::string_view file) {
     return file.substr(content.size()) == sha256(bytes_of(content)) ? std::optional(content) : std::nullopt;
 }
 
+/// The usual distance of key frames in libx264, so that a long video does not grow by its segments.
+constexpr int k_default_length = 250;
+
+size_t ticks_in(const VideoSegment& segment) {
+    return std::accumulate(segment.ticks.begin(), segment.ticks.end(), size_t{0});
+}
+
+/// Returns why the picture in the file does not have this fingerprint; empty if it does.
+std::string why_not_kept(const fs::path& file, const Fingerprint& wanted) {
+    const auto metadata = image::read_metadata(file);
+    if (!metadata)
+        return metadata.error();
+    const std::string* text = image::find(*metadata, k_fingerprint);
+    if (!text)
+        return "it has no record of how it was drawn";
+    const std::string differences = wanted.differences(Fingerprint::parse(*text));
+    return differences.empty() ? "" : "it was drawn with " + differences;
+}
+
+/// Returns the first file that cannot be kept, and why; an empty reason means that it is missing. Returns
+/// nothing if the frame is kept.
+std::optional<std::pair<fs::path, std::string>> objection_to(const std::vector<fs::path>& files,
+                                                             const Fingerprint& wanted) {
+    std::error_code ignored;
+    for (const fs::path& file : files) {
+        if (!fs::is_regular_file(fs::symlink_status(file, ignored)))
+            return std::pair(file, std::string());
+        if (std::string why = why_not_kept(file, wanted); !why.empty())
+            return std::pair(file, std::move(why));
+    }
+    return std::nullopt;
+}
+
+KeptFrames leave_out_pictures(CapturePlan& plan) {
+    KeptFrames kept;
+    std::vector<int> missing;
+    std::vector<Wrong> again;
+    for (const int frame : plan.frames.frames) {
+        auto objection = objection_to(files_of(plan.output, frame), plan.identity_of(frame));
+        (objection ? missing : kept.frames).push_back(frame);
+        if (!objection)
+            continue;
+        if (!objection->second.empty())
+            note(again, std::move(objection->second), objection->first.string());
+    }
+    for (const auto& [why, first, count] : again)
+        kept.said.push_back(count == 1
+                                ? fmt::format("drawing {} again: {}", first, why)
+                                : fmt::format("drawing {} frames again, from {}: {}", count, first, why));
+    plan.frames.frames = std::move(missing);
+    return kept;
+}
+
+KeptFrames leave_out_segments(CapturePlan& plan) {
+    KeptFrames kept;
+    std::vector<int> missing;
+    for (size_t i = 0; i < plan.segments.size(); ++i) {
+        VideoSegment& segment = plan.segments[i];
+        if (segment.others)
+            continue;
+        const auto note = image::note_of_segment(segment_file(plan.output, i).path());
+        segment.kept = note && *note == note_of(plan, segment);
+        std::vector<int>& into = segment.kept ? kept.frames : missing;
+        into.insert(into.end(), segment.frames.begin(), segment.frames.end());
+        if (note && !segment.kept)
+            kept.said.push_back(fmt::format(
+                "drawing frames {} to {} again: they were drawn with {}", segment.frames.front(),
+                segment.frames.back(),
+                Fingerprint::parse(note_of(plan, segment)).differences(Fingerprint::parse(*note))));
+    }
+    plan.frames.frames = std::move(missing);
+    return kept;
+}
+
+/// Writes the state; it is on disk when the function returns. Fails with ErrorCode::write.
+Result<void> write_state(const OutputPath& file, const SavedState& state, const Fingerprint& fingerprint) {
+    auto staged = TRY(StagedFile::create(file));
+    Sha256 hash;
+    const auto add = [&](std::span<const std::byte> bytes) {
+        hash.add(bytes);
+        return staged.write(bytes);
+    };
+    TRY(add(bytes_of(header_of(state, fingerprint))));
+    for (const render::PassState& pass : state.buffers)
+        for (const render::TextureFloats& texture : pass.textures)
+            TRY(add(std::as_bytes(std::span(texture))));
+    TRY(staged.write(bytes_of(hash.digits())));
+    if (!state.buffers.empty())
+        ::fsync(staged.descriptor()); // the previous state is removed next
+    return staged.commit();
+}
+
 } // namespace
+
+Fingerprint identity_of_run(const CapturePlan& plan) {
+    Fingerprint run = Fingerprint::of_scene(plan.scene, plan.options.scene.defines, plan.frames);
+    run.add("knobs", knob_facts(plan.scene));
+    run.add("drawing", drawing_facts(plan));
+    return run;
+}
 
 OutputPath state_file(const OutputName& output, int frame) {
     return output.of_frame(frame).beside(k_ending);
@@ -174,23 +259,6 @@ void remove_states(const OutputName& output) {
         fs::remove(file, ignored);
 }
 
-Result<void> write_state(const OutputPath& file, const SavedState& state, const Fingerprint& fingerprint) {
-    auto staged = TRY(StagedFile::create(file));
-    Sha256 hash;
-    const auto add = [&](std::span<const std::byte> bytes) {
-        hash.add(bytes);
-        return staged.write(bytes);
-    };
-    TRY(add(bytes_of(header_of(state, fingerprint))));
-    for (const render::PassState& pass : state.buffers)
-        for (const render::TextureFloats& texture : pass.textures)
-            TRY(add(std::as_bytes(std::span(texture))));
-    TRY(staged.write(bytes_of(hash.digits())));
-    if (!state.buffers.empty())
-        ::fsync(staged.descriptor()); // the previous state is removed next
-    return staged.commit();
-}
-
 std::optional<SavedState> read_state(const fs::path& file,
                                      const std::function<Fingerprint(int frame)>& fingerprint_of,
                                      uint64_t most_bytes) {
@@ -222,10 +290,10 @@ Result<void> StateSaver::save_program() {
 }
 
 bool StateSaver::is_due(int frame) const {
-    if (plan_.state_every == 0 || !renderer_.plan().feedback || frame <= last_.value_or(0))
+    if (plan_.options.state_every == 0 || !renderer_.plan().feedback || frame <= last_.value_or(0))
         return false;
     if (!plan_.output.video())
-        return frame % plan_.state_every == 0;
+        return frame % plan_.options.state_every == 0;
     return std::ranges::any_of(plan_.segments, [&](const VideoSegment& segment) {
         return segment.is_to_be_made() && segment.frames.front() == frame;
     });
@@ -248,17 +316,6 @@ Result<void> StateSaver::save(const SavedState& state) {
     last_ = state.frame;
     return {};
 }
-
-namespace {
-
-/// The usual distance of key frames in libx264, so that a long video does not grow by its segments.
-constexpr int k_default_length = 250;
-
-size_t ticks_in(const VideoSegment& segment) {
-    return std::accumulate(segment.ticks.begin(), segment.ticks.end(), size_t{0});
-}
-
-} // namespace
 
 std::vector<VideoSegment> segments_of(const std::vector<int>& frames, const VideoPace& pace, int length) {
     const auto step = std::ptrdiff_t(length > 0 ? length : k_default_length);
@@ -368,79 +425,13 @@ void SegmentedVideo::remove_segments() const {
     StagedFile::remove_abandoned(segment_file(plan_.output, 0));
 }
 
-namespace {
-
-/// Returns the first file that cannot be kept, and why; an empty reason means that it is missing. Returns
-/// nothing if the frame is kept.
-std::optional<std::pair<fs::path, std::string>> objection_to(const std::vector<fs::path>& files,
-                                                             const Fingerprint& wanted) {
-    std::error_code ignored;
-    for (const fs::path& file : files) {
-        if (!fs::is_regular_file(fs::symlink_status(file, ignored)))
-            return std::pair(file, std::string());
-        if (std::string why = why_not_kept(file, wanted); !why.empty())
-            return std::pair(file, std::move(why));
-    }
-    return std::nullopt;
-}
-
-/// Frames that are drawn again for the same reason.
-struct Again {
-    std::string why;
-    fs::path first;
-    size_t count = 0;
-};
-
-void note(std::vector<Again>& all, fs::path file, std::string why) {
-    const auto known = std::ranges::find(all, why, &Again::why);
+void note(std::vector<Wrong>& all, std::string what, const std::string& file) {
+    const auto known = std::ranges::find(all, what, &Wrong::what);
     if (known != all.end())
         ++known->count;
     else
-        all.push_back({std::move(why), std::move(file), 1});
+        all.push_back({std::move(what), file, 1});
 }
-
-KeptFrames leave_out_pictures(CapturePlan& plan) {
-    KeptFrames kept;
-    std::vector<int> missing;
-    std::vector<Again> again;
-    for (const int frame : plan.frames.frames) {
-        auto objection = objection_to(files_of(plan.output, frame), plan.identity_of(frame));
-        (objection ? missing : kept.frames).push_back(frame);
-        if (!objection)
-            continue;
-        if (!objection->second.empty())
-            note(again, std::move(objection->first), std::move(objection->second));
-    }
-    for (const auto& [why, first, count] : again)
-        kept.said.push_back(
-            count == 1 ? fmt::format("drawing {} again: {}", first.string(), why)
-                       : fmt::format("drawing {} frames again, from {}: {}", count, first.string(), why));
-    plan.frames.frames = std::move(missing);
-    return kept;
-}
-
-KeptFrames leave_out_segments(CapturePlan& plan) {
-    KeptFrames kept;
-    std::vector<int> missing;
-    for (size_t i = 0; i < plan.segments.size(); ++i) {
-        VideoSegment& segment = plan.segments[i];
-        if (segment.others)
-            continue;
-        const auto note = image::note_of_segment(segment_file(plan.output, i).path());
-        segment.kept = note && *note == note_of(plan, segment);
-        std::vector<int>& into = segment.kept ? kept.frames : missing;
-        into.insert(into.end(), segment.frames.begin(), segment.frames.end());
-        if (note && !segment.kept)
-            kept.said.push_back(fmt::format(
-                "drawing frames {} to {} again: they were drawn with {}", segment.frames.front(),
-                segment.frames.back(),
-                Fingerprint::parse(note_of(plan, segment)).differences(Fingerprint::parse(*note))));
-    }
-    plan.frames.frames = std::move(missing);
-    return kept;
-}
-
-} // namespace
 
 std::vector<fs::path> files_of(const OutputName& output, int frame) {
     if (!output.six_faces())
@@ -449,17 +440,6 @@ std::vector<fs::path> files_of(const OutputName& output, int frame) {
     for (size_t face = 0; face < 6; ++face)
         files.push_back(output.of_face(frame, face).path());
     return files;
-}
-
-std::string why_not_kept(const fs::path& file, const Fingerprint& wanted) {
-    const auto metadata = image::read_metadata(file);
-    if (!metadata)
-        return metadata.error();
-    const std::string* text = image::find(*metadata, k_fingerprint);
-    if (!text)
-        return "it has no record of how it was drawn";
-    const std::string differences = wanted.differences(Fingerprint::parse(*text));
-    return differences.empty() ? "" : "it was drawn with " + differences;
 }
 
 KeptFrames leave_out_kept(CapturePlan& plan) {

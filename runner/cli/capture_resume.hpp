@@ -46,9 +46,6 @@ std::vector<std::filesystem::path> find_states(const OutputName& output);
 /// Removes all files that `find_states` finds.
 void remove_states(const OutputName& output);
 
-/// Writes the state; it is on disk when the function returns. Fails with ErrorCode::write.
-Result<void> write_state(const OutputPath& file, const SavedState& state, const Fingerprint& fingerprint);
-
 /// Reads the state if the file is complete, at most `most_bytes` long, and was written with the fingerprint
 /// that `fingerprint_of` returns for its frame. Otherwise only the first line is read.
 std::optional<SavedState> read_state(const std::filesystem::path& file,
@@ -139,10 +136,17 @@ struct KeptFrames {
 /// Removes kept frames from the plan, and marks the kept segments of a video. Changes no file.
 KeptFrames leave_out_kept(CapturePlan& plan);
 
+/// Files with the same problem.
+struct Wrong {
+    std::string what;
+    std::string first; ///< file
+    size_t count = 0;
+};
+
+/// Counts a file with a problem.
+void note(std::vector<Wrong>& all, std::string what, const std::string& file);
+
 /// Returns the files of a frame: one picture, or the six faces of a cube.
 std::vector<std::filesystem::path> files_of(const OutputName& output, int frame);
-
-/// Returns why the picture in the file does not have this fingerprint; empty if it does.
-std::string why_not_kept(const std::filesystem::path& file, const Fingerprint& wanted);
 
 } // namespace tidemark::cli

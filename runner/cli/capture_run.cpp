@@ -3,7 +3,6 @@
 #include "base/error.hpp"
 #include "base/software_renderer.hpp"
 #include "base/supervision.hpp"
-#include "cli/capture_resume.hpp"
 #include "host/console.hpp"
 #include "host/scene_report.hpp"
 #include "host/version.hpp"
@@ -11,7 +10,6 @@
 #include "media/comparison.hpp"
 #include "media/image.hpp"
 #include "render/exposure.hpp"
-#include "render/gl_context.hpp"
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -27,6 +25,29 @@ namespace {
 
 /// One frame is drawn while the previous one is copied and the one before that is encoded.
 constexpr size_t k_depth = 2;
+
+/// Returns the pictures in one, from the top down.
+image::Image stacked(std::span<const image::Image> pictures) {
+    const image::Image& one = pictures.front();
+    image::Image all({one.extent.width, int(pictures.size()) * one.extent.height}, one.channels, one.type,
+                     {});
+    for (auto picture = pictures.rbegin(); picture != pictures.rend(); ++picture)
+        all.bytes.insert(all.bytes.end(), picture->bytes.begin(), picture->bytes.end());
+    return all;
+}
+
+/// Freed blocks up to this size stay in the process: a 4K frame of bytes.
+constexpr int k_kept_bytes = 32 << 20;
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Returns the frame that would come next.
+int frame_behind(const std::vector<int>& frames) {
+    const int last = frames.back();
+    return frames.size() > 1 ? 2 * last - frames[frames.size() - 2] : last + 1;
+}
 
 } // namespace
 
@@ -60,25 +81,6 @@ DrawnFrame FramesAhead::take() {
     return frame;
 }
 
-int frame_behind(const std::vector<int>& frames) {
-    const int last = frames.back();
-    return frames.size() > 1 ? 2 * last - frames[frames.size() - 2] : last + 1;
-}
-
-namespace {
-
-/// Returns the pictures in one, from the top down.
-image::Image stacked(std::span<const image::Image> pictures) {
-    const image::Image& one = pictures.front();
-    image::Image all({one.extent.width, int(pictures.size()) * one.extent.height}, one.channels, one.type,
-                     {});
-    for (auto picture = pictures.rbegin(); picture != pictures.rend(); ++picture)
-        all.bytes.insert(all.bytes.end(), picture->bytes.begin(), picture->bytes.end());
-    return all;
-}
-
-} // namespace
-
 void LoopCheck::see(std::span<const image::Image> pictures) {
     if (pictures.size() == 1)
         see(pictures.front());
@@ -101,17 +103,6 @@ std::string LoopCheck::words() const {
         "loop: {}; the frame after the last matches the first with {:.1f} dB (the second: {:.1f} dB)",
         closing_ >= step_ ? "seamless" : "jumps at the start", closing_, step_);
 }
-
-namespace {
-
-/// Freed blocks up to this size stay in the process: a 4K frame of bytes.
-constexpr int k_kept_bytes = 32 << 20;
-
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-} // namespace
 
 std::string Capture::cut_loops_warning() {
     if (!is_software_renderer(driver_.renderer) || !lab::may_exceed_safe_iterations(renderer_))
@@ -138,7 +129,7 @@ Result<bool> Capture::run(Interrupt& interrupt) {
     ::mallopt(M_TRIM_THRESHOLD, 4 * k_kept_bytes); // including its copies on the way to a file
     TRY(delivery_.open(interrupt));
     if (draws_ahead())
-        ahead_.emplace(renderer_, watchdog_, plan_.timeout);
+        ahead_.emplace(renderer_, watchdog_, plan_.options.timeout);
     if (!plan_.frames.frames.empty()) {
         Doing::note_frame(DoingPage::Frame{plan_.frames.frames.front(), true});
         prepare(interrupt);
@@ -167,10 +158,11 @@ Result<bool> Capture::run(Interrupt& interrupt) {
     }
     TRY(hand_over_all_ahead());
     Doing::note_frame({});
-    if (plan_.loop && whole_frames() > 0)
+    if (plan_.options.loop && whole_frames() > 0)
         TRY(close_loop(interrupt));
     TRY(delivery_.close());
-    if (plan_.shard && plan_.state_every > 0 && !plan_.frames.frames.empty() && renderer_.plan().feedback)
+    if (plan_.shard && plan_.options.state_every > 0 && !plan_.frames.frames.empty() &&
+        renderer_.plan().feedback)
         TRY(saver_.save_buffers(plan_.frames.frames.back() + 1)); // the next shard may start from it
     return true;
 }
@@ -184,14 +176,14 @@ bool Capture::draws_ahead() const {
     const bool tells_non_finite =
         shown == scene::PassKind::image || renderer_.samples() == image::SampleType::f32;
     return plan_.frames.frames.size() > 1 && whole_in_memory && tells_non_finite && !plan_.layers &&
-           !plan_.json && FramesAhead::pays(driver_.renderer);
+           !plan_.options.json && FramesAhead::pays(driver_.renderer);
 }
 
 /// Does the work that drivers defer until the first draw, so that it does not count for a frame's time or
 /// limit.
 void Capture::prepare(Interrupt& interrupt) {
     const Interrupt::Immediate at_once(interrupt);
-    const Watchdog::Watch watch(watchdog_, {"preparing the first frame", plan_.timeout});
+    const Watchdog::Watch watch(watchdog_, {"preparing the first frame", plan_.options.timeout});
     const auto start = Clock::now();
     renderer_.warm_up(inputs_of(plan_.states(plan_.frames.frames.front())));
     prepare_milliseconds_ = milliseconds_since(start);
@@ -225,7 +217,7 @@ Result<bool> Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord
         else if (steps)
             steps->advance();
         work.start = Clock::now();
-        work.watch.emplace(watchdog_, Watchdog::frame_task(step, plan_.timeout, work.begun));
+        work.watch.emplace(watchdog_, Watchdog::frame_task(step, plan_.options.timeout, work.begun));
         return true;
     });
     TRY(std::move(saved));
@@ -275,7 +267,7 @@ Result<void> Capture::check_driver(const std::string& doing) {
 /// Converts a frame to what is written of it, and shows that to the check of the loop.
 WrittenFrame Capture::finish(DrawnFrame drawn) {
     WrittenFrame frame = delivery_.prepare(std::move(drawn));
-    if (plan_.loop)
+    if (plan_.options.loop)
         loop_.see(frame.pictures);
     return frame;
 }
@@ -345,7 +337,7 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
         if (work.watch)
             progress.advance();
         work.watch.reset();
-        work.watch.emplace(watchdog_, Watchdog::frame_task(frame, plan_.timeout, work.start));
+        work.watch.emplace(watchdog_, Watchdog::frame_task(frame, plan_.options.timeout, work.start));
         return !interrupt.requested();
     };
     auto drawn = render::draw_bands(renderer_, exposed, before_tile, [&](image::Image band) {
@@ -408,7 +400,7 @@ nlohmann::ordered_json Capture::report() const {
     report["pass"] = renderer_.shown_pass().name;
     add_precision(report, renderer_);
     report["knobs"] = knobs_of(renderer_.scene());
-    report["defines"] = plan_.request.defines;
+    report["defines"] = plan_.options.scene.defines;
     report["prepare_milliseconds"] = prepare_milliseconds_;
     report["left_out"] = facts_of(renderer_).left_out;
     if (plan_.crop) {
@@ -419,9 +411,9 @@ nlohmann::ordered_json Capture::report() const {
         report["sheet"] = {plan_.sheet->columns, plan_.sheet->rows};
     if (plan_.layers)
         report["layers"] = layer_names(renderer_);
-    if (plan_.resume)
+    if (plan_.options.resume)
         report["kept"] = plan_.kept;
-    if (plan_.loop)
+    if (plan_.options.loop)
         report["loop"] = {{"closing_psnr", loop_.closing()}, {"step_psnr", loop_.step()}};
     report["frames"] = nlohmann::ordered_json::array();
     for (const FrameRecord& record : records().list()) {

@@ -62,9 +62,6 @@ private:
 // Checks whether a sequence is a seamless loop: compares the frame after the last with the first, and for
 // scale the second with the first.
 
-/// Returns the frame that would come next.
-int frame_behind(const std::vector<int>& frames);
-
 class LoopCheck {
 public:
     /// Adds a frame, one picture or six; call it for each one in order, and for the frame after the last.

@@ -1,19 +1,15 @@
 #include "cli/changed_files.hpp"
 
-#include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/mapped_text.hpp"
 #include "base/tokens.hpp"
 #include "lab/scene_numbers.hpp"
-#include "scene/knob.hpp"
-#include "scene/scene.hpp"
 #include "shader/definitions.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <set>
 
 namespace tidemark::cli {
@@ -52,6 +48,26 @@ std::vector<glsl::Cure> in_file(std::span<const glsl::Cure> cures, const std::st
     for (glsl::Cure& cure : those)
         std::erase_if(cure.wraps, [&](const glsl::Wrap& wrap) { return wrap.first.where.file != file; });
     return those;
+}
+
+/// Saves the changes that were not made as a .diff file next to the first of `files`. Returns the error, with
+/// the name of that file added.
+tl::unexpected<Error> with_difference(Error error, std::span<const ChangedFile> files) {
+    std::string text;
+    for (const ChangedFile& file : files)
+        text += difference(file);
+    constexpr int k_attempts = 100;
+    for (int i = 1; i <= k_attempts; ++i) {
+        const std::string name =
+            fmt::format("{}{}.diff", files.front().file, i == 1 ? "" : fmt::format(".{}", i));
+        std::error_code ignored;
+        if (std::filesystem::exists(std::filesystem::symlink_status(name, ignored)))
+            continue; // belongs to the user
+        if (write_file(OutputPath(name), std::as_bytes(std::span(text))))
+            error.message += fmt::format("; the change is saved in '{}'", name);
+        break;
+    }
+    return fail(std::move(error));
 }
 
 } // namespace
@@ -110,30 +126,6 @@ std::string difference(const ChangedFile& file) {
             text += fmt::format("@@ -{0} +{0} @@\n-{1}\n+{2}\n", i + 1, before[i], after[i]);
     return text;
 }
-
-namespace {
-
-/// Saves the changes that were not made as a .diff file next to the first of `files`. Returns the error, with
-/// the name of that file added.
-tl::unexpected<Error> with_difference(Error error, std::span<const ChangedFile> files) {
-    std::string text;
-    for (const ChangedFile& file : files)
-        text += difference(file);
-    constexpr int k_attempts = 100;
-    for (int i = 1; i <= k_attempts; ++i) {
-        const std::string name =
-            fmt::format("{}{}.diff", files.front().file, i == 1 ? "" : fmt::format(".{}", i));
-        std::error_code ignored;
-        if (std::filesystem::exists(std::filesystem::symlink_status(name, ignored)))
-            continue; // belongs to the user
-        if (write_file(OutputPath(name), std::as_bytes(std::span(text))))
-            error.message += fmt::format("; the change is saved in '{}'", name);
-        break;
-    }
-    return fail(std::move(error));
-}
-
-} // namespace
 
 Result<void> write_files(const std::vector<ChangedFile>& files) {
     for (const ChangedFile& file : files) {

@@ -68,7 +68,7 @@ bool counts_threads() {
 
 /// Draws the picture, once: RGB of Image as ProbeBench::picture returns it.
 Result<image::Image> drawn_by(ForkedHelper& painter, const render::FrameState& state, double seconds) {
-    const auto run = TRY(painter.ask(dump(to_json(state)), seconds));
+    const auto run = TRY(painter.ask(dump(to_json(state)), {seconds}));
     if (run.timed_out)
         return fail(ErrorCode::timed_out,
                     fmt::format("drawing with one thread did not finish within {:.3g} s", seconds));
@@ -212,7 +212,7 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
                 if (auto done = ask_all(request, scene, promises, probes, start, tell); !done)
                     tell(dump(to_json(done.error())));
             },
-            left,
+            {left},
             [&](std::string_view line) {
                 const Json json = parse_json(line);
                 if (auto error = error_of(json))

@@ -219,7 +219,7 @@ Result<TraceFound> trace_apart(const scene::Scene& scene, const TraceJob& job, d
             else
                 tell(dump(*found ? message_of(**found) : Json{{"finite", true}}));
         },
-        seconds, [&](std::string_view text) { heard.hear(text); });
+        {seconds}, [&](std::string_view text) { heard.hear(text); });
     if (!run)
         return fail(run.error());
     const Json& line = heard.line;

@@ -19,16 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace tidemark::cli {
-
-/// Returns what starts with the last of `words`, which may be empty; the arguments before it determine the
-/// command, the option and the scene. The shell completes file names itself.
-std::vector<std::string> candidates(const CLI::App& app, const std::vector<std::string>& words);
-
 namespace {
 
 using Words = std::vector<std::string>;
@@ -116,8 +107,8 @@ Words values_of(const CLI::Option& option, const Words& before) {
     return choices(option.get_type_name());
 }
 
-} // namespace
-
+/// Returns what starts with the last of `words`, which may be empty; the arguments before it determine the
+/// command, the option and the scene. The shell completes file names itself.
 Words candidates(const CLI::App& app, const Words& words) {
     if (words.empty())
         return {};
@@ -133,8 +124,6 @@ Words candidates(const CLI::App& app, const Words& words) {
     std::erase_if(found, [&](const std::string& word) { return !word.starts_with(words.back()); });
     return found;
 }
-
-namespace {
 
 // Each script calls `tidemark completion words` for the candidates, and adds file names.
 

@@ -1,5 +1,6 @@
-// Checks whether the frames that shards made are one sequence: all present, complete, and with one
-// fingerprint.
+// Checks the output of a capture's shards against their common plan: whether every frame exists, is complete,
+// and was drawn by one program on one kind of device, and whether this machine draws the same. Then makes a
+// video of it on request.
 
 #include "base/error.hpp"
 #include "base/folders.hpp"
@@ -31,19 +32,14 @@
 #include <vector>
 
 namespace tidemark::cli {
+namespace fs = std::filesystem;
+namespace {
 
 struct Gathered {
     std::vector<std::string> wrong;          ///< messages, one line each
     std::map<std::string, size_t> devices{}; ///< devices that drew frames, and their number of frames
     bool drawn_here = true;                  ///< by a device like this machine's
 };
-
-/// Checks the whole plan, not one shard. The plan's identity is that of this machine.
-Gathered gathered(const CapturePlan& plan, int shards);
-
-// Checks the output of a capture's shards against their common plan: whether every frame exists, is complete,
-// and was drawn by one program on one kind of device, and whether this machine draws the same. Then makes a
-// video of it on request.
 
 struct GatherOptions {
     std::filesystem::path folder;
@@ -53,134 +49,84 @@ struct GatherOptions {
     double tolerance = 2.0 / 255; ///< of a sample, if another device drew the frames
 };
 
-/// Returns exit code 1 if something is missing or different.
-Result<int> gather(const GatherOptions& options);
-
-namespace {
-
-/// Frames with the same problem, with the file of the first one.
-struct Wrong {
-    std::string what;
-    std::string first;
-    size_t count = 0;
-};
-
-/// Returns the problem of one file; empty if there is none.
-std::string look_at(const std::filesystem::path& file, const Fingerprint& wanted, Gathered& gathered) {
+/// Returns the problem of a picture or a segment of a video; empty if there is none.
+std::string look_at(const fs::path& file, bool segment, const Fingerprint& wanted, Gathered& gathered) {
     std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored))
+    if (!fs::exists(file, ignored))
         return "missing";
-    const auto metadata = image::read_metadata(file);
-    if (!metadata)
-        return "incomplete: " + metadata.error();
-    const std::string* text = image::find(*metadata, k_fingerprint);
-    if (!text)
-        return "no fingerprint";
-    const Fingerprint found = Fingerprint::parse(*text);
-    const std::string* device = image::find(*metadata, "Driver");
-    ++gathered.devices[device ? *device : "an unknown device"];
-    gathered.drawn_here &= wanted.on_device_of(found) == wanted;
-    const std::string others = wanted.on_device_of(found).differences(found);
-    return others.empty() ? "" : "drawn with " + others;
-}
-
-void note(std::vector<Wrong>& all, std::string what, const std::string& file) {
-    const auto known = std::ranges::find(all, what, &Wrong::what);
-    if (known != all.end())
-        ++known->count;
-    else
-        all.push_back({std::move(what), file, 1});
-}
-
-/// Returns the problem of one segment of a video; empty if there is none.
-std::string look_at_segment(const std::filesystem::path& file, const Fingerprint& wanted,
-                            Gathered& gathered) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored))
-        return "missing";
-    const auto note = image::note_of_segment(file);
-    if (!note)
-        return "incomplete";
-    const Fingerprint found = Fingerprint::parse(*note);
+    std::string text, device;
+    if (segment) {
+        const auto note = image::note_of_segment(file);
+        if (!note)
+            return "incomplete";
+        text = *note;
+    } else {
+        const auto metadata = image::read_metadata(file);
+        if (!metadata)
+            return "incomplete: " + metadata.error();
+        const std::string* fingerprint = image::find(*metadata, k_fingerprint);
+        if (!fingerprint)
+            return "no fingerprint";
+        text = *fingerprint;
+        const std::string* driver = image::find(*metadata, "Driver");
+        device = driver ? *driver : "an unknown device";
+    }
+    const Fingerprint found = Fingerprint::parse(text);
     const bool here = wanted.on_device_of(found) == wanted;
-    ++gathered.devices[here ? "this device" : fmt::format("device {}", found.device())];
+    if (segment)
+        device = here ? "this device" : fmt::format("device {}", found.device());
+    ++gathered.devices[device];
     gathered.drawn_here &= here;
     const std::string others = wanted.on_device_of(found).differences(found);
     return others.empty() ? "" : "drawn with " + others;
 }
 
-int shard_of_segment(const CapturePlan& plan, int shards, const std::string& file) {
-    for (int index = 0; index < shards; ++index)
-        for (const int segment : segments_of_shard({index, shards}, plan.segments.size(), plan.scene))
-            if (segment_file(plan.output, size_t(segment)).path().string() == file)
-                return index + 1;
-    return 0;
+/// Returns the files of a frame; for a video, `piece` is the index of a segment.
+std::vector<fs::path> files_of_piece(const CapturePlan& plan, int piece) {
+    return plan.output.video() ? std::vector{segment_file(plan.output, size_t(piece)).path()}
+                               : files_of(plan.output, piece);
 }
 
-/// Returns the number of the shard that makes the frame of this file.
+/// Returns the number of the shard that makes this file.
 int shard_of(const CapturePlan& plan, int shards, const std::string& file) {
     for (int index = 0; index < shards; ++index)
-        for (const int frame : frames_of({index, shards}, plan.frames.frames, plan.scene))
-            for (const auto& made : files_of(plan.output, frame))
+        for (const int piece : plan.output.video()
+                                   ? segments_of_shard({index, shards}, plan.segments.size(), plan.scene)
+                                   : frames_of({index, shards}, plan.frames.frames, plan.scene))
+            for (const fs::path& made : files_of_piece(plan, piece))
                 if (made.string() == file)
                     return index + 1;
     return 0;
 }
 
-void count_devices(Gathered& result, std::string_view what) {
-    if (result.devices.size() > 1)
-        for (const auto& [device, count] : result.devices)
-            result.wrong.push_back(fmt::format("{} {} were drawn by {}", count, what, device));
-}
-
-Gathered gathered_segments(const CapturePlan& plan, int shards) {
+/// Checks the whole plan, not one shard. The plan's identity is that of this machine.
+Gathered gathered(const CapturePlan& plan, int shards) {
+    const bool video = plan.output.video();
+    const std::string_view pieces = video ? "segments" : "frames";
+    const size_t total = video ? plan.segments.size() : plan.frames.frames.size();
     Gathered result;
     std::vector<Wrong> all;
-    Progress progress("segments checked", plan.segments.size());
-    for (size_t i = 0; i < plan.segments.size(); ++i, progress.advance()) {
-        const auto file = segment_file(plan.output, i).path();
-        const Fingerprint wanted = Fingerprint::parse(note_of(plan, plan.segments[i]));
-        if (auto what = look_at_segment(file, wanted, result); !what.empty())
-            note(all, std::move(what), file.string());
+    Progress progress(fmt::format("{} checked", pieces), total);
+    for (size_t i = 0; i < total; ++i, progress.advance()) {
+        const Fingerprint wanted = video ? Fingerprint::parse(note_of(plan, plan.segments[i]))
+                                         : plan.identity_of(plan.frames.frames[i]);
+        for (const fs::path& file : files_of_piece(plan, video ? int(i) : plan.frames.frames[i]))
+            if (auto what = look_at(file, video, wanted, result); !what.empty())
+                note(all, std::move(what), file.string());
     }
     for (const auto& [what, first, count] : all)
-        result.wrong.push_back(fmt::format("{} of {} segments: {}; the first is {} (shard {}/{})", count,
-                                           plan.segments.size(), what, first,
-                                           shard_of_segment(plan, shards, first), shards));
+        result.wrong.push_back(fmt::format("{} of {} {}: {}; the first is {} (shard {}/{})", count, total,
+                                           pieces, what, first, shard_of(plan, shards, first), shards));
     std::error_code ignored;
-    if (result.devices.empty() && std::filesystem::exists(plan.output.pattern(), ignored))
+    if (video && result.devices.empty() && fs::exists(plan.output.pattern(), ignored))
         result.wrong.push_back(
             fmt::format("{} exists, but none of its segments; if it was joined before, nothing is left to do",
                         plan.output.pattern().string()));
-    count_devices(result, "segments");
+    if (result.devices.size() > 1)
+        for (const auto& [device, count] : result.devices)
+            result.wrong.push_back(fmt::format("{} {} were drawn by {}", count, pieces, device));
     return result;
 }
-
-} // namespace
-
-Gathered gathered(const CapturePlan& plan, int shards) {
-    if (plan.output.video())
-        return gathered_segments(plan, shards);
-    Gathered result;
-    std::vector<Wrong> all;
-    Progress progress("frames checked", plan.frames.frames.size());
-    for (const int frame : plan.frames.frames) {
-        for (const std::filesystem::path& file : files_of(plan.output, frame))
-            if (auto what = look_at(file, plan.identity_of(frame), result); !what.empty())
-                note(all, std::move(what), file.string());
-        progress.advance();
-    }
-    for (const auto& [what, first, count] : all)
-        result.wrong.push_back(fmt::format("{} of {} frames: {}; the first is {} (shard {}/{})", count,
-                                           plan.frames.frames.size(), what, first,
-                                           shard_of(plan, shards, first), shards));
-    count_devices(result, "frames");
-    return result;
-}
-
-namespace {
-
-namespace fs = std::filesystem;
 
 Result<CaptureOptions> options_of(const ShardNote& note, const fs::path& file) {
     CaptureOptions options;
@@ -343,13 +289,12 @@ int report(const std::vector<std::string>& wrong) {
     return exit_code(ErrorCode::check_failed);
 }
 
-} // namespace
-
+/// Returns exit code 1 if something is missing or different.
 Result<int> gather(const GatherOptions& options) {
     Interrupt interrupt;
     const ShardNote note = TRY(read_note(options.folder / k_shard_note));
     CapturePlan plan = TRY(shared_plan(options, note));
-    const auto context = TRY(platform::HeadlessContext::create(plan.device));
+    const auto context = TRY(platform::HeadlessContext::create(plan.options.device));
     plan.identity.set_device(gl::query_capabilities());
     const Gathered found = gathered(plan, note.count);
     if (!found.wrong.empty())
@@ -369,6 +314,8 @@ Result<int> gather(const GatherOptions& options) {
         StagedFile::remove_abandoned(file, StagedFile::Machines::all); // no shard is running any more
     return 0;
 }
+
+} // namespace
 
 void add_gather(Command app, Action& chosen) {
     auto options = std::make_shared<GatherOptions>();

@@ -22,13 +22,12 @@ class App;
 }
 
 namespace tidemark::cli {
+namespace {
 
 struct ManPage {
     std::string name; ///< for example "tidemark-capture"
     std::string roff;
 };
-
-namespace {
 
 /// Escapes text for roff, so that no line is a request.
 std::string plain(std::string_view text) {
@@ -134,8 +133,6 @@ std::string examples(const CLI::App& command) {
                : fmt::format(".SH EXAMPLES\n.nf\n{}\n.fi\n", plain(fmt::to_string(fmt::join(lines, "\n"))));
 }
 
-} // namespace
-
 /// Returns the page of the program or of one of its commands, including its sub-commands.
 ManPage man_page(const CLI::App& command) {
     const bool whole = command.get_parent() == nullptr;
@@ -155,8 +152,6 @@ ManPage man_page(const CLI::App& command) {
                         whole ? "" : "\\fBtidemark\\fR(1). ");
     return {name, std::move(roff)};
 }
-
-namespace {
 
 std::string list_of(const std::vector<Topic>& topics) {
     std::string list = "tidemark help TOPIC prints a page, or one of the sections listed below it.\n";

@@ -1,16 +1,11 @@
-// The marching loops that are found in a pass, for `inspect`.
-
 #include "cli/inspect.hpp"
 
-#include "base/error.hpp"
 #include "base/folders.hpp"
 #include "cli/commands.hpp"
 #include "host/command_line.hpp"
 #include "host/console.hpp"
-#include "host/devices.hpp"
 #include "host/gl_context.hpp"
 #include "host/json.hpp"
-#include "host/requests.hpp"
 #include "host/scene_report.hpp"
 #include "host/version.hpp"
 #include "lab/pass_function.hpp"
@@ -31,14 +26,12 @@
 #include <cstdlib>
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace tidemark::cli {
+namespace {
 
-// The size of a scene's compiled passes, in bytes of the driver's own program format and in instructions if
-// its compiler reports them, for each level of specialisation.
-
+/// The size of a compiled pass, in bytes of the driver's own program format and in instructions if its
+/// compiler reports them.
 struct DriverCode {
     size_t bytes = 0; ///< 0: the driver has no program binaries
     std::vector<glsl::InstructionCount> instructions{};
@@ -51,7 +44,12 @@ using CompiledSizes = std::array<DriverCode, 4>;
 /// Construct it before the process has a context.
 class FreshDriverCache {
 public:
-    FreshDriverCache();
+    FreshDriverCache() {
+        if (folder_.path().empty())
+            return;
+        ::setenv("MESA_SHADER_CACHE_DIR", folder_.path().c_str(), 1);
+        platform::do_without_full_driver_cache();
+    }
 
 private:
     ScratchFolder folder_;
@@ -89,11 +87,7 @@ Json marches_of(const scene::Scene& scene, const scene::Pass& pass) {
     return loops;
 }
 
-namespace {
-
 using glsl::Specialise;
-
-constexpr const char* k_cache_variable = "MESA_SHADER_CACHE_DIR";
 
 const DriverCode& of(const CompiledSizes& sizes, Specialise how) {
     return sizes[size_t(how)];
@@ -155,15 +149,6 @@ std::string to_line(std::string_view what, const CompiledSizes& sizes,
         figure(of(sizes, Specialise::invariant_uniforms)), figure(of(sizes, Specialise::constants)));
 }
 
-} // namespace
-
-FreshDriverCache::FreshDriverCache() {
-    if (folder_.path().empty())
-        return;
-    ::setenv(k_cache_variable, folder_.path().c_str(), 1);
-    platform::do_without_full_driver_cache();
-}
-
 /// Returns the sizes of each pass of the scene; nothing for a pass that does not link. A context must be
 /// current.
 std::vector<std::optional<CompiledSizes>> compiled_sizes(const scene::Scene& scene,
@@ -184,14 +169,12 @@ std::string to_lines(const CompiledSizes& sizes) {
     return text;
 }
 
-Json to_json(const CompiledSizes& sizes) {
+Json sizes_json(const CompiledSizes& sizes) {
     return {{"plain", code_json(of(sizes, Specialise::nothing))},
             {"specialised", code_json(of(sizes, Specialise::unreachable))},
             {"long_sequence", code_json(of(sizes, Specialise::invariant_uniforms))},
             {"constant_knobs", code_json(of(sizes, Specialise::constants))}};
 }
-
-namespace {
 
 struct InspectOptions {
     SceneRequest scene;
@@ -252,7 +235,7 @@ Json json_of(const render::Renderer& renderer, const gl::Capabilities& driver, c
                   json_of(left_out_of(renderer, facts_of_pass.pass, glsl::Specialise::invariant_uniforms))},
                  {"marches", marches_of(scene, pass)}});
         if (const auto& size = sizes[facts_of_pass.pass])
-            json_of_pass["program"] = to_json(*size);
+            json_of_pass["program"] = sizes_json(*size);
     }
     if (scene.size)
         json["size"] = {scene.size->width, scene.size->height};

@@ -19,7 +19,6 @@
 #include <vector>
 
 namespace tidemark::cli {
-
 namespace {
 
 using platform::HeadlessDevice;
@@ -43,8 +42,6 @@ HeadlessDevice device_of(const Json& json) {
             json.at("reason"),   json.at("names")};
 }
 
-} // namespace
-
 /// Lists devices like platform::list_headless_devices; call it before this process has a driver. Fails
 /// (ErrorCode::no_context) if the listing itself crashes or hangs.
 Result<std::vector<HeadlessDevice>> list_devices_apart() {
@@ -57,7 +54,7 @@ Result<std::vector<HeadlessDevice>> list_devices_apart() {
                     [&](const HeadlessDevice& device, bool tried) { tell(told(device, tried)); },
                     found.size());
             },
-            k_patience_seconds,
+            {k_patience_seconds},
             [&](std::string_view line) {
                 const Json json = parse_json(line);
                 in_hand = device_of(json);
@@ -77,10 +74,6 @@ Result<std::vector<HeadlessDevice>> list_devices_apart() {
         found.push_back(*std::move(in_hand));
     }
 }
-
-namespace {
-
-using platform::HeadlessDevice;
 
 std::string_view name_of(platform::DeviceKind kind) {
     switch (kind) {
@@ -139,7 +132,7 @@ void ask_all(const HeadlessDevice& device, const Tell& tell) {
 /// Checks a device in a child process; a crash or a hang is a failed check.
 Result<Json> verdicts_on(const HeadlessDevice& device) {
     Json verdicts = Json::array();
-    const auto run = TRY(run_forked([&](const Tell& tell) { ask_all(device, tell); }, k_self_test_seconds,
+    const auto run = TRY(run_forked([&](const Tell& tell) { ask_all(device, tell); }, {k_self_test_seconds},
                                     [&](std::string_view line) { verdicts.push_back(parse_json(line)); }));
     if (!run.timed_out && run.crash.empty())
         return verdicts;

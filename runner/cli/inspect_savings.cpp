@@ -20,11 +20,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <sstream>
 #include <string_view>
 
 namespace tidemark::cli {
+namespace {
 
 struct OptionalLibrary {
     std::string_view name;
@@ -32,15 +32,19 @@ struct OptionalLibrary {
     void (*load)();
 
     /// Returns true if it is loaded in this process.
-    bool is_loaded() const;
+    bool is_loaded() const {
+        const auto visit = [](dl_phdr_info* object, size_t, void* wanted) {
+            const auto& library = *static_cast<const OptionalLibrary*>(wanted);
+            return int(std::string_view(object->dlpi_name).find(library.file) != std::string_view::npos);
+        };
+        return ::dl_iterate_phdr(visit, const_cast<OptionalLibrary*>(this)) != 0;
+    }
 };
 
 struct LibraryCost {
     lab::Elapsed time; ///< medians
     double mebibytes = 0;
 };
-
-namespace {
 
 constexpr int k_runs = 5;
 constexpr double k_patience = 30; ///< seconds
@@ -54,20 +58,6 @@ double peak_mebibytes() {
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
     return double(usage.ru_maxrss) / 1024;
-}
-
-} // namespace
-
-std::span<const OptionalLibrary> optional_libraries() {
-    return k_optional_libraries;
-}
-
-bool OptionalLibrary::is_loaded() const {
-    const auto visit = [](dl_phdr_info* object, size_t, void* wanted) {
-        const auto& library = *static_cast<const OptionalLibrary*>(wanted);
-        return int(std::string_view(object->dlpi_name).find(library.file) != std::string_view::npos);
-    };
-    return ::dl_iterate_phdr(visit, const_cast<OptionalLibrary*>(this)) != 0;
 }
 
 /// Loads the library in child processes, since a process loads it only once: at least once, and repeatedly
@@ -84,7 +74,7 @@ Result<LibraryCost> measure_loading(const OptionalLibrary& library, double secon
                 const lab::Elapsed time = watch.elapsed();
                 tell(fmt::format("{} {} {}", time.wall, time.cpu, peak_mebibytes() - before));
             },
-            k_patience);
+            {k_patience});
         if (!child)
             return fail(child.error());
         std::istringstream told(child->output);
@@ -93,8 +83,6 @@ Result<LibraryCost> measure_loading(const OptionalLibrary& library, double secon
     }
     return LibraryCost{{lab::median(wall), lab::median(cpu)}, lab::median(memory)};
 }
-
-namespace {
 
 using lab::Omission;
 using lab::Saved;
@@ -147,7 +135,7 @@ Result<std::vector<LoadedLibrary>> load_libraries(const SavingsOptions& options,
     std::vector<LoadedLibrary> loaded;
     if (!asks_for(options, k_libraries))
         return loaded;
-    for (const OptionalLibrary& library : optional_libraries()) {
+    for (const OptionalLibrary& library : k_optional_libraries) {
         auto cost = TRY(measure_loading(library, k_share_of_library * left_of(options, watch)));
         loaded.push_back({library, cost});
     }

@@ -1,5 +1,5 @@
-// Finds problems that compilers accept: uninitialised values, derivatives in non-uniform control flow,
-// miscounting float loops, and code that ShaderToy's own site does not compile.
+// `tidemark lsp`: the language server on standard input and output. One thread, which waits for the editor
+// and for the compiling process.
 
 #include "base/error.hpp"
 #include "base/supervision.hpp"
@@ -39,103 +39,12 @@
 #include <vector>
 
 namespace tidemark::cli {
-
-/// The hints of one scene, which must outlive it. A context must be current.
-class Hints {
-public:
-    explicit Hints(const scene::Scene& scene) : scene_(scene) {}
-
-    /// Adds the hints of a pass that was linked in that dialect.
-    void read(const scene::Pass& pass, const glsl::Dialect& dialect);
-    /// Returns all hints, except on lines with a problem. `compile`: also compiles for ShaderToy's site,
-    /// unless there are errors.
-    std::vector<Diagnostic> take(const std::vector<Diagnostic>& problems, bool compile);
-
-private:
-    void add(SourceLocation where, std::string message);
-
-    const scene::Scene& scene_;
-    std::vector<Diagnostic> found_;
-};
-
-// Compiles a scene with the driver in a separate process and reports diagnostics. A driver that crashes or
-// hangs, or a scene that exhausts memory, becomes a diagnostic, too.
-
-class CompileCheck {
-public:
-    /// Starts the check with the texts that the editor holds. Call it while the process has no threads and no
-    /// context (host/forked.hpp).
-    static Result<CompileCheck> start(const std::filesystem::path& scene, const lsp::Documents& documents,
-                                      const platform::DeviceChoice& device, const ForkedLimits& limits);
-
-    const std::filesystem::path& scene() const { return scene_; }
-    int descriptor() const { return helper_.descriptor(); }
-
-    /// Returns the verdicts that have arrived since the last call, each an extension of the one before. Never
-    /// waits.
-    std::vector<lsp::Verdict> look();
-    bool ended() const { return ended_; }
-
-private:
-    CompileCheck(std::filesystem::path scene, ForkedHelper helper, ForkedLimits limits)
-        : scene_(std::move(scene)), helper_(std::move(helper)), limits_(std::move(limits)) {}
-
-    std::filesystem::path scene_;
-    ForkedHelper helper_;
-    ForkedLimits limits_;
-    lsp::Verdict found_{};
-    bool answered_ = false; ///< the problems have arrived
-    bool ended_ = false;
-};
-
+namespace fs = std::filesystem;
 namespace {
 
 bool is_error(const Diagnostic& diagnostic) {
     return diagnostic.severity == Severity::error;
 }
-
-} // namespace
-
-/// Adds a hint once. Ignores lines without a file: those are generated.
-void Hints::add(SourceLocation where, std::string message) {
-    Diagnostic hint{std::move(where), Severity::note, std::move(message)};
-    if (!hint.where.file.empty() && std::ranges::find(found_, hint) == found_.end())
-        found_.push_back(std::move(hint));
-}
-
-void Hints::read(const scene::Pass& pass, const glsl::Dialect& dialect) {
-    const auto text = lab::read_text(scene_, pass, dialect, true);
-    if (!text)
-        return; // the driver accepts some texts that the analysis cannot follow
-    const glsl::TreeFacts facts = glsl::find_facts(**text);
-    for (const glsl::Unassigned& each : glsl::find_unassigned(**text, facts))
-        add((*text)->spelled(lab::word_without_value(**text, each)),
-            fmt::format(
-                "{} has no value{}: it reads as 0 on ShaderToy's site and here, as any value elsewhere",
-                (*text)->word_of(each.what), lab::words_for(each.why)));
-    for (const glsl::Divergent& each : glsl::find_divergent(**text, facts, lab::which_have_mipmaps(pass)))
-        add((*text)->spelled((*text)->tree()[each.call].begin), lab::words_for(**text, each));
-    for (const glsl::FloatCounter& each : glsl::miscounting_loops(**text, facts))
-        add((*text)->spelled((*text)->tree()[each.loop].begin), lab::words_for(each));
-}
-
-std::vector<Diagnostic> Hints::take(const std::vector<Diagnostic>& problems, bool compile) {
-    std::vector<Diagnostic> unportable = glsl::portability_lint(scene_);
-    if (compile && std::ranges::none_of(problems, is_error))
-        add_site_refusals(scene_, unportable);
-    for (Diagnostic& each : unportable)
-        add(std::move(each.where), "not portable to ShaderToy's site: " + each.message);
-    std::erase_if(found_, [&](const Diagnostic& hint) {
-        return std::ranges::any_of(problems, [&](const Diagnostic& problem) {
-            return problem.where.file == hint.where.file && problem.where.line == hint.where.line;
-        });
-    });
-    return std::move(found_);
-}
-
-namespace {
-
-namespace fs = std::filesystem;
 
 using Diagnostics = std::vector<Diagnostic>;
 
@@ -151,6 +60,58 @@ Diagnostics diagnostics_of(const Error& error) {
         return error.diagnostics;
     return {{{}, Severity::error, error.message}};
 }
+
+/// The problems of one scene that compilers accept: uninitialised values, derivatives in non-uniform control
+/// flow, miscounting float loops, and code that ShaderToy's own site does not compile. The scene must outlive
+/// it. A context must be current.
+class Hints {
+public:
+    explicit Hints(const scene::Scene& scene) : scene_(scene) {}
+
+    /// Adds the hints of a pass that was linked in that dialect.
+    void read(const scene::Pass& pass, const glsl::Dialect& dialect) {
+        const auto text = lab::read_text(scene_, pass, dialect, true);
+        if (!text)
+            return; // the driver accepts some texts that the analysis cannot follow
+        const glsl::TreeFacts facts = glsl::find_facts(**text);
+        for (const glsl::Unassigned& each : glsl::find_unassigned(**text, facts))
+            add((*text)->spelled(lab::word_without_value(**text, each)),
+                fmt::format(
+                    "{} has no value{}: it reads as 0 on ShaderToy's site and here, as any value elsewhere",
+                    (*text)->word_of(each.what), lab::words_for(each.why)));
+        for (const glsl::Divergent& each : glsl::find_divergent(**text, facts, lab::which_have_mipmaps(pass)))
+            add((*text)->spelled((*text)->tree()[each.call].begin), lab::words_for(**text, each));
+        for (const glsl::FloatCounter& each : glsl::miscounting_loops(**text, facts))
+            add((*text)->spelled((*text)->tree()[each.loop].begin), lab::words_for(each));
+    }
+
+    /// Returns all hints, except on lines with a problem. `compile`: also compiles for ShaderToy's site,
+    /// unless there are errors.
+    std::vector<Diagnostic> take(const std::vector<Diagnostic>& problems, bool compile) {
+        std::vector<Diagnostic> unportable = glsl::portability_lint(scene_);
+        if (compile && std::ranges::none_of(problems, is_error))
+            add_site_refusals(scene_, unportable);
+        for (Diagnostic& each : unportable)
+            add(std::move(each.where), "not portable to ShaderToy's site: " + each.message);
+        std::erase_if(found_, [&](const Diagnostic& hint) {
+            return std::ranges::any_of(problems, [&](const Diagnostic& problem) {
+                return problem.where.file == hint.where.file && problem.where.line == hint.where.line;
+            });
+        });
+        return std::move(found_);
+    }
+
+private:
+    /// Adds a hint once. Ignores lines without a file: those are generated.
+    void add(SourceLocation where, std::string message) {
+        Diagnostic hint{std::move(where), Severity::note, std::move(message)};
+        if (!hint.where.file.empty() && std::ranges::find(found_, hint) == found_.end())
+            found_.push_back(std::move(hint));
+    }
+
+    const scene::Scene& scene_;
+    std::vector<Diagnostic> found_;
+};
 
 /// Formats a line for the parent: the diagnostics in the JSON form of an Error.
 std::string line_of(std::string_view kind, const Diagnostics& diagnostics) {
@@ -182,51 +143,69 @@ Result<void> examine(const fs::path& path, const scene::UnsavedTexts& texts,
     return {};
 }
 
-Diagnostics left_by(const ForkedResult& result, const ForkedLimits& limits) {
+Diagnostics left_by(const ForkedResult& result, const Limits& limits) {
     if (!result.crash.empty())
         return {{{}, Severity::error, result.crash}};
     const std::string what = result.doing.empty() ? "the scene" : result.doing;
     if (result.timed_out)
-        return {{{}, Severity::error, fmt::format("{} takes more than {:.3g} s", what, limits.seconds)}};
+        return {{{}, Severity::error, fmt::format("{} takes more than {:.3g} s", what, *limits.seconds)}};
     return {{{}, Severity::error, fmt::format("{} takes too much memory (--memory)", what)}};
 }
 
-} // namespace
-
-Result<CompileCheck> CompileCheck::start(const fs::path& scene, const lsp::Documents& documents,
-                                         const platform::DeviceChoice& device, const ForkedLimits& limits) {
-    auto helper = TRY(ForkedHelper::start([&](const std::string&, const Tell& tell) {
-        platform::do_without_full_driver_cache();
-        if (const auto done = examine(scene, documents.texts(), device, tell); !done)
-            tell(line_of("problems", diagnostics_of(done.error())));
-    }));
-    helper.begin({}, limits);
-    return CompileCheck(scene, std::move(helper), limits);
-}
-
-std::vector<lsp::Verdict> CompileCheck::look() {
-    std::vector<lsp::Verdict> verdicts;
-    const auto hear = [&](std::string_view line) {
-        const Json json = parse_json(line);
-        Diagnostics found = error_of(json.at("found"))->diagnostics;
-        const bool problems = json.at("kind") == "problems";
-        answered_ |= problems;
-        (problems ? found_.problems : found_.hints) = std::move(found);
-        verdicts.push_back(found_);
-    };
-    const auto result = helper_.look(hear, std::chrono::milliseconds(0));
-    ended_ = result.has_value();
-    if (ended_ && !answered_) {
-        found_.problems = left_by(*result, limits_);
-        verdicts.push_back(found_);
+/// Compiles a scene with the driver in a separate process and reports diagnostics. A driver that crashes or
+/// hangs, or a scene that exhausts memory, becomes a diagnostic, too.
+class CompileCheck {
+public:
+    /// Starts the check with the texts that the editor holds. Call it while the process has no threads and no
+    /// context (host/forked.hpp).
+    static Result<CompileCheck> start(const fs::path& scene, const lsp::Documents& documents,
+                                      const platform::DeviceChoice& device, const Limits& limits) {
+        auto helper = TRY(ForkedHelper::start([&](const std::string&, const Tell& tell) {
+            platform::do_without_full_driver_cache();
+            if (const auto done = examine(scene, documents.texts(), device, tell); !done)
+                tell(line_of("problems", diagnostics_of(done.error())));
+        }));
+        helper.begin({}, limits);
+        return CompileCheck(scene, std::move(helper), limits);
     }
-    return verdicts;
-}
 
-// `tidemark lsp`: the language server on standard input and output. One thread, which waits for the editor
-// and for the compiling process (cli/lsp.cpp).
+    const std::filesystem::path& scene() const { return scene_; }
+    int descriptor() const { return helper_.descriptor(); }
 
-namespace {
+    /// Returns the verdicts that have arrived since the last call, each an extension of the one before. Never
+    /// waits.
+    std::vector<lsp::Verdict> look() {
+        std::vector<lsp::Verdict> verdicts;
+        const auto hear = [&](std::string_view line) {
+            const Json json = parse_json(line);
+            Diagnostics found = error_of(json.at("found"))->diagnostics;
+            const bool problems = json.at("kind") == "problems";
+            answered_ |= problems;
+            (problems ? found_.problems : found_.hints) = std::move(found);
+            verdicts.push_back(found_);
+        };
+        const auto result = helper_.look(hear, std::chrono::milliseconds(0));
+        ended_ = result.has_value();
+        if (ended_ && !answered_) {
+            found_.problems = left_by(*result, limits_);
+            verdicts.push_back(found_);
+        }
+        return verdicts;
+    }
+
+    bool ended() const { return ended_; }
+
+private:
+    CompileCheck(std::filesystem::path scene, ForkedHelper helper, Limits limits)
+        : scene_(std::move(scene)), helper_(std::move(helper)), limits_(std::move(limits)) {}
+
+    std::filesystem::path scene_;
+    ForkedHelper helper_;
+    Limits limits_;
+    lsp::Verdict found_{};
+    bool answered_ = false; ///< the problems have arrived
+    bool ended_ = false;
+};
 
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
@@ -245,8 +224,7 @@ struct LspOptions {
 
 class Server {
 public:
-    Server(LspOptions options, ForkedLimits limits)
-        : options_(std::move(options)), limits_(std::move(limits)) {}
+    Server(LspOptions options, Limits limits) : options_(std::move(options)), limits_(std::move(limits)) {}
 
     Result<int> run() {
         while (!session_.exit_code()) {
@@ -322,7 +300,7 @@ private:
     }
 
     LspOptions options_;
-    ForkedLimits limits_;
+    Limits limits_;
     lsp::Session session_{k_version};
     lsp::MessageReader reader_;
     std::optional<CompileCheck> check_;

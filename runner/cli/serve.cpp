@@ -25,64 +25,6 @@
 #include <utility>
 
 namespace tidemark::cli {
-
-class RemoteScreen : public Screen {
-public:
-    struct Settings {
-        serve::ServerSettings server;
-        Extent extent;
-        int quality = 85;  ///< JPEG's, 1 to 100
-        bool once = false; ///< closes when the last client has left
-    };
-
-    /// Makes a headless context current and starts to listen. Fails as HeadlessContext and the plug-in do.
-    static Result<std::unique_ptr<RemoteScreen>> open(Settings settings);
-    ~RemoteScreen() override;
-
-    /// Returns the URL for a browser, including the token.
-    std::string address() const;
-    bool is_loopback() const { return server_->is_loopback(); }
-
-    Result<platform::SharedContext> create_context() override { return context_.create_context(); }
-    std::vector<platform::InputEvent> wait(double seconds) override;
-    void wake() override { inbox_.wake(); }
-    bool take(const platform::InputEvent&) override { return false; }
-    live::Commands take_commands() override;
-    bool has(platform::Key key) const override;
-
-    Extent extent() const override { return settings_.extent; }
-    bool is_watched() const override { return encoder_->has_room() && audience_.is_waiting(); }
-    bool wants_frame() const override { return was_asked_; }
-    void begin(const gl::RenderTarget* picture, bool fresh) override;
-    Result<void> finish(live::Model model, const ShownMoment& moment) override;
-
-    void set_title(const std::string& title) override;
-    void set_clipboard(const std::string& text) override;
-    void toggle_full_screen() override {}
-    std::optional<platform::WindowPlace> place() const override { return std::nullopt; }
-    std::shared_ptr<void> when_lost(std::function<void(std::string_view what)>) override { return nullptr; }
-
-private:
-    RemoteScreen(Settings settings, platform::HeadlessContext context);
-    Result<void> listen();
-    void send_picture(const live::Model& model, const ShownMoment& moment);
-
-    Settings settings_;
-    platform::HeadlessContext context_;
-    serve::Inbox inbox_;
-    serve::Audience audience_;
-    std::unique_ptr<serve::Server> server_;
-    std::unique_ptr<serve::PictureEncoder> encoder_;
-    live::Commands commands_;
-    const gl::RenderTarget* picture_ = nullptr; ///< of the scene, between `begin` and `finish`
-    bool fresh_ = false;                        ///< it differs from the picture that was sent last
-    std::optional<size_t> large_;               ///< the large picture that was sent last
-    uint32_t pictures_ = 0;                     ///< number of pictures sent
-    std::string told_;                          ///< the state that clients have
-    bool was_asked_ = false;
-    double woken_at_ = 0; ///< by now_seconds
-};
-
 namespace {
 
 serve::SharedMessage text_message(std::string text) {
@@ -103,110 +45,150 @@ image::Image read_target(const gl::RenderTarget& target) {
     return picture;
 }
 
-} // namespace
+class RemoteScreen : public Screen {
+public:
+    struct Settings {
+        serve::ServerSettings server;
+        Extent extent;
+        int quality = 85;  ///< JPEG's, 1 to 100
+        bool once = false; ///< closes when the last client has left
+    };
 
-RemoteScreen::RemoteScreen(Settings settings, platform::HeadlessContext context)
-    : settings_(std::move(settings)), context_(std::move(context)),
-      audience_({.send = [this](auto viewer, auto message) { server_->send(viewer, std::move(message)); },
-                 .once = settings_.once},
-                inbox_) {}
-
-/// Stops the threads first: they send through members that are destroyed next.
-RemoteScreen::~RemoteScreen() {
-    if (server_)
-        server_->stop();
-    encoder_.reset();
-}
-
-Result<std::unique_ptr<RemoteScreen>> RemoteScreen::open(Settings settings) {
-    auto context = TRY(platform::HeadlessContext::create());
-    TRY(render::check_size(settings.extent));
-    std::unique_ptr<RemoteScreen> screen(new RemoteScreen(std::move(settings), std::move(context)));
-    TRY(screen->listen());
-    return screen;
-}
-
-Result<void> RemoteScreen::listen() {
-    const serve::ServePlugIn& plug_in = *TRY(serve::load_serve_plug_in());
-    settings_.server.page = serve::k_page;
-    server_ = TRY(plug_in.open(settings_.server));
-    encoder_ = std::make_unique<serve::PictureEncoder>(serve::PictureEncoder::Settings{
-        .encode = [encode = plug_in.encode, quality = settings_.quality](
-                      const image::Image& picture) { return encode(picture.extent, picture.bytes, quality); },
-        .done = [this](serve::NumberedPicture picture) { audience_.show(std::move(picture)); }});
-    server_->start(audience_);
-    return {};
-}
-
-std::string RemoteScreen::address() const {
-    return fmt::format("http://{}/?token={}", server_->place(), settings_.server.token);
-}
-
-std::vector<platform::InputEvent> RemoteScreen::wait(double seconds) {
-    serve::Inbox::Content content = inbox_.wait(seconds);
-    woken_at_ = now_seconds();
-    was_asked_ |= !content.commands.empty();
-    commands_.insert(commands_.end(), std::make_move_iterator(content.commands.begin()),
-                     std::make_move_iterator(content.commands.end()));
-    return std::move(content.events);
-}
-
-live::Commands RemoteScreen::take_commands() {
-    return std::exchange(commands_, {});
-}
-
-/// Returns whether the key works in a page. The others have no use there, or must not act on another machine.
-bool RemoteScreen::has(platform::Key key) const {
-    using platform::Key;
-    switch (key) {
-    case Key::space:
-    case Key::left:
-    case Key::right:
-    case Key::home:
-    case Key::r:
-    case Key::c: return true;
-    default: return key >= Key::digit_0 && key <= Key::digit_9;
+    /// Makes a headless context current and starts to listen. Fails as HeadlessContext and the plug-in do.
+    static Result<std::unique_ptr<RemoteScreen>> open(Settings settings) {
+        auto context = TRY(platform::HeadlessContext::create());
+        TRY(render::check_size(settings.extent));
+        std::unique_ptr<RemoteScreen> screen(new RemoteScreen(std::move(settings), std::move(context)));
+        TRY(screen->listen());
+        return screen;
     }
-}
 
-void RemoteScreen::begin(const gl::RenderTarget* picture, bool fresh) {
-    picture_ = picture;
-    fresh_ |= fresh;
-}
+    /// Stops the threads first: they send through members that are destroyed next.
+    ~RemoteScreen() override {
+        if (server_)
+            server_->stop();
+        encoder_.reset();
+    }
 
-Result<void> RemoteScreen::finish(live::Model model, const ShownMoment& moment) {
-    was_asked_ = false;
-    if (picture_ && (fresh_ || model.large != large_))
-        send_picture(model, moment);
-    std::string state = serve::state_text(model, settings_.extent, moment.reads_keyboard);
-    if (state != told_)
-        audience_.tell("state", text_message(state));
-    told_ = std::move(state);
-    return {};
-}
+    /// Returns the URL for a browser, including the token.
+    std::string address() const {
+        return fmt::format("http://{}/?token={}", server_->place(), settings_.server.token);
+    }
 
-void RemoteScreen::send_picture(const live::Model& model, const ShownMoment& moment) {
-    // An unchanged picture is only read back, so its time counts from the start of this iteration.
-    const double begun = std::exchange(fresh_, false) ? moment.begun : woken_at_;
-    large_ = model.large;
-    const live::PictureField* large = large_ ? &model.pictures[*large_] : nullptr;
-    image::Image picture = large ? read_texture(large->texture, large->extent) : read_target(*picture_);
-    serve::PictureHead head{.number = ++pictures_, .seconds = moment.seconds, .frame = moment.frame};
-    for (const live::PictureField& field : model.pictures)
-        head.costs.push_back(field.milliseconds);
-    head.draw_ms = (now_seconds() - begun) * 1000;
-    encoder_->push({std::move(picture), std::move(head)});
-}
+    bool is_loopback() const { return server_->is_loopback(); }
 
-void RemoteScreen::set_title(const std::string& title) {
-    audience_.tell("title", text_message(serve::line_text("title", title)));
-}
+    Result<platform::SharedContext> create_context() override { return context_.create_context(); }
 
-void RemoteScreen::set_clipboard(const std::string& text) {
-    audience_.tell_steering(text_message(serve::line_text("clipboard", text)));
-}
+    std::vector<platform::InputEvent> wait(double seconds) override {
+        serve::Inbox::Content content = inbox_.wait(seconds);
+        woken_at_ = now_seconds();
+        was_asked_ |= !content.commands.empty();
+        commands_.insert(commands_.end(), std::make_move_iterator(content.commands.begin()),
+                         std::make_move_iterator(content.commands.end()));
+        return std::move(content.events);
+    }
 
-namespace {
+    void wake() override { inbox_.wake(); }
+    bool take(const platform::InputEvent&) override { return false; }
+
+    live::Commands take_commands() override { return std::exchange(commands_, {}); }
+
+    /// Returns whether the key works in a page. The others have no use there, or must not act on another
+    /// machine.
+    bool has(platform::Key key) const override {
+        using platform::Key;
+        switch (key) {
+        case Key::space:
+        case Key::left:
+        case Key::right:
+        case Key::home:
+        case Key::r:
+        case Key::c: return true;
+        default: return key >= Key::digit_0 && key <= Key::digit_9;
+        }
+    }
+
+    Extent extent() const override { return settings_.extent; }
+    bool is_watched() const override { return encoder_->has_room() && audience_.is_waiting(); }
+    bool wants_frame() const override { return was_asked_; }
+
+    void begin(const gl::RenderTarget* picture, bool fresh) override {
+        picture_ = picture;
+        fresh_ |= fresh;
+    }
+
+    Result<void> finish(live::Model model, const ShownMoment& moment) override {
+        was_asked_ = false;
+        if (picture_ && (fresh_ || model.large != large_))
+            send_picture(model, moment);
+        std::string state = serve::state_text(model, settings_.extent, moment.reads_keyboard);
+        if (state != told_)
+            audience_.tell("state", text_message(state));
+        told_ = std::move(state);
+        return {};
+    }
+
+    void set_title(const std::string& title) override {
+        audience_.tell("title", text_message(serve::line_text("title", title)));
+    }
+
+    void set_clipboard(const std::string& text) override {
+        audience_.tell_steering(text_message(serve::line_text("clipboard", text)));
+    }
+
+    void toggle_full_screen() override {}
+    std::optional<platform::WindowPlace> place() const override { return std::nullopt; }
+    std::shared_ptr<void> when_lost(std::function<void(std::string_view what)>) override { return nullptr; }
+
+private:
+    RemoteScreen(Settings settings, platform::HeadlessContext context)
+        : settings_(std::move(settings)), context_(std::move(context)),
+          audience_({.send = [this](auto viewer, auto message) { server_->send(viewer, std::move(message)); },
+                     .once = settings_.once},
+                    inbox_) {}
+
+    Result<void> listen() {
+        const serve::ServePlugIn& plug_in = *TRY(serve::load_serve_plug_in());
+        settings_.server.page = serve::k_page;
+        server_ = TRY(plug_in.open(settings_.server));
+        encoder_ = std::make_unique<serve::PictureEncoder>(serve::PictureEncoder::Settings{
+            .encode =
+                [encode = plug_in.encode, quality = settings_.quality](const image::Image& picture) {
+                    return encode(picture.extent, picture.bytes, quality);
+                },
+            .done = [this](serve::NumberedPicture picture) { audience_.show(std::move(picture)); }});
+        server_->start(audience_);
+        return {};
+    }
+
+    void send_picture(const live::Model& model, const ShownMoment& moment) {
+        // An unchanged picture is only read back, so its time counts from the start of this iteration.
+        const double begun = std::exchange(fresh_, false) ? moment.begun : woken_at_;
+        large_ = model.large;
+        const live::PictureField* large = large_ ? &model.pictures[*large_] : nullptr;
+        image::Image picture = large ? read_texture(large->texture, large->extent) : read_target(*picture_);
+        serve::PictureHead head{.number = ++pictures_, .seconds = moment.seconds, .frame = moment.frame};
+        for (const live::PictureField& field : model.pictures)
+            head.costs.push_back(field.milliseconds);
+        head.draw_ms = (now_seconds() - begun) * 1000;
+        encoder_->push({std::move(picture), std::move(head)});
+    }
+
+    Settings settings_;
+    platform::HeadlessContext context_;
+    serve::Inbox inbox_;
+    serve::Audience audience_;
+    std::unique_ptr<serve::Server> server_;
+    std::unique_ptr<serve::PictureEncoder> encoder_;
+    live::Commands commands_;
+    const gl::RenderTarget* picture_ = nullptr; ///< of the scene, between `begin` and `finish`
+    bool fresh_ = false;                        ///< it differs from the picture that was sent last
+    std::optional<size_t> large_;               ///< the large picture that was sent last
+    uint32_t pictures_ = 0;                     ///< number of pictures sent
+    std::string told_;                          ///< the state that clients have
+    bool was_asked_ = false;
+    double woken_at_ = 0; ///< by now_seconds
+};
 
 /// JPEG's limit of pixels along a side.
 constexpr int k_largest_picture = 65500;

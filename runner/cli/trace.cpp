@@ -25,6 +25,7 @@
 #include <string>
 
 namespace tidemark::cli {
+namespace {
 
 struct TraceReport {
     std::string scene{};
@@ -34,8 +35,6 @@ struct TraceReport {
     lab::PixelRequest request{};
     lab::PixelTrace trace{};
 };
-
-namespace {
 
 using lab::LineInCall;
 using lab::PixelTrace;
@@ -323,8 +322,6 @@ Json json_of(const LineInCall& call) {
     return json;
 }
 
-} // namespace
-
 std::string trace_text(const TraceReport& report) {
     std::string text = head(report) + colour(report.trace);
     return text + (report.trace.asked ? line_text(report) : summary(report.trace));
@@ -361,8 +358,6 @@ Json trace_json(const TraceReport& report) {
     return json;
 }
 
-namespace {
-
 struct TraceCommand {
     SceneRequest scene;
     FrameOptions frames;
@@ -372,13 +367,6 @@ struct TraceCommand {
     bool json = false;
 };
 
-template <class T>
-bool read(std::string_view text, T& number) {
-    const auto whole = number_from<T>(text);
-    number = whole.value_or(number);
-    return whole.has_value();
-}
-
 /// Parses `N` or `FILE:N`.
 Result<std::optional<SourceLocation>> parse_line(const std::string& text) {
     if (text.empty())
@@ -387,8 +375,8 @@ Result<std::optional<SourceLocation>> parse_line(const std::string& text) {
     const size_t colon = text.rfind(':');
     if (colon != std::string::npos)
         where.file = text.substr(0, colon);
-    if (!read(std::string_view(text).substr(colon == std::string::npos ? 0 : colon + 1), where.line) ||
-        where.line < 1)
+    where.line = number_from<int>(text.substr(colon + 1)).value_or(0); // npos + 1 is 0
+    if (where.line < 1)
         return fail(ErrorCode::usage, fmt::format("--line {}: give a line from 1, or FILE:LINE", text));
     return where;
 }
@@ -397,16 +385,12 @@ Result<std::optional<SourceLocation>> parse_line(const std::string& text) {
 Result<std::optional<lab::TurnRange>> parse_turns(const std::string& text) {
     if (text.empty())
         return std::nullopt;
-    lab::TurnRange range;
-    const std::string_view all = text;
-    const size_t dash = all.find('-');
-    const bool good = read(all.substr(0, dash), range.first) &&
-                      read(all.substr(dash == std::string::npos ? 0 : dash + 1), range.second);
-    if (!good || range.first < 1 || range.second < range.first)
+    const auto ends = numbers_from<uint32_t>(text, '-');
+    if (ends.empty() || ends.size() > 2 || ends.front() < 1 || ends.back() < ends.front())
         return fail(
             ErrorCode::usage,
             fmt::format("--turns {}: give an iteration of the loop, from 1, or a range, as in 4-20", text));
-    return range;
+    return lab::TurnRange{ends.front(), ends.back()};
 }
 
 Result<TraceReport> trace(const TraceCommand& command, const FrameSequence& frames,

@@ -1,5 +1,6 @@
 // The options of `view` that place its windows.
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/viewer_options.hpp"
@@ -11,13 +12,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
 
 namespace tidemark::cli {
+namespace {
 
 /// The options as typed.
 struct WindowOptions {
@@ -28,26 +29,18 @@ struct WindowOptions {
     std::optional<int> output_monitor;
 };
 
-namespace {
-
 /// Bound of plausible screen coordinates, in pixels.
 constexpr int k_farthest_place = 1 << 15;
 
 Result<platform::ScreenPoint> parse_position(const std::string& text) {
-    platform::ScreenPoint point;
-    const char* const end = text.data() + text.size();
-    const auto x = std::from_chars(text.data(), end, point.x);
-    const bool has_two = x.ec == std::errc{} && x.ptr != end && *x.ptr == ',';
-    const auto y = has_two ? std::from_chars(x.ptr + 1, end, point.y) : x;
-    const bool far = std::abs(point.x) > k_farthest_place || std::abs(point.y) > k_farthest_place;
-    if (!has_two || y.ec != std::errc{} || y.ptr != end || far)
+    const std::vector<int> at = numbers_from<int>(text);
+    const auto plausible = [](int number) { return std::abs(number) <= k_farthest_place; };
+    if (at.size() != 2 || !std::ranges::all_of(at, plausible))
         return fail(
             ErrorCode::usage,
             fmt::format("--position {}: give X,Y of the window's upper left corner, as in 100,50", text));
-    return point;
+    return platform::ScreenPoint{at[0], at[1]};
 }
-
-} // namespace
 
 /// Adds --on-top, --monitor, --position, --output-window and --output-monitor.
 void add_window_options(Command command, WindowOptions& options) {
@@ -78,8 +71,6 @@ Result<platform::WindowWishes> resolve(const WindowOptions& options) {
         wishes.position = TRY(parse_position(*options.position));
     return wishes;
 }
-
-namespace {
 
 /// X11's limit: window sizes are signed 16-bit numbers. Larger windows get another size.
 constexpr int k_largest_window = 32767;

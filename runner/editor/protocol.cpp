@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 namespace tidemark::lsp {
@@ -38,8 +37,7 @@ std::optional<size_t> length_in(std::string_view header) {
         line.remove_prefix(k_length.size());
         line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
         size_t length = 0;
-        if (std::from_chars(line.data(), line.data() + line.size(), length).ec == std::errc{} &&
-            length <= k_longest_message)
+        if (consume_number(line, length) && length <= k_longest_message)
             return length;
     }
     return std::nullopt;

@@ -1,8 +1,7 @@
-// The colours in a file that an editor can change: the defaults of its `color3` knobs.
-
-#include "editor/questions.hpp"
+// Answers requests of an editor about a place in a document.
 
 #include "base/error.hpp"
+#include "editor/session.hpp"
 #include "editor/workspace.hpp"
 #include "scene/host_uniforms.hpp"
 #include "shader/builtin_functions.hpp"
@@ -15,7 +14,6 @@
 #include <utility>
 
 namespace tidemark::lsp {
-
 namespace {
 
 /// Returns begin and end (offsets) of the default in a knob's line: after the `=`, through the first `)` or
@@ -42,15 +40,14 @@ double rounded(const Json& number) {
     return std::round(number.get<double>() * 1000) / 1000;
 }
 
-} // namespace
-
 /// Returns the ColorInformations of the first file.
-Json document_colours(const Workspace& workspace, Encoding encoding) {
+Answer document_colours(const Question& asked) {
     Json colours = Json::array();
-    const SourceFile& file = workspace.files.front();
-    const Lines lines(file.text, encoding);
+    const SourceFile& file = asked.workspace.files.front();
+    const Lines lines(file.text, asked.encoding);
     for (const Symbol& symbol : file.symbols) {
-        const scene::Knob* knob = symbol.kind == Symbol::Kind::knob ? workspace.knob(symbol.name) : nullptr;
+        const scene::Knob* knob =
+            symbol.kind == Symbol::Kind::knob ? asked.workspace.knob(symbol.name) : nullptr;
         if (!knob || knob->type != scene::KnobType::color3)
             continue;
         if (const auto range = default_of(symbol, file.text))
@@ -61,16 +58,16 @@ Json document_colours(const Workspace& workspace, Encoding encoding) {
 }
 
 /// Returns the ColorPresentations of a Color: `color3(1, 0.5, 0)`.
-Json colour_presentations(const Json& colour, const Json& range) {
+Answer colour_presentations(const Question& asked) {
+    const Json& colour = asked.params.at("color");
     const scene::Knob knob{
         .name = {},
         .type = scene::KnobType::color3,
         .value = {rounded(colour.at("red")), rounded(colour.at("green")), rounded(colour.at("blue")), 0}};
     const std::string literal = scene::to_literal(knob);
-    return Json::array({{{"label", literal}, {"textEdit", {{"range", range}, {"newText", literal}}}}});
+    return Json::array(
+        {{{"label", literal}, {"textEdit", {{"range", asked.params.at("range")}, {"newText", literal}}}}});
 }
-
-namespace {
 
 std::string code(std::string_view text) {
     return fmt::format("```glsl\n{}\n```\n", text);
@@ -150,8 +147,6 @@ std::string of_host(std::string_view name) {
            fmt::format("Given by the host, as on ShaderToy's site: {}.\n", row->meaning);
 }
 
-} // namespace
-
 /// Returns Markdown: a knob's value and range, a declaration with the comment above it, a built-in function's
 /// signatures and the cases where it is undefined, a uniform of the host, or the first comment of an included
 /// file. Empty where nothing is known.
@@ -185,8 +180,6 @@ std::string hover_text(const Workspace& workspace, size_t offset, const Document
            (today ? of_builtin(*today) : of_host(old->today));
 }
 
-namespace {
-
 /// Returns the protocol's SymbolKind.
 int number_of(Symbol::Kind kind) {
     switch (kind) {
@@ -200,33 +193,31 @@ int number_of(Symbol::Kind kind) {
     return 13;
 }
 
-} // namespace
-
 /// Returns Locations: the declarations of a name, all overloads included; for an `#include` the file.
-Json definitions(const Workspace& workspace, size_t offset, const Documents& documents, Encoding encoding) {
+Answer definitions(const Question& asked) {
     Json found = Json::array();
-    if (const auto included = included_at(workspace, offset); !included.empty()) {
-        if (documents.text_of(included))
-            found.push_back(
-                {{"uri", documents.uri_of(included)}, {"range", Lines("", encoding).range(0, 0)}});
+    if (const auto included = included_at(asked.workspace, asked.offset()); !included.empty()) {
+        if (asked.documents.text_of(included))
+            found.push_back({{"uri", asked.documents.uri_of(included)},
+                             {"range", Lines("", asked.encoding).range(0, 0)}});
         return found;
     }
-    const auto tokens = text::tokenize(workspace.files.front().text);
-    const auto word = word_at(tokens, offset);
-    for (const SourceFile& file : workspace.files) {
-        const Lines lines(file.text, encoding);
+    const auto tokens = text::tokenize(asked.workspace.files.front().text);
+    const auto word = word_at(tokens, asked.offset());
+    for (const SourceFile& file : asked.workspace.files) {
+        const Lines lines(file.text, asked.encoding);
         for (const Symbol& symbol : file.symbols)
             if (word && symbol.name == word->text)
-                found.push_back({{"uri", documents.uri_of(file.path)},
+                found.push_back({{"uri", asked.documents.uri_of(file.path)},
                                  {"range", lines.range(symbol.name_begin, symbol.name_end())}});
     }
     return found;
 }
 
 /// Returns the DocumentSymbols of the first file.
-Json document_symbols(const Workspace& workspace, Encoding encoding) {
-    const SourceFile& file = workspace.files.front();
-    const Lines lines(file.text, encoding);
+Answer document_symbols(const Question& asked) {
+    const SourceFile& file = asked.workspace.files.front();
+    const Lines lines(file.text, asked.encoding);
     Json symbols = Json::array();
     for (const Symbol& symbol : file.symbols)
         symbols.push_back({{"name", symbol.name},
@@ -236,8 +227,6 @@ Json document_symbols(const Workspace& workspace, Encoding encoding) {
                            {"selectionRange", lines.range(symbol.name_begin, symbol.name_end())}});
     return symbols;
 }
-
-namespace {
 
 using text::Token;
 
@@ -276,80 +265,50 @@ std::string why_not(const Workspace& workspace, const std::string& name) {
     return {};
 }
 
-} // namespace
-
 /// Returns the range of the knob's name at an offset; null without a knob there.
-Json renamed_range(const Workspace& workspace, size_t offset, Encoding encoding) {
-    const std::string& text = workspace.files.front().text;
+Answer renamed_range(const Question& asked) {
+    const std::string& text = asked.workspace.files.front().text;
     const auto tokens = text::tokenize(text);
-    const auto knob = knob_at(workspace, tokens, offset);
-    return knob ? Lines(text, encoding).range(knob->begin, knob->end()) : Json();
+    const auto knob = knob_at(asked.workspace, tokens, asked.offset());
+    return knob ? Lines(text, asked.encoding).range(knob->begin, knob->end()) : Json();
 }
 
 /// Returns a WorkspaceEdit. Fails without a knob there, or where the name is not valid or is used in the
 /// scene already.
-Result<Json> rename_knob(const Workspace& workspace, size_t offset, const std::string& name,
-                         const Documents& documents, Encoding encoding) {
-    const auto tokens = text::tokenize(workspace.files.front().text);
-    const auto knob = knob_at(workspace, tokens, offset);
+Answer rename_knob(const Question& asked) {
+    const auto name = asked.params.at("newName").get<std::string>();
+    const auto tokens = text::tokenize(asked.workspace.files.front().text);
+    const auto knob = knob_at(asked.workspace, tokens, asked.offset());
     if (!knob)
-        return fail(ErrorCode::usage, "only knobs (#iUniform) can be renamed: there is no knob here");
-    if (const std::string why = why_not(workspace, name); !why.empty())
-        return fail(ErrorCode::usage, fmt::format("'{}' cannot be called '{}': {}", knob->text, name, why));
+        return refuse(ErrorNumber::request_failed,
+                      "only knobs (#iUniform) can be renamed: there is no knob here");
+    if (const std::string why = why_not(asked.workspace, name); !why.empty())
+        return refuse(ErrorNumber::request_failed,
+                      fmt::format("'{}' cannot be called '{}': {}", knob->text, name, why));
     Json changes = Json::object();
-    for (const SourceFile& file : workspace.files) {
-        const Lines lines(file.text, encoding);
+    for (const SourceFile& file : asked.workspace.files) {
+        const Lines lines(file.text, asked.encoding);
         const auto words = text::tokenize(file.text);
         for (const Token* use : uses_of(words, knob->text))
-            changes[documents.uri_of(file.path)].push_back(
+            changes[asked.documents.uri_of(file.path)].push_back(
                 {{"range", lines.range(use->begin, use->end())}, {"newText", name}});
     }
     return Json{{"changes", std::move(changes)}};
 }
-
-namespace {
 
 Answer hover(const Question& asked) {
     const std::string text = hover_text(asked.workspace, asked.offset(), asked.documents);
     return text.empty() ? Json() : Json{{"contents", {{"kind", "markdown"}, {"value", text}}}};
 }
 
-Answer definition(const Question& asked) {
-    return definitions(asked.workspace, asked.offset(), asked.documents, asked.encoding);
-}
-
-Answer symbols(const Question& asked) {
-    return document_symbols(asked.workspace, asked.encoding);
-}
-
-Answer colours(const Question& asked) {
-    return document_colours(asked.workspace, asked.encoding);
-}
-
-Answer presentations(const Question& asked) {
-    return colour_presentations(asked.params.at("color"), asked.params.at("range"));
-}
-
-Answer prepare_rename(const Question& asked) {
-    return renamed_range(asked.workspace, asked.offset(), asked.encoding);
-}
-
-Answer rename(const Question& asked) {
-    const auto name = asked.params.at("newName").get<std::string>();
-    return rename_knob(asked.workspace, asked.offset(), name, asked.documents, asked.encoding)
-        .map_error([](const Error& error) {
-            return Refusal{ErrorNumber::request_failed, error.message};
-        });
-}
-
 constexpr std::pair<std::string_view, AnswerTo> k_questions[] = {
     {"textDocument/hover", hover},
-    {"textDocument/definition", definition},
-    {"textDocument/documentSymbol", symbols},
-    {"textDocument/documentColor", colours},
-    {"textDocument/colorPresentation", presentations},
-    {"textDocument/prepareRename", prepare_rename},
-    {"textDocument/rename", rename},
+    {"textDocument/definition", definitions},
+    {"textDocument/documentSymbol", document_symbols},
+    {"textDocument/documentColor", document_colours},
+    {"textDocument/colorPresentation", colour_presentations},
+    {"textDocument/prepareRename", renamed_range},
+    {"textDocument/rename", rename_knob},
 };
 
 } // namespace

@@ -5,19 +5,15 @@
 
 #include "base/encoding.hpp"
 #include "base/tokens.hpp"
-#include "editor/workspace.hpp"
 #include "scene/project.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <utility>
 
 namespace tidemark::lsp {
-
+namespace fs = std::filesystem;
 namespace {
 
 size_t end_of_string(std::string_view json, size_t begin) {
@@ -55,8 +51,6 @@ size_t after_line_end(std::string_view json, size_t at) {
     return two == "\\n" || two == "\\r" ? at + 2 : 0;
 }
 
-} // namespace
-
 /// Returns the offsets of a line's first byte and of its end in `json`, where the code is one string with
 /// escapes. `pass` is a name by scene::pass_names, `line` counts from 1. None if the JSON has no such pass or
 /// line.
@@ -86,9 +80,6 @@ std::optional<std::pair<size_t, size_t>> find_code_line(std::string_view json, s
         return std::pair(begin, std::min(at, code->second));
     return std::nullopt;
 }
-
-namespace fs = std::filesystem;
-namespace {
 
 enum class Level { error = 1, warning, information, hint };
 
@@ -180,6 +171,29 @@ std::map<fs::path, Json> by_file(const Verdict& verdict, Translator translator) 
     return files;
 }
 
+std::string joined(const std::vector<Json>& messages) {
+    std::string text;
+    for (const Json& message : messages)
+        text += framed(message);
+    return text;
+}
+
+/// Returns nothing for a URI that is not a file of this machine.
+std::optional<fs::path> file_of(const Json& params) {
+    const auto file = path_of_uri(params.at("textDocument").at("uri").get<std::string>());
+    return file ? std::optional(canonical_name(*file)) : std::nullopt;
+}
+
+bool offers_utf8(const Json& params) {
+    const Json offered = params.value("/capabilities/general/positionEncodings"_json_pointer, Json::array());
+    return std::ranges::find(offered, Json("utf-8")) != offered.end();
+}
+
+/// Returns the member, or null if the object does not have it.
+Json member(const Json& object, const char* name) {
+    return object.is_object() && object.contains(name) ? object[name] : Json();
+}
+
 } // namespace
 
 std::vector<Json> DiagnosticBoard::show(const fs::path& scene, const fs::path& main, const Verdict& verdict,
@@ -218,33 +232,6 @@ std::vector<Json> DiagnosticBoard::publish(const std::set<fs::path>& touched,
     }
     return notifications;
 }
-
-namespace {
-
-std::string joined(const std::vector<Json>& messages) {
-    std::string text;
-    for (const Json& message : messages)
-        text += framed(message);
-    return text;
-}
-
-/// Returns nothing for a URI that is not a file of this machine.
-std::optional<fs::path> file_of(const Json& params) {
-    const auto file = path_of_uri(params.at("textDocument").at("uri").get<std::string>());
-    return file ? std::optional(canonical_name(*file)) : std::nullopt;
-}
-
-bool offers_utf8(const Json& params) {
-    const Json offered = params.value("/capabilities/general/positionEncodings"_json_pointer, Json::array());
-    return std::ranges::find(offered, Json("utf-8")) != offered.end();
-}
-
-/// Returns the member, or null if the object does not have it.
-Json member(const Json& object, const char* name) {
-    return object.is_object() && object.contains(name) ? object[name] : Json();
-}
-
-} // namespace
 
 std::string Session::receive(std::string_view text) {
     const Json message = Json::parse(text, nullptr, false);

@@ -1,8 +1,10 @@
-// The diagnostics of all open scenes, as notifications to the editor, which needs them by file.
+// The language server: what it answers, the diagnostics that it shows, and its state.
 #pragma once
 
 #include "editor/protocol.hpp"
-#include "editor/questions.hpp"
+#include "editor/workspace.hpp"
+
+#include <tl/expected.hpp>
 
 #include <map>
 #include <optional>
@@ -12,6 +14,35 @@
 #include <vector>
 
 namespace tidemark::lsp {
+
+// Requests of an editor about a place in a document, by the protocol's method names.
+
+/// The reason why a request fails.
+struct Refusal {
+    ErrorNumber number;
+    std::string message;
+};
+using Answer = tl::expected<Json, Refusal>;
+
+tl::unexpected<Refusal> refuse(ErrorNumber number, std::string message);
+
+/// A request. `workspace` is that of the document. All references must outlive it.
+struct Question {
+    const Workspace& workspace;
+    const Json& params;
+    const Documents& documents;
+    Encoding encoding;
+
+    /// Returns the offset of the position in the request.
+    size_t offset() const;
+};
+
+using AnswerTo = Answer (*)(const Question&);
+/// Returns nullptr for an unknown method. The returned function throws Json::exception where a parameter is
+/// missing.
+AnswerTo find_question(std::string_view method);
+
+// The diagnostics of all open scenes, as notifications to the editor, which needs them by file.
 
 /// The diagnostics of a scene. `hints` are neither errors nor warnings of a compiler.
 struct Verdict {

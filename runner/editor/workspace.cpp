@@ -3,17 +3,15 @@
 #include "base/encoding.hpp"
 #include "base/folders.hpp"
 #include "base/mapped_text.hpp"
-#include "base/tokens.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/names.hpp"
 #include "shader/token_reading.hpp"
 
 #include <algorithm>
 #include <initializer_list>
-#include <string_view>
-#include <vector>
 
 namespace tidemark::lsp {
+namespace fs = std::filesystem;
 namespace {
 
 /// Returns the line without its comment marks: `//`, `/**`, `*`, `///<` and the like.
@@ -37,50 +35,6 @@ std::string joined(const Range& lines) {
             comment += (comment.empty() ? "" : "\n") + std::string(words);
     return comment;
 }
-
-} // namespace
-
-std::string comment_above(std::string_view text, size_t offset) {
-    size_t begin = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;
-    std::vector<std::string_view> lines; // from bottom to top, only as far as the comment reaches
-    const auto take_line = [&] {
-        const size_t end = begin - 1;
-        begin = end == 0 ? 0 : text.rfind('\n', end - 1) + 1;
-        lines.push_back(text.substr(begin, end - begin));
-        return lines.back();
-    };
-    if (begin == 0)
-        return {};
-    if (trimmed(take_line()).ends_with("*/")) {
-        while (begin > 0 && lines.back().find("/*") == lines.back().npos)
-            take_line();
-        if (!trimmed(lines.back()).starts_with("/*")) // a comment after code
-            return {};
-    } else {
-        while (is_line_comment(lines.back()) && begin > 0)
-            take_line();
-        if (!is_line_comment(lines.back()))
-            lines.pop_back();
-    }
-    std::ranges::reverse(lines);
-    return joined(lines);
-}
-
-std::string leading_comment(std::string_view text) {
-    const auto lines = text::lines_of(text);
-    if (lines.empty())
-        return {};
-    auto end = lines.begin();
-    if (trimmed(lines.front()).starts_with("/*"))
-        end =
-            std::min(std::ranges::find_if(lines, [](auto line) { return line.find("*/") != line.npos; }) + 1,
-                     lines.end());
-    else
-        end = std::ranges::find_if_not(lines, is_line_comment);
-    return joined(std::vector(lines.begin(), end));
-}
-
-namespace {
 
 using glsl::Reading;
 using text::Token;
@@ -210,15 +164,6 @@ private:
     std::vector<Symbol> symbols_;
 };
 
-} // namespace
-
-std::vector<Symbol> outline(std::string_view text) {
-    return Outliner(text).run();
-}
-
-namespace fs = std::filesystem;
-namespace {
-
 /// Files in one folder that are searched for a scene that includes a file.
 constexpr size_t k_most_neighbours = 100;
 
@@ -285,20 +230,6 @@ std::optional<fs::path> scene_that_includes(const fs::path& folder, const fs::pa
     return std::nullopt;
 }
 
-} // namespace
-
-std::optional<fs::path> scene_of(const fs::path& path, const Documents& documents) {
-    const fs::path file = canonical_name(path);
-    if (auto scene = own_scene(file, documents))
-        return scene;
-    for (const fs::path& folder : {file.parent_path(), file.parent_path().parent_path()})
-        if (auto scene = scene_that_includes(folder, file, documents))
-            return scene;
-    return std::nullopt;
-}
-
-namespace {
-
 void add_file(Workspace& workspace, const fs::path& path, const Documents& documents) {
     const fs::path file = canonical_name(path);
     if (std::ranges::find(workspace.files, file, &SourceFile::path) != workspace.files.end())
@@ -311,6 +242,60 @@ void add_file(Workspace& workspace, const fs::path& path, const Documents& docum
 }
 
 } // namespace
+
+std::string comment_above(std::string_view text, size_t offset) {
+    size_t begin = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;
+    std::vector<std::string_view> lines; // from bottom to top, only as far as the comment reaches
+    const auto take_line = [&] {
+        const size_t end = begin - 1;
+        begin = end == 0 ? 0 : text.rfind('\n', end - 1) + 1;
+        lines.push_back(text.substr(begin, end - begin));
+        return lines.back();
+    };
+    if (begin == 0)
+        return {};
+    if (trimmed(take_line()).ends_with("*/")) {
+        while (begin > 0 && lines.back().find("/*") == lines.back().npos)
+            take_line();
+        if (!trimmed(lines.back()).starts_with("/*")) // a comment after code
+            return {};
+    } else {
+        while (is_line_comment(lines.back()) && begin > 0)
+            take_line();
+        if (!is_line_comment(lines.back()))
+            lines.pop_back();
+    }
+    std::ranges::reverse(lines);
+    return joined(lines);
+}
+
+std::string leading_comment(std::string_view text) {
+    const auto lines = text::lines_of(text);
+    if (lines.empty())
+        return {};
+    auto end = lines.begin();
+    if (trimmed(lines.front()).starts_with("/*"))
+        end =
+            std::min(std::ranges::find_if(lines, [](auto line) { return line.find("*/") != line.npos; }) + 1,
+                     lines.end());
+    else
+        end = std::ranges::find_if_not(lines, is_line_comment);
+    return joined(std::vector(lines.begin(), end));
+}
+
+std::vector<Symbol> outline(std::string_view text) {
+    return Outliner(text).run();
+}
+
+std::optional<fs::path> scene_of(const fs::path& path, const Documents& documents) {
+    const fs::path file = canonical_name(path);
+    if (auto scene = own_scene(file, documents))
+        return scene;
+    for (const fs::path& folder : {file.parent_path(), file.parent_path().parent_path()})
+        if (auto scene = scene_that_includes(folder, file, documents))
+            return scene;
+    return std::nullopt;
+}
 
 const scene::Knob* Workspace::knob(std::string_view name) const {
     const auto found = std::ranges::find(knobs, name, &scene::Knob::name);

@@ -11,13 +11,27 @@
 #include <condition_variable>
 #include <cstdio>
 #include <mutex>
-#include <string>
 
 namespace tidemark::cli {
-
 namespace {
 
 std::atomic<bool> words_are_wanted{true};
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_between(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
+const std::string k_clear_line = "\r\x1b[K";
+
+/// Prints without a line end, so that the next line can overwrite it.
+void show(const std::string& text) {
+    (void)std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+/// Redrawing more often than about ten times a second is not readable.
+constexpr double k_redraw_seconds = 0.1;
 
 } // namespace
 
@@ -50,26 +64,6 @@ Result<void> put(std::span<const std::byte> bytes) {
         return {};
     return fail(ErrorCode::write, fmt::format("cannot write to standard output: {}", system_reason(errno)));
 }
-
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_between(Clock::time_point from, Clock::time_point to) {
-    return std::chrono::duration<double>(to - from).count();
-}
-
-const std::string k_clear_line = "\r\x1b[K";
-
-/// Prints without a line end, so that the next line can overwrite it.
-void show(const std::string& text) {
-    (void)std::fwrite(text.data(), 1, text.size(), stderr);
-}
-
-/// Redrawing more often than about ten times a second is not readable.
-constexpr double k_redraw_seconds = 0.1;
-
-} // namespace
 
 Progress::Progress(std::string what, size_t total, Manner manner)
     : what_(std::move(what)), total_(total), manner_(manner), terminal_(::isatty(STDERR_FILENO) == 1),

@@ -10,10 +10,7 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <filesystem>
 #include <regex>
-#include <string>
-#include <vector>
 
 namespace tidemark::platform {
 

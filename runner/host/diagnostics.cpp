@@ -6,7 +6,6 @@
 #include "base/file.hpp"
 #include "base/mapped_text.hpp"
 #include "base/tokens.hpp"
-#include "host/command_line.hpp"
 #include "host/console.hpp"
 #include "host/json.hpp"
 #include "host/requests.hpp"
@@ -19,10 +18,8 @@
 #include <mutex>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace tidemark::cli {
-
 namespace {
 
 Rule rule_of(ErrorCode code) {
@@ -37,35 +34,6 @@ Rule rule_of(ErrorCode code) {
     }
     return scene_rule();
 }
-
-} // namespace
-
-Rule scene_rule() {
-    return {"scene", "The scene loads and its passes compile"};
-}
-
-Finding finding_of(Diagnostic diagnostic, Rule rule) {
-    Finding finding{.diagnostic = std::move(diagnostic), .rule = std::move(rule)};
-    const SourceLocation& where = finding.diagnostic.where;
-    if (where.column > 0)
-        if (const auto file = read_text_file(where.file)) {
-            const std::string text = text::with_plain_line_ends(*file);
-            finding.line = text::line_of(text, where.line);
-            finding.end_column = text::end_of_token(finding.line, where.column);
-        }
-    return finding;
-}
-
-std::vector<Finding> findings_of(const Error& error) {
-    std::vector<Finding> findings;
-    for (const Diagnostic& diagnostic : error.diagnostics)
-        findings.push_back(finding_of(diagnostic, rule_of(error.code)));
-    if (findings.empty())
-        findings.push_back({.diagnostic = {{}, Severity::error, error.message}, .rule = rule_of(error.code)});
-    return findings;
-}
-
-namespace {
 
 /// The name of a pass in a JSON project is `waves.json:Image`.
 constexpr std::string_view k_project = ".json:";
@@ -108,8 +76,6 @@ Json result_of(const Finding& finding, size_t rule) {
     return result;
 }
 
-} // namespace
-
 /// Returns a log with one run of this program. File names become URIs, relative if the name is.
 Json sarif_log(std::span<const Finding> findings) {
     std::vector<Rule> rules;
@@ -133,8 +99,6 @@ Json sarif_log(std::span<const Finding> findings) {
                        {"columnKind", "utf16CodeUnits"},
                        {"results", std::move(results)}}})}};
 }
-
-namespace {
 
 enum class Form { people, gcc, json, sarif };
 
@@ -180,7 +144,34 @@ void choose(const std::string& name) {
         keep_words_back();
 }
 
+/// Returns the diagnostics of an error in its order; if it has none, one finding with its message and no
+/// place.
+std::vector<Finding> findings_of(const Error& error) {
+    std::vector<Finding> findings;
+    for (const Diagnostic& diagnostic : error.diagnostics)
+        findings.push_back(finding_of(diagnostic, rule_of(error.code)));
+    if (findings.empty())
+        findings.push_back({.diagnostic = {{}, Severity::error, error.message}, .rule = rule_of(error.code)});
+    return findings;
+}
+
 } // namespace
+
+Rule scene_rule() {
+    return {"scene", "The scene loads and its passes compile"};
+}
+
+Finding finding_of(Diagnostic diagnostic, Rule rule) {
+    Finding finding{.diagnostic = std::move(diagnostic), .rule = std::move(rule)};
+    const SourceLocation& where = finding.diagnostic.where;
+    if (where.column > 0)
+        if (const auto file = read_text_file(where.file)) {
+            const std::string text = text::with_plain_line_ends(*file);
+            finding.line = text::line_of(text, where.line);
+            finding.end_column = text::end_of_token(finding.line, where.column);
+        }
+    return finding;
+}
 
 void add_diagnostics_option(Command app) {
     for (Command command : app.subcommands())

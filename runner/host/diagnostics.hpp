@@ -30,10 +30,6 @@ Rule scene_rule();
 /// Adds the rule, and reads the diagnostic's file to find the line and the end of the token.
 Finding finding_of(Diagnostic diagnostic, Rule rule = scene_rule());
 
-/// Returns the diagnostics of an error in its order; if it has none, one finding with its message and no
-/// place.
-std::vector<Finding> findings_of(const Error& error);
-
 // --diagnostics: the form in which problems of a scene go to standard error. The form is chosen once per run,
 // when the command line is read; commands report through `say` and do not depend on it.
 

@@ -3,7 +3,6 @@
 #include "base/encoding.hpp"
 #include "base/file.hpp"
 #include "base/overloaded.hpp"
-#include "host/json.hpp"
 #include "host/scene_report.hpp"
 #include "host/version.hpp"
 

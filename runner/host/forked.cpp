@@ -1,5 +1,6 @@
 #include "host/forked.hpp"
 
+#include "base/encoding.hpp"
 #include "base/supervision.hpp"
 #include "host/supervision.hpp"
 
@@ -14,14 +15,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace tidemark::cli {
@@ -44,8 +42,9 @@ std::string system_file(const std::string& path) {
 uint64_t limit_of_container() {
     for (const char* file : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
         const std::string text = system_file(file);
+        std::string_view rest = text;
         uint64_t limit = 0;
-        if (std::from_chars(text.data(), text.data() + text.size(), limit).ec == std::errc{} && limit > 0)
+        if (consume_number(rest, limit) && limit > 0)
             return limit;
     }
     return std::numeric_limits<uint64_t>::max();
@@ -60,77 +59,14 @@ void add_descendants(pid_t process, std::vector<pid_t>& found) {
         if (task->d_name[0] == '.')
             continue;
         const std::string children = system_file(fmt::format("{}/{}/children", tasks, task->d_name));
-        const char* end = children.data() + children.size();
-        for (const char* at = children.data(); at < end;) {
-            pid_t child = 0;
-            const auto [next, error] = std::from_chars(at, end, child);
-            if (error != std::errc{})
-                break;
+        std::string_view rest = children;
+        for (pid_t child = 0; consume_number(rest, child); consume(rest, ' ')) {
             found.push_back(child);
             add_descendants(child, found);
-            at = next + 1;
         }
     }
     ::closedir(folder);
 }
-
-} // namespace
-
-uint64_t machine_memory() {
-    const long pages = ::sysconf(_SC_PHYS_PAGES);
-    const long size = ::sysconf(_SC_PAGESIZE);
-    const uint64_t machine = pages > 0 && size > 0 ? uint64_t(pages) * uint64_t(size) : 0;
-    return std::min(machine, limit_of_container());
-}
-
-Result<uint64_t> parse_memory(std::string_view text, uint64_t machine) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    std::string_view unit = text.substr(size_t(end - text.data()));
-    double factor = 0;
-    if (error == std::errc{} && std::isfinite(number)) {
-        if (unit == "%")
-            factor = double(machine) / 100;
-        else if (unit.empty())
-            factor = 1;
-        else if (const size_t power = std::string_view("KMGT").find(unit.front()); power != unit.npos) {
-            unit.remove_prefix(1);
-            if (unit.empty() || unit == "B" || unit == "iB")
-                factor = std::pow(double(k_kibi), double(power + 1));
-        }
-    }
-    const double bytes = number * factor;
-    if (!(bytes >= 1) || bytes > 1e18)
-        return fail(ErrorCode::usage, fmt::format("--memory {}: give a size as in 512M, 2G or 50%", text));
-    return uint64_t(bytes);
-}
-
-std::string memory_text(uint64_t bytes) {
-    constexpr std::array<const char*, 5> k_units{"bytes", "KiB", "MiB", "GiB", "TiB"};
-    auto number = double(bytes);
-    size_t unit = 0;
-    for (; number >= k_kibi && unit + 1 < k_units.size(); ++unit)
-        number /= k_kibi;
-    return fmt::format("{:.{}f} {}", number, number < 10 && number != std::floor(number) ? 1 : 0,
-                       k_units[unit]);
-}
-
-std::vector<pid_t> descendants_of(pid_t process) {
-    std::vector<pid_t> found;
-    add_descendants(process, found);
-    return found;
-}
-
-uint64_t memory_of(pid_t process) {
-    // Pages: whole address space, resident, and resident pages shared with files.
-    const std::string statm = system_file(fmt::format("/proc/{}/statm", process));
-    unsigned long long all = 0, resident = 0, shared = 0;
-    if (std::sscanf(statm.c_str(), "%llu %llu %llu", &all, &resident, &shared) != 3)
-        return 0;
-    return (resident - std::min(resident, shared)) * uint64_t(::sysconf(_SC_PAGESIZE));
-}
-
-namespace {
 
 using Clock = std::chrono::steady_clock;
 
@@ -176,7 +112,7 @@ std::optional<std::string> read_line(int fd) {
 constexpr long k_look_ms = 50;
 
 /// Returns true if a running child exceeds a limit; sets the reason in `result`.
-bool has_to_end(pid_t child, const ForkedLimits& limits, Clock::time_point deadline, ForkedResult& result) {
+bool has_to_end(pid_t child, const Limits& limits, Clock::time_point deadline, ForkedResult& result) {
     result.timed_out = Clock::now() >= deadline;
     result.over_memory = limits.memory > 0 && memory_of(child) > limits.memory;
     result.unwanted = limits.unwanted && limits.unwanted();
@@ -207,6 +143,59 @@ std::string crash_of(int status, const std::string& doing) {
 }
 
 } // namespace
+
+uint64_t machine_memory() {
+    const long pages = ::sysconf(_SC_PHYS_PAGES);
+    const long size = ::sysconf(_SC_PAGESIZE);
+    const uint64_t machine = pages > 0 && size > 0 ? uint64_t(pages) * uint64_t(size) : 0;
+    return std::min(machine, limit_of_container());
+}
+
+Result<uint64_t> parse_memory(std::string_view text, uint64_t machine) {
+    double number = 0;
+    std::string_view unit = text;
+    double factor = 0;
+    if (consume_number(unit, number) && std::isfinite(number)) {
+        if (unit == "%")
+            factor = double(machine) / 100;
+        else if (unit.empty())
+            factor = 1;
+        else if (const size_t power = std::string_view("KMGT").find(unit.front()); power != unit.npos) {
+            unit.remove_prefix(1);
+            if (unit.empty() || unit == "B" || unit == "iB")
+                factor = std::pow(double(k_kibi), double(power + 1));
+        }
+    }
+    const double bytes = number * factor;
+    if (!(bytes >= 1) || bytes > 1e18)
+        return fail(ErrorCode::usage, fmt::format("--memory {}: give a size as in 512M, 2G or 50%", text));
+    return uint64_t(bytes);
+}
+
+std::string memory_text(uint64_t bytes) {
+    constexpr std::array<const char*, 5> k_units{"bytes", "KiB", "MiB", "GiB", "TiB"};
+    auto number = double(bytes);
+    size_t unit = 0;
+    for (; number >= k_kibi && unit + 1 < k_units.size(); ++unit)
+        number /= k_kibi;
+    return fmt::format("{:.{}f} {}", number, number < 10 && number != std::floor(number) ? 1 : 0,
+                       k_units[unit]);
+}
+
+std::vector<pid_t> descendants_of(pid_t process) {
+    std::vector<pid_t> found;
+    add_descendants(process, found);
+    return found;
+}
+
+uint64_t memory_of(pid_t process) {
+    // Pages: whole address space, resident, and resident pages shared with files.
+    const std::string statm = system_file(fmt::format("/proc/{}/statm", process));
+    unsigned long long all = 0, resident = 0, shared = 0;
+    if (std::sscanf(statm.c_str(), "%llu %llu %llu", &all, &resident, &shared) != 3)
+        return 0;
+    return (resident - std::min(resident, shared)) * uint64_t(::sysconf(_SC_PAGESIZE));
+}
 
 Result<ForkedHelper> ForkedHelper::start(const Work& work) {
     std::array<int, 2> questions{}, answers{};
@@ -250,9 +239,10 @@ ForkedHelper::~ForkedHelper() {
     status_of(child_);
 }
 
-void ForkedHelper::begin(std::string_view question, const ForkedLimits& limits) {
-    asked_ = Asked{limits, Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                              std::chrono::duration<double>(std::min(limits.seconds, 3e7)))};
+void ForkedHelper::begin(std::string_view question, const Limits& limits) {
+    constexpr double k_year = 3e7; // above it the clock's integers could overflow
+    const std::chrono::duration<double> time(std::min(limits.seconds.value_or(k_year), k_year));
+    asked_ = Asked{limits, Clock::now() + std::chrono::duration_cast<Clock::duration>(time)};
     write_line(question_, question);
     ::close(std::exchange(question_, -1));
 }
@@ -301,8 +291,7 @@ std::optional<ForkedResult> ForkedHelper::look(const Tell& hear, std::chrono::mi
     return std::nullopt;
 }
 
-Result<ForkedResult> ForkedHelper::ask(std::string_view question, const ForkedLimits& limits,
-                                       const Tell& hear) {
+Result<ForkedResult> ForkedHelper::ask(std::string_view question, const Limits& limits, const Tell& hear) {
     begin(question, limits);
     const bool looks = limits.memory > 0 || limits.unwanted;
     for (;;) {
@@ -314,7 +303,7 @@ Result<ForkedResult> ForkedHelper::ask(std::string_view question, const ForkedLi
     }
 }
 
-Result<ForkedResult> run_forked(const std::function<void(const Tell&)>& work, const ForkedLimits& limits,
+Result<ForkedResult> run_forked(const std::function<void(const Tell&)>& work, const Limits& limits,
                                 const Tell& hear) {
     auto helper = ForkedHelper::start([&work](const std::string&, const Tell& tell) { work(tell); });
     if (!helper)

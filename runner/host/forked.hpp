@@ -48,23 +48,20 @@ struct ForkedResult {
 /// Sends one line to the parent; sent lines survive the end of the work.
 using Tell = std::function<void(std::string_view line)>;
 
-/// Limits that end the work early. `unwanted`, if set, is called about twenty times a second.
-struct ForkedLimits {
-    double seconds = 0;
-    uint64_t memory = 0; ///< bytes; 0: no limit
+/// Limits of work in another process, which end it early.
+struct Limits {
+    /// Time for all the work; under `supervise` (host/supervision.hpp), for each driver operation.
+    std::optional<double> seconds{};
+    uint64_t memory = 0; ///< bytes, under `supervise` with all descendants; 0: no limit
+    /// Called about twenty times a second by run_forked and ForkedHelper: returns true to end the work.
     std::function<bool()> unwanted{};
 };
 
 /// Runs `work` in a child process and waits for it. `hear` is called with each line as it arrives; the child
 /// is stopped during that call.
 Result<ForkedResult> run_forked(
-    const std::function<void(const Tell&)>& work, const ForkedLimits& limits,
+    const std::function<void(const Tell&)>& work, const Limits& limits,
     const Tell& hear = [](std::string_view) {});
-inline Result<ForkedResult> run_forked(
-    const std::function<void(const Tell&)>& work, double seconds,
-    const Tell& hear = [](std::string_view) {}) {
-    return run_forked(work, ForkedLimits{.seconds = seconds}, hear);
-}
 
 /// A child process that is forked early, while that is safe, and sleeps until `ask`.
 class ForkedHelper {
@@ -78,22 +75,18 @@ public:
 
     /// Sends the child its one-line question and waits for the result; call it once. `hear` as in run_forked.
     Result<ForkedResult> ask(
-        std::string_view question, const ForkedLimits& limits, const Tell& hear = [](std::string_view) {});
-    Result<ForkedResult> ask(
-        std::string_view question, double seconds, const Tell& hear = [](std::string_view) {}) {
-        return ask(question, ForkedLimits{.seconds = seconds}, hear);
-    }
+        std::string_view question, const Limits& limits, const Tell& hear = [](std::string_view) {});
 
     /// `ask` in steps, for callers that wait for other things too: call `begin` once, then `look` whenever
     /// `descriptor` is readable or time has passed. `look` waits at most `wait` for output, passes complete
     /// lines to `hear`, and returns the result after the work has ended.
-    void begin(std::string_view question, const ForkedLimits& limits);
+    void begin(std::string_view question, const Limits& limits);
     int descriptor() const { return answer_; }
     std::optional<ForkedResult> look(const Tell& hear, std::chrono::milliseconds wait);
 
 private:
     struct Asked {
-        ForkedLimits limits;
+        Limits limits;
         std::chrono::steady_clock::time_point deadline;
         ForkedResult result{};
         size_t heard = 0; ///< bytes of its output passed to `hear`

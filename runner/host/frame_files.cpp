@@ -1,14 +1,12 @@
 #include "host/frame_files.hpp"
 
-#include "base/error.hpp"
-#include "media/picture_file.hpp"
+#include "base/encoding.hpp"
 #include "media/video_output.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <new>
 #include <system_error>
 
@@ -149,8 +147,9 @@ std::optional<int> frame_of(const fs::path& file, const OutputName& pattern) {
             ++end;
         for (size_t begin = i; begin < end; ++begin) { // the pattern may have digits of its own
             int number = 0;
-            const auto [last, error] = std::from_chars(name.data() + begin, name.data() + end, number);
-            if (error == std::errc{} && pattern.of_frame(number).path().filename() == file.filename())
+            std::string_view digits(name.data() + begin, end - begin);
+            if (consume_number(digits, number) &&
+                pattern.of_frame(number).path().filename() == file.filename())
                 return number;
         }
     }

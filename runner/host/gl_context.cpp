@@ -2,7 +2,6 @@
 
 #include "base/software_renderer.hpp"
 #include "base/supervision.hpp"
-#include "host/devices.hpp"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>

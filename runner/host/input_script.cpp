@@ -1,7 +1,6 @@
 #include "host/input_script.hpp"
 
 #include "base/encoding.hpp"
-#include "base/error.hpp"
 #include "base/file.hpp"
 #include "host/requests.hpp"
 #include "scene/scene.hpp"

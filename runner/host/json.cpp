@@ -6,7 +6,6 @@
 #include <array>
 #include <concepts>
 #include <limits>
-#include <optional>
 #include <tuple>
 
 namespace tidemark::cli {

@@ -1,7 +1,6 @@
 #include "host/moment.hpp"
 
 #include "base/encoding.hpp"
-#include "host/json.hpp"
 #include "host/version.hpp"
 
 #include <fmt/format.h>

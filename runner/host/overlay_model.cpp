@@ -2,7 +2,6 @@
 
 #include "base/encoding.hpp"
 #include "base/overloaded.hpp"
-#include "host/overlay_fields.hpp"
 
 #include <fmt/format.h>
 
@@ -13,6 +12,31 @@
 #include <cstdint>
 
 namespace tidemark::live {
+using scene::Knob;
+using scene::KnobType;
+namespace {
+
+bool begins_character(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xC0) != 0x80;
+}
+
+/// Returns the byte offset of the character with that index (from 0) in UTF-8.
+size_t byte_of(std::string_view text, size_t character) {
+    size_t i = 0;
+    for (; i < text.size(); ++i)
+        if (begins_character(text[i]) && character-- == 0)
+            break;
+    return i;
+}
+
+bool has_length(const scene::KnobRange& range) {
+    for (size_t i = 0; i < range.low.size(); ++i)
+        if (!std::isfinite(2 * range.low[i]) || !std::isfinite(2 * range.high[i]))
+            return false;
+    return true;
+}
+
+} // namespace
 
 std::optional<DefinitionField> definition_field(std::string_view name, std::string_view text, bool held) {
     DefinitionField field{.name = std::string(name), .held = held};
@@ -42,23 +66,6 @@ std::string text_of(const DefinitionField& field) {
     return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
-namespace {
-
-bool begins_character(char byte) {
-    return (static_cast<unsigned char>(byte) & 0xC0) != 0x80;
-}
-
-/// Returns the byte offset of the character with that index (from 0) in UTF-8.
-size_t byte_of(std::string_view text, size_t character) {
-    size_t i = 0;
-    for (; i < text.size(); ++i)
-        if (begins_character(text[i]) && character-- == 0)
-            break;
-    return i;
-}
-
-} // namespace
-
 Excerpt excerpt_of(std::string_view line, int column, size_t most) {
     std::string text(line);
     std::ranges::replace(text, '\t', ' ');
@@ -70,20 +77,6 @@ Excerpt excerpt_of(std::string_view line, int column, size_t most) {
     text = text.substr(begin, byte_of(std::string_view(text).substr(begin), most));
     return {std::move(text), column > 0 ? std::string(place - first, ' ') + "^" : ""};
 }
-
-using scene::Knob;
-using scene::KnobType;
-
-namespace {
-
-bool has_length(const scene::KnobRange& range) {
-    for (size_t i = 0; i < range.low.size(); ++i)
-        if (!std::isfinite(2 * range.low[i]) || !std::isfinite(2 * range.high[i]))
-            return false;
-    return true;
-}
-
-} // namespace
 
 Widget widget_of(const Knob& knob) {
     if (knob.type == KnobType::color3)

@@ -1,22 +1,16 @@
 #include "host/requests.hpp"
 
-#include "base/error.hpp"
-#include "host/command_line.hpp"
+#include "base/encoding.hpp"
 #include "host/console.hpp"
 #include "host/diagnostics.hpp"
 #include "host/forked.hpp"
-#include "render/frame_state.hpp"
-#include "scene/load_scene.hpp"
-#include "scene/scene.hpp"
 #include "shader/definitions.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <concepts>
-#include <optional>
 #include <utility>
 
 namespace tidemark::cli {
@@ -25,41 +19,18 @@ namespace {
 /// The limit for all ranges together.
 constexpr size_t k_most_frames = 10'000'000;
 
-/// Parses a number at the start of `text` and removes it.
-template <class T>
-bool take(std::string_view& text, T& number) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{})
-        return false;
-    text.remove_prefix(size_t(end - text.data()));
-    return true;
-}
-
-bool take(std::string_view& text, char wanted) {
-    if (!text.starts_with(wanted))
-        return false;
-    text.remove_prefix(1);
-    return true;
-}
-
 constexpr std::string_view k_down = ",down";
-
-/// Parses `x,y`.
-bool take(std::string_view& text, glm::dvec2& place) {
-    return take(text, place.x) && take(text, ',') && take(text, place.y) &&
-           std::abs(place.x) <= k_farthest_pixel && std::abs(place.y) <= k_farthest_pixel;
-}
 
 /// Parses one range: `7`, `1-10`, `1-10x3`.
 bool take_range(std::string_view& text, std::vector<int>& frames) {
     int first = 0;
-    if (!take(text, first) || first < 0 || first > render::k_last_frame)
+    if (!consume_number(text, first) || first < 0 || first > render::k_last_frame)
         return false;
     int last = first;
     int step = 1;
-    if (take(text, '-') && (!take(text, last) || last < 0 || last > render::k_last_frame))
+    if (consume(text, '-') && (!consume_number(text, last) || last < 0 || last > render::k_last_frame))
         return false;
-    if (take(text, 'x') && (!take(text, step) || step < 1))
+    if (consume(text, 'x') && (!consume_number(text, step) || step < 1))
         return false;
     const int steps = std::abs(last - first) / step;
     if (frames.size() + size_t(steps) >= k_most_frames)
@@ -125,6 +96,52 @@ void say_warnings(const std::vector<Diagnostic>& warnings, const std::vector<Dia
     for (const Diagnostic& warning : warnings)
         if (std::ranges::find(said, warning) == said.end())
             say(finding_of(warning));
+}
+
+template <class T>
+Result<void> keep(Result<T> parsed, auto& place) {
+    if (!parsed)
+        return fail(std::move(parsed.error()));
+    place = *std::move(parsed);
+    return {};
+}
+
+/// Drops the window's clock: --frame, --frames and --time refer to a run with a constant time step from its
+/// start.
+void leave_window_time(FrameSequence& sequence) {
+    render::FrameState& state = sequence.state;
+    state.time.reset();
+    state.time_delta.reset();
+    if (const auto fps = std::exchange(sequence.lead_in_fps, std::nullopt))
+        state.fps = *fps;
+}
+
+Result<void> resolve_time(const FrameOptions& options, FrameSequence& sequence) {
+    render::FrameState& state = sequence.state;
+    if (options.frame || options.frames || options.time)
+        leave_window_time(sequence);
+    for (const auto& [option, number] : options.numbers)
+        if (!(number > 0) || !std::isfinite(number))
+            return fail(ErrorCode::usage, fmt::format("{} {}: give a number above 0", option, number));
+    render::for_each_number([&](const auto& field) {
+        const auto given = options.numbers.find(field.option);
+        if (given == options.numbers.end())
+            return;
+        const bool leads_in = field.member == &render::FrameState::fps && sequence.lead_in_fps;
+        (leads_in ? *sequence.lead_in_fps : state.*field.member) = given->second;
+    });
+    if (options.frame && (*options.frame < 0 || *options.frame > render::k_last_frame))
+        return fail(ErrorCode::usage, fmt::format("--frame {}: frames count from 0 to {}", *options.frame,
+                                                  render::k_last_frame));
+    if (options.frame)
+        sequence.frames = {*options.frame};
+    if (options.time && !std::isfinite(*options.time))
+        return fail(ErrorCode::usage, "--time: give a finite number of seconds");
+    if (options.time) {
+        state = render::at_time(*options.time, state);
+        sequence.frames = {state.frame};
+    }
+    return options.frames ? keep(parse_frames(*options.frames), sequence.frames) : Result<void>();
 }
 
 } // namespace
@@ -281,7 +298,7 @@ Result<std::vector<int>> parse_frames(std::string_view text) {
     std::vector<int> frames;
     std::string_view rest = text;
     bool good = take_range(rest, frames);
-    while (good && take(rest, ','))
+    while (good && consume(rest, ','))
         good = take_range(rest, frames);
     if (!good || !rest.empty())
         return fail(ErrorCode::usage,
@@ -291,33 +308,22 @@ Result<std::vector<int>> parse_frames(std::string_view text) {
 }
 
 Result<render::Mouse> parse_mouse(std::string_view text) {
-    glm::dvec2 at{0};
-    std::string_view rest = text;
-    bool good = take(rest, at);
-    std::optional<glm::dvec2> from;
-    if (good && !rest.empty() && rest != k_down) {
-        from.emplace();
-        good = take(rest, ',') && take(rest, *from);
-    }
-    if (!good || (!rest.empty() && rest != k_down))
+    const bool down = text.ends_with(k_down);
+    const auto at = numbers_from<double>(text.substr(0, text.size() - (down ? k_down.size() : 0)));
+    const auto near = [](double pixel) { return std::abs(pixel) <= k_farthest_pixel; };
+    if ((at.size() != 2 && at.size() != 4) || !std::ranges::all_of(at, near))
         return fail(ErrorCode::usage,
                     fmt::format("--mouse {}: give x,y for a click or x,y,from_x,from_y for a drag, in pixels "
                                 "from the bottom left, and ,down while the button is pressed",
                                 text));
-    const bool down = !rest.empty();
-    return from ? render::Mouse::dragged(*from, at, down) : render::Mouse::clicked(at, down);
+    return at.size() == 4 ? render::Mouse::dragged({at[2], at[3]}, {at[0], at[1]}, down)
+                          : render::Mouse::clicked({at[0], at[1]}, down);
 }
 
 Result<glm::ivec2> parse_pixel(std::string_view text, Extent extent) {
-    glm::ivec2 pixel{0};
-    const char* const end = text.data() + text.size();
-    const auto x = std::from_chars(text.data(), end, pixel.x);
-    if (x.ec == std::errc{} && x.ptr != end && *x.ptr == ',') {
-        const auto y = std::from_chars(x.ptr + 1, end, pixel.y);
-        if (y.ec == std::errc{} && y.ptr == end && pixel.x >= 0 && pixel.y >= 0 && pixel.x < extent.width &&
-            pixel.y < extent.height)
-            return pixel;
-    }
+    const std::vector<int> at = numbers_from<int>(text);
+    if (at.size() == 2 && Rectangle{0, 0, extent}.contains(at[0], at[1]))
+        return glm::ivec2(at[0], at[1]);
     return fail(ErrorCode::usage, fmt::format("--pixel {}: give x,y from the bottom left, within {}x{}", text,
                                               extent.width, extent.height));
 }
@@ -384,8 +390,7 @@ void add_number_options(Command command, FrameOptions& options, std::string_view
             .add_option(
                 std::string(field.option),
                 [&options, key = field.option](const std::string& text) {
-                    std::string_view rest = text;
-                    take(rest, options.numbers[key]);
+                    options.numbers[key] = number_from<double>(text).value_or(0);
                 },
                 std::string(field.meaning))
             .type_name(std::string(field.placeholder))
@@ -439,56 +444,6 @@ std::vector<std::filesystem::path> files_read(const scene::Scene& scene, const F
         files.emplace_back(*options.input);
     return files;
 }
-
-namespace {
-
-template <class T>
-Result<void> keep(Result<T> parsed, auto& place) {
-    if (!parsed)
-        return fail(std::move(parsed.error()));
-    place = *std::move(parsed);
-    return {};
-}
-
-/// Drops the window's clock: --frame, --frames and --time refer to a run with a constant time step from its
-/// start.
-void leave_window_time(FrameSequence& sequence) {
-    render::FrameState& state = sequence.state;
-    state.time.reset();
-    state.time_delta.reset();
-    if (const auto fps = std::exchange(sequence.lead_in_fps, std::nullopt))
-        state.fps = *fps;
-}
-
-Result<void> resolve_time(const FrameOptions& options, FrameSequence& sequence) {
-    render::FrameState& state = sequence.state;
-    if (options.frame || options.frames || options.time)
-        leave_window_time(sequence);
-    for (const auto& [option, number] : options.numbers)
-        if (!(number > 0) || !std::isfinite(number))
-            return fail(ErrorCode::usage, fmt::format("{} {}: give a number above 0", option, number));
-    render::for_each_number([&](const auto& field) {
-        const auto given = options.numbers.find(field.option);
-        if (given == options.numbers.end())
-            return;
-        const bool leads_in = field.member == &render::FrameState::fps && sequence.lead_in_fps;
-        (leads_in ? *sequence.lead_in_fps : state.*field.member) = given->second;
-    });
-    if (options.frame && (*options.frame < 0 || *options.frame > render::k_last_frame))
-        return fail(ErrorCode::usage, fmt::format("--frame {}: frames count from 0 to {}", *options.frame,
-                                                  render::k_last_frame));
-    if (options.frame)
-        sequence.frames = {*options.frame};
-    if (options.time && !std::isfinite(*options.time))
-        return fail(ErrorCode::usage, "--time: give a finite number of seconds");
-    if (options.time) {
-        state = render::at_time(*options.time, state);
-        sequence.frames = {state.frame};
-    }
-    return options.frames ? keep(parse_frames(*options.frames), sequence.frames) : Result<void>();
-}
-
-} // namespace
 
 FrameOptions sized(FrameOptions options, const scene::Scene& scene) {
     if (!options.size && scene.size)
@@ -556,9 +511,9 @@ Result<Limits> resolve(const LimitOptions& options) {
         return fail(ErrorCode::usage, "--timeout: give a number of seconds above 0");
     const uint64_t machine = machine_memory();
     if (!options.memory)
-        return Limits{machine / 2, options.timeout};
+        return Limits{options.timeout, machine / 2};
     return parse_memory(*options.memory, machine).map([&](uint64_t bytes) {
-        return Limits{bytes, options.timeout};
+        return Limits{options.timeout, bytes};
     });
 }
 

@@ -1,10 +1,6 @@
 #include "host/study_support.hpp"
 
 #include "base/encoding.hpp"
-#include "base/error.hpp"
-#include "base/file.hpp"
-#include "host/console.hpp"
-#include "host/requests.hpp"
 #include "host/version.hpp"
 #include "lab/outcome.hpp"
 #include "lab/study_report.hpp"
@@ -32,6 +28,15 @@ OutputPath report_folder(const OutputPath& folder, bool complete) {
     return complete || !finished ? folder : folder.beside("-interrupted");
 }
 
+/// Returns the program's version, the time and the number of cores.
+lab::Circumstances circumstances_now() {
+    lab::Circumstances facts;
+    facts.tidemark = k_version;
+    facts.started = fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::localtime(std::time(nullptr)));
+    facts.cores = int(std::thread::hardware_concurrency());
+    return facts;
+}
+
 } // namespace
 
 lab::Watch StudyWatcher::watch() {
@@ -54,14 +59,6 @@ Result<void> StudyWatcher::finish() {
         error.message += "; the measurement was discarded, try a smaller --size";
         return error;
     });
-}
-
-lab::Circumstances circumstances_now() {
-    lab::Circumstances facts;
-    facts.tidemark = k_version;
-    facts.started = fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::localtime(std::time(nullptr)));
-    facts.cores = int(std::thread::hardware_concurrency());
-    return facts;
 }
 
 lab::Circumstances circumstances_of(const scene::Scene& scene) {

@@ -4,7 +4,6 @@
 #include "base/supervision.hpp"
 #include "host/console.hpp"
 #include "host/diagnostics.hpp"
-#include "host/forked.hpp"
 
 #include <fmt/format.h>
 #include <sys/prctl.h>
@@ -12,61 +11,16 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
-#include <csignal>
 #include <cstring>
 #include <ctime>
 #include <exception>
 #include <new>
-#include <optional>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 namespace tidemark::cli {
-
-Interrupt::Interrupt() {
-    sigemptyset(&signals_);
-    for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) // SIGUSR1 wakes the listener so that it can end
-        sigaddset(&signals_, signal);
-    struct sigaction hang_up {};
-    sigaction(SIGHUP, nullptr, &hang_up);
-    if (hang_up.sa_handler != SIG_IGN) // ignored for example under nohup
-        sigaddset(&signals_, SIGHUP);
-    pthread_sigmask(SIG_BLOCK, &signals_, &previous_mask_);
-    // Wait until the listener runs: a fork while a thread is starting could copy a lock that is never
-    // released, and the child would wait for it.
-    listener_ = std::thread([this] {
-        started_.count_down();
-        int signal = 0;
-        while (sigwait(&signals_, &signal) == 0) {
-            if (ending_)
-                return;
-            // When a terminal closes, the kernel and the shell both send SIGHUP: count that as one request.
-            if (signal != SIGUSR1 && ((requested_.exchange(true) && signal != SIGHUP) || immediate_))
-                exit_at_once(k_exit_code);
-            const std::lock_guard lock(mutex_);
-            if (wake_)
-                wake_();
-        }
-    });
-    started_.wait();
-}
-
-void Interrupt::wake_by(std::function<void()> wake) {
-    const std::lock_guard lock(mutex_);
-    wake_ = std::move(wake);
-}
-
-Interrupt::~Interrupt() {
-    ending_ = true;
-    pthread_kill(listener_.native_handle(), SIGUSR1);
-    listener_.join();
-    pthread_sigmask(SIG_SETMASK, &previous_mask_, nullptr);
-}
-
 namespace {
 
 /// The first message comes after this time, the following ones at this interval.
@@ -82,94 +36,6 @@ std::chrono::steady_clock::duration from_seconds(double seconds) {
         std::chrono::duration<double>(std::min(seconds, 3e7)));
 }
 
-} // namespace
-
-Watchdog::Watchdog(std::function<void()> before_exit)
-    : before_exit_(std::move(before_exit)), thread_([this] { run(); }) {}
-
-Watchdog::~Watchdog() {
-    {
-        const std::lock_guard lock(mutex_);
-        ending_ = true;
-    }
-    changed_.notify_all();
-    thread_.join();
-}
-
-Watchdog::Watch::Watch(Watchdog& dog, Task task) : dog_(dog) {
-    Work work{std::move(task), std::nullopt, Clock::now() + k_first_word};
-    if (work.task.limit_seconds)
-        work.deadline = work.task.start + from_seconds(*work.task.limit_seconds);
-    const std::lock_guard lock(dog_.mutex_);
-    // The thread is not woken for each frame: when it wakes on its own, it reads the current task.
-    if (work.wake() < dog_.wakes_)
-        dog_.changed_.notify_all();
-    dog_.work_ = std::move(work);
-}
-
-Watchdog::Task Watchdog::frame_task(int frame, std::optional<double> limit_seconds, Clock::time_point start) {
-    return {fmt::format("drawing frame {}", frame), limit_seconds, start,
-            "Ctrl-C stops after this frame, a second Ctrl-C at once"};
-}
-
-Watchdog::Watch::~Watch() {
-    const std::lock_guard lock(dog_.mutex_);
-    dog_.work_.reset();
-}
-
-Watchdog::Clock::time_point Watchdog::Work::wake() const {
-    const auto due = deadline ? std::min(*deadline, next_word) : next_word;
-    return task.unwanted ? std::min(due, Clock::now() + k_look) : due;
-}
-
-bool Watchdog::Work::is_unwanted_for_long(Clock::time_point now) {
-    if (!task.unwanted || !task.unwanted())
-        return false;
-    unwanted_since = unwanted_since.value_or(now);
-    return now - *unwanted_since > k_unwanted;
-}
-
-void Watchdog::run() {
-    std::unique_lock lock(mutex_);
-    while (!ending_) {
-        if (work_) {
-            speak_or_end();
-            wakes_ = work_->wake();
-            changed_.wait_until(lock, wakes_);
-        } else {
-            wakes_ = Clock::time_point::max();
-            changed_.wait(lock);
-        }
-    }
-}
-
-/// Prints a message or ends the process. Holds the lock until the end: work that finishes at this moment
-/// waits in ~Watch, so that nothing else uses what `before_exit_` closes.
-void Watchdog::speak_or_end() {
-    const auto now = Clock::now();
-    const double seconds = std::chrono::duration<double>(now - work_->task.start).count();
-    if (work_->deadline && now >= *work_->deadline)
-        end(fmt::format("stopped {} after {:.3g} s (--timeout)", work_->task.what, seconds),
-            exit_code(ErrorCode::timed_out));
-    if (work_->is_unwanted_for_long(now))
-        end(fmt::format("stopped {} after {:.3g} s: interrupted", work_->task.what, seconds),
-            Interrupt::k_exit_code);
-    if (now >= work_->next_word) {
-        say(fmt::format("still {} after {:.0f} s; {}", work_->task.what, seconds, work_->task.how_to_end));
-        work_->next_word = now + k_next_word;
-    }
-}
-
-void Watchdog::end(const std::string& why, int code) {
-    if (before_exit_)
-        before_exit_();
-    say(Error{ErrorCode::timed_out, why, {}});
-    finish_diagnostics(true);
-    exit_at_once(code);
-}
-
-namespace {
-
 constexpr int k_no_resources = 4;
 
 /// Writes without allocating, as memory may have run out.
@@ -184,34 +50,6 @@ void say_at_once(std::string_view line) {
         "tidemark: error: internal error: a library ended the program; threads or memory may have run out\n");
     exit_at_once(k_internal_error);
 }
-
-} // namespace
-
-void end_by_last_resort() {
-    std::set_terminate(end);
-}
-
-int last_resort() {
-    try {
-        throw;
-    } catch (const std::bad_alloc&) {
-        say_at_once("tidemark: error: out of memory\n");
-        return k_no_resources;
-    } catch (const std::system_error& error) {
-        if (error.code() == std::errc::resource_unavailable_try_again) {
-            say_at_once("tidemark: error: cannot start another thread: the system's limit is reached\n");
-            return k_no_resources;
-        }
-        say(std::string("tidemark: error: internal error: ") + error.what());
-    } catch (const std::exception& error) {
-        say(std::string("tidemark: error: internal error: ") + error.what());
-    } catch (...) {
-        say_at_once("tidemark: error: internal error: an unknown exception\n");
-    }
-    return k_internal_error;
-}
-
-namespace {
 
 /// For outputs whose files appear whole or not at all, however the process ends.
 constexpr const char* k_words_on_resuming =
@@ -264,6 +102,14 @@ std::string name_of(int signal) {
 int refuse(ErrorCode code, std::string message) {
     say(Error{code, std::move(message), {}});
     return exit_code(code);
+}
+
+/// Returns true for signals of a crash, not for requests to end.
+bool is_crash(int signal) {
+    for (const int crash : {SIGSEGV, SIGABRT, SIGBUS, SIGILL, SIGFPE, SIGTRAP, SIGSYS})
+        if (signal == crash)
+            return true;
+    return false;
 }
 
 class Supervisor {
@@ -409,11 +255,152 @@ private:
 
 } // namespace
 
-bool is_crash(int signal) {
-    for (const int crash : {SIGSEGV, SIGABRT, SIGBUS, SIGILL, SIGFPE, SIGTRAP, SIGSYS})
-        if (signal == crash)
-            return true;
-    return false;
+Interrupt::Interrupt() {
+    sigemptyset(&signals_);
+    for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) // SIGUSR1 wakes the listener so that it can end
+        sigaddset(&signals_, signal);
+    struct sigaction hang_up {};
+    sigaction(SIGHUP, nullptr, &hang_up);
+    if (hang_up.sa_handler != SIG_IGN) // ignored for example under nohup
+        sigaddset(&signals_, SIGHUP);
+    pthread_sigmask(SIG_BLOCK, &signals_, &previous_mask_);
+    // Wait until the listener runs: a fork while a thread is starting could copy a lock that is never
+    // released, and the child would wait for it.
+    listener_ = std::thread([this] {
+        started_.count_down();
+        int signal = 0;
+        while (sigwait(&signals_, &signal) == 0) {
+            if (ending_)
+                return;
+            // When a terminal closes, the kernel and the shell both send SIGHUP: count that as one request.
+            if (signal != SIGUSR1 && ((requested_.exchange(true) && signal != SIGHUP) || immediate_))
+                exit_at_once(k_exit_code);
+            const std::lock_guard lock(mutex_);
+            if (wake_)
+                wake_();
+        }
+    });
+    started_.wait();
+}
+
+void Interrupt::wake_by(std::function<void()> wake) {
+    const std::lock_guard lock(mutex_);
+    wake_ = std::move(wake);
+}
+
+Interrupt::~Interrupt() {
+    ending_ = true;
+    pthread_kill(listener_.native_handle(), SIGUSR1);
+    listener_.join();
+    pthread_sigmask(SIG_SETMASK, &previous_mask_, nullptr);
+}
+
+Watchdog::Watchdog(std::function<void()> before_exit)
+    : before_exit_(std::move(before_exit)), thread_([this] { run(); }) {}
+
+Watchdog::~Watchdog() {
+    {
+        const std::lock_guard lock(mutex_);
+        ending_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+}
+
+Watchdog::Watch::Watch(Watchdog& dog, Task task) : dog_(dog) {
+    Work work{std::move(task), std::nullopt, Clock::now() + k_first_word};
+    if (work.task.limit_seconds)
+        work.deadline = work.task.start + from_seconds(*work.task.limit_seconds);
+    const std::lock_guard lock(dog_.mutex_);
+    // The thread is not woken for each frame: when it wakes on its own, it reads the current task.
+    if (work.wake() < dog_.wakes_)
+        dog_.changed_.notify_all();
+    dog_.work_ = std::move(work);
+}
+
+Watchdog::Task Watchdog::frame_task(int frame, std::optional<double> limit_seconds, Clock::time_point start) {
+    return {fmt::format("drawing frame {}", frame), limit_seconds, start,
+            "Ctrl-C stops after this frame, a second Ctrl-C at once"};
+}
+
+Watchdog::Watch::~Watch() {
+    const std::lock_guard lock(dog_.mutex_);
+    dog_.work_.reset();
+}
+
+Watchdog::Clock::time_point Watchdog::Work::wake() const {
+    const auto due = deadline ? std::min(*deadline, next_word) : next_word;
+    return task.unwanted ? std::min(due, Clock::now() + k_look) : due;
+}
+
+bool Watchdog::Work::is_unwanted_for_long(Clock::time_point now) {
+    if (!task.unwanted || !task.unwanted())
+        return false;
+    unwanted_since = unwanted_since.value_or(now);
+    return now - *unwanted_since > k_unwanted;
+}
+
+void Watchdog::run() {
+    std::unique_lock lock(mutex_);
+    while (!ending_) {
+        if (work_) {
+            speak_or_end();
+            wakes_ = work_->wake();
+            changed_.wait_until(lock, wakes_);
+        } else {
+            wakes_ = Clock::time_point::max();
+            changed_.wait(lock);
+        }
+    }
+}
+
+/// Prints a message or ends the process. Holds the lock until the end: work that finishes at this moment
+/// waits in ~Watch, so that nothing else uses what `before_exit_` closes.
+void Watchdog::speak_or_end() {
+    const auto now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - work_->task.start).count();
+    if (work_->deadline && now >= *work_->deadline)
+        end(fmt::format("stopped {} after {:.3g} s (--timeout)", work_->task.what, seconds),
+            exit_code(ErrorCode::timed_out));
+    if (work_->is_unwanted_for_long(now))
+        end(fmt::format("stopped {} after {:.3g} s: interrupted", work_->task.what, seconds),
+            Interrupt::k_exit_code);
+    if (now >= work_->next_word) {
+        say(fmt::format("still {} after {:.0f} s; {}", work_->task.what, seconds, work_->task.how_to_end));
+        work_->next_word = now + k_next_word;
+    }
+}
+
+void Watchdog::end(const std::string& why, int code) {
+    if (before_exit_)
+        before_exit_();
+    say(Error{ErrorCode::timed_out, why, {}});
+    finish_diagnostics(true);
+    exit_at_once(code);
+}
+
+void end_by_last_resort() {
+    std::set_terminate(end);
+}
+
+int last_resort() {
+    try {
+        throw;
+    } catch (const std::bad_alloc&) {
+        say_at_once("tidemark: error: out of memory\n");
+        return k_no_resources;
+    } catch (const std::system_error& error) {
+        if (error.code() == std::errc::resource_unavailable_try_again) {
+            say_at_once("tidemark: error: cannot start another thread: the system's limit is reached\n");
+            return k_no_resources;
+        }
+        say(std::string("tidemark: error: internal error: ") + error.what());
+    } catch (const std::exception& error) {
+        say(std::string("tidemark: error: internal error: ") + error.what());
+    } catch (...) {
+        say_at_once("tidemark: error: internal error: an unknown exception\n");
+    }
+    return k_internal_error;
 }
 
 std::string crash_text(int signal, const std::string& doing) {

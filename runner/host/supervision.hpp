@@ -1,6 +1,8 @@
 // Ctrl-C as a flag: the first request asks to stop after the current work, the second one ends the process.
 #pragma once
 
+#include "host/forked.hpp"
+
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -151,11 +153,6 @@ int last_resort();
 // Runs the command in a supervised child process: if a driver crashes or takes too much memory, the command
 // ends with a message and an exit code instead of a bare signal.
 
-struct Limits {
-    uint64_t memory = 0;             ///< of the process and its descendants, in bytes; 0: no limit
-    std::optional<double> seconds{}; ///< for each driver operation, for example a compile
-};
-
 /// Forks; call it before there are threads, a driver or anything to clean up. Returns nothing in the child,
 /// which goes on with the command; in the parent it returns the exit code once the child has ended. If fork
 /// fails, the command goes on unsupervised.
@@ -166,8 +163,5 @@ std::optional<int> supervise(const Limits& limits);
 
 /// Returns for example "the driver crashed (SIGSEGV) compiling Image of 'a.glsl'"; `doing` may be empty.
 std::string crash_text(int signal, const std::string& doing);
-
-/// Returns true for signals of a crash, not for requests to end.
-bool is_crash(int signal);
 
 } // namespace tidemark::cli

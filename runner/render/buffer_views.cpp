@@ -1,7 +1,5 @@
 #include "render/buffer_views.hpp"
 
-#include "base/error.hpp"
-#include "render/gl_textures.hpp"
 #include "shader/shader_source.hpp"
 
 #include <fmt/format.h>
@@ -13,36 +11,6 @@
 #include <utility>
 
 namespace tidemark::render {
-
-Result<FilterProgram> FilterProgram::create(const char* what, const char* text) {
-    auto program = gl::Program::link(glsl::k_vertex_shader, text);
-    if (!program)
-        return fail(ErrorCode::load, fmt::format("the driver does not compile tidemark's shader for {}: {}",
-                                                 what, program.error()));
-    return FilterProgram(*std::move(program));
-}
-
-FilterProgram::FilterProgram(gl::Program program)
-    : program_(std::move(program)), nearest_(gl::make_sampler(GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE)) {
-    GLuint vertex_array = 0;
-    glCreateVertexArrays(1, &vertex_array);
-    no_vertices_ = gl::VertexArrayHandle(vertex_array);
-}
-
-void FilterProgram::set(const char* uniform, std::initializer_list<double> values) const {
-    if (const gl::Uniform* found = program_.reflection().find(uniform))
-        gl::set_uniform(program_, *found, std::span(values.begin(), values.size()));
-}
-
-void FilterProgram::draw(const gl::Texture& picture, Extent extent) const {
-    glViewport(0, 0, extent.width, extent.height);
-    glUseProgram(program_.id());
-    glBindSampler(0, nearest_.id());
-    glBindTextureUnit(0, picture.id());
-    glBindVertexArray(no_vertices_.id());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-}
-
 namespace {
 
 /// Neighbours in the cross share an edge of the cube, seen from its centre.
@@ -74,32 +42,6 @@ void main() {
 }
 )";
 
-} // namespace
-
-Result<FlatView> FlatView::create(const gl::Texture& picture) {
-    const char* const text = picture.target == GL_TEXTURE_3D ? k_volume_text : k_cube_text;
-    return FilterProgram::create("the flat view", text).map([](FilterProgram program) {
-        return FlatView(std::move(program));
-    });
-}
-
-const gl::Texture* FlatView::draw(const gl::Texture& picture, int slice, int most_of_a_side) {
-    const bool volume = picture.target == GL_TEXTURE_3D;
-    const int side = std::min(picture.extent.width, most_of_a_side);
-    const Extent extent = volume ? picture.extent : Extent{4 * side, 3 * side};
-    if (!target_ || target_->extent() != extent)
-        target_ = gl::make_render_target(gl::make_texture(extent, volume ? GL_RGBA32F : GL_RGBA16F, 1));
-    if (!target_)
-        return nullptr;
-    program_.set("side", {double(side)});
-    program_.set("slice", {double(std::clamp(slice, 0, picture.depth - 1))});
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target_->framebuffer.id());
-    program_.draw(picture, extent);
-    return &target_->texture;
-}
-
-namespace {
-
 /// Tests the bits, because optimisers may assume that floats are finite.
 constexpr const char* k_text = R"(#version 450 core
 layout(binding = 0) uniform sampler2D picture;
@@ -119,21 +61,6 @@ void main() {
         discard;
 }
 )";
-
-} // namespace
-
-Result<NumberMarks> NumberMarks::create() {
-    return FilterProgram::create("the marks", k_text).map([](FilterProgram program) {
-        return NumberMarks(std::move(program));
-    });
-}
-
-void NumberMarks::draw(const gl::Texture& picture, Extent window) const {
-    program_.set("extent", {double(window.width), double(window.height)});
-    program_.draw(picture, window);
-}
-
-namespace {
 
 /// `seen` returns the displayed value of a pixel. The second channel is -1 to show one channel, both are -1
 /// to show colours.
@@ -209,6 +136,62 @@ void draw_into(const gl::RenderTarget& target, const FilterProgram& program, con
 
 } // namespace
 
+Result<FilterProgram> FilterProgram::create(const char* what, const char* text) {
+    auto program = gl::Program::link(glsl::k_vertex_shader, text);
+    if (!program)
+        return fail(ErrorCode::load, fmt::format("the driver does not compile tidemark's shader for {}: {}",
+                                                 what, program.error()));
+    return FilterProgram(*std::move(program));
+}
+
+FilterProgram::FilterProgram(gl::Program program)
+    : program_(std::move(program)), no_vertices_(gl::make_vertex_array()),
+      nearest_(gl::make_sampler(GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE)) {}
+
+void FilterProgram::set(const char* uniform, std::initializer_list<double> values) const {
+    if (const gl::Uniform* found = program_.reflection().find(uniform))
+        gl::set_uniform(program_, *found, std::span(values.begin(), values.size()));
+}
+
+void FilterProgram::draw(const gl::Texture& picture, Extent extent) const {
+    glViewport(0, 0, extent.width, extent.height);
+    glUseProgram(program_.id());
+    glBindSampler(0, nearest_.id());
+    glBindTextureUnit(0, picture.id());
+    glBindVertexArray(no_vertices_.id());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+Result<FlatView> FlatView::create(const gl::Texture& picture) {
+    const char* const text = picture.target == GL_TEXTURE_3D ? k_volume_text : k_cube_text;
+    return FilterProgram::create("the flat view", text).map([](FilterProgram program) {
+        return FlatView(std::move(program));
+    });
+}
+
+const gl::Texture* FlatView::draw(const gl::Texture& picture, int slice, int most_of_a_side) {
+    const bool volume = picture.target == GL_TEXTURE_3D;
+    const int side = std::min(picture.extent.width, most_of_a_side);
+    const Extent extent = volume ? picture.extent : Extent{4 * side, 3 * side};
+    if (!fit(target_, extent, volume ? GL_RGBA32F : GL_RGBA16F))
+        return nullptr;
+    program_.set("side", {double(side)});
+    program_.set("slice", {double(std::clamp(slice, 0, picture.depth - 1))});
+    draw_into(*target_, program_, picture);
+    return &target_->texture;
+}
+
+Result<NumberMarks> NumberMarks::create() {
+    return FilterProgram::create("the marks", k_text).map([](FilterProgram program) {
+        return NumberMarks(std::move(program));
+    });
+}
+
+void NumberMarks::draw(const gl::Texture& picture, Extent window) const {
+    program_.set("extent", {double(window.width), double(window.height)});
+    program_.draw(picture, window);
+}
+
 Result<PictureLook> PictureLook::create() {
     auto look = TRY(FilterProgram::create("the exposure", (std::string(k_seen_text) + k_look_text).c_str()));
     auto largest =
@@ -266,11 +249,7 @@ const gl::Texture& ShownFloats::draw(const Renderer& renderer, const FrameInputs
 bool ShownFloats::has_target(const Renderer& renderer) {
     if (!can_draw_again_)
         can_draw_again_ = renderer.can_draw_again();
-    if (!*can_draw_again_)
-        return false;
-    if (!target_ || target_->extent() != renderer.extent())
-        target_ = gl::make_render_target(gl::make_texture(renderer.extent(), GL_RGBA32F, 1));
-    return target_.has_value();
+    return *can_draw_again_ && fit(target_, renderer.extent(), GL_RGBA32F);
 }
 
 } // namespace tidemark::render

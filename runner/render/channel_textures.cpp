@@ -1,10 +1,8 @@
 #include "render/channel_textures.hpp"
 
-#include "base/error.hpp"
 #include "media/generated_textures.hpp"
 #include "media/picture_file.hpp"
 #include "media/sound_file.hpp"
-#include "media/spectrum.hpp"
 #include "media/texture_files.hpp"
 #include "media/video_input.hpp"
 #include "render/gl_context.hpp"
@@ -15,11 +13,8 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace tidemark::render {
 namespace {
@@ -293,6 +288,12 @@ tl::unexpected<Error> refuse(const gl::Texture& texture) {
                             texture.extent.width, texture.extent.height, texture.depth));
 }
 
+std::vector<std::string> sampler_names(int unit) {
+    if (unit == k_keyboard_unit)
+        return {"iKeyboard"};
+    return {fmt::format("iChannel{}", unit), fmt::format("iCh{}.sampler", unit)};
+}
+
 } // namespace
 
 Result<ChannelTextures::Index> ChannelTextures::require(const scene::Channel& channel) {
@@ -364,16 +365,6 @@ gl::SamplerHandle make_sampler(const scene::Sampling& sampling) {
                             sampling.magnify == Filter::linear ? GL_LINEAR : GL_NEAREST,
                             k_wrap[size_t(sampling.wrap)]);
 }
-
-namespace {
-
-std::vector<std::string> sampler_names(int unit) {
-    if (unit == k_keyboard_unit)
-        return {"iKeyboard"};
-    return {fmt::format("iChannel{}", unit), fmt::format("iCh{}.sampler", unit)};
-}
-
-} // namespace
 
 Result<BoundChannel> make_channel(const gl::Program& program, int unit, const scene::Channel& channel,
                                   ChannelTextures& textures) {

@@ -1,18 +1,14 @@
 #include "render/compiled_scene.hpp"
 
-#include "base/error.hpp"
 #include "base/supervision.hpp"
 #include "render/channel_textures.hpp"
-#include "render/gl_program.hpp"
 #include "shader/driver_log.hpp"
 #include "shader/pass_reading.hpp"
-#include "shader/shader_source.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <optional>
 
 namespace tidemark::render {
 namespace {
@@ -127,15 +123,6 @@ private:
     std::optional<Error> unpromotable_; ///< set if a construct has no double form
 };
 
-} // namespace
-
-Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass, const LinkOptions& options) {
-    const Doing doing(fmt::format("compiling {} of '{}'", pass.name, scene.file.string()));
-    return Linker(scene, pass, options).link();
-}
-
-namespace {
-
 using image::SampleType;
 using scene::PassKind;
 
@@ -161,6 +148,11 @@ bool reads(const scene::Pass& reader, size_t pass) {
 }
 
 } // namespace
+
+Result<LinkedPass> link_pass(const scene::Scene& scene, const scene::Pass& pass, const LinkOptions& options) {
+    const Doing doing(fmt::format("compiling {} of '{}'", pass.name, scene.file.string()));
+    return Linker(scene, pass, options).link();
+}
 
 Result<CompiledScene> CompiledScene::create(scene::Scene scene, const RenderOptions& options) {
     CompiledScene compiled(std::move(scene), options);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 namespace tidemark::render {
+using image::Image;
 namespace {
 
 /// Mirrors the digits of a number at the point (J. G. van der Corput, 1935); in [0, 1).
@@ -24,6 +25,18 @@ double mean_inverse(int count, int base) {
     return sum / count;
 }
 
+/// Returns false when it was stopped.
+bool draw_band(Renderer& renderer, const Sample& sample, int number, const BeforeTile& before_tile,
+               Image& band) {
+    const TileGrid grid = *renderer.tiles();
+    for (int column = 0; column < grid.columns(); ++column) {
+        if (!before_tile())
+            return false;
+        renderer.draw_tile(sample.inputs, grid.at(column, number), band, {sample.x, sample.y});
+    }
+    return true;
+}
+
 } // namespace
 
 ExposedFrame expose(const Exposure& exposure, const FrameState& state) {
@@ -39,24 +52,6 @@ ExposedFrame expose(const Exposure& exposure, const FrameState& state) {
     }
     return frame;
 }
-
-using image::Image;
-
-namespace {
-
-/// Returns false when it was stopped.
-bool draw_band(Renderer& renderer, const Sample& sample, int number, const BeforeTile& before_tile,
-               Image& band) {
-    const TileGrid grid = *renderer.tiles();
-    for (int column = 0; column < grid.columns(); ++column) {
-        if (!before_tile())
-            return false;
-        renderer.draw_tile(sample.inputs, grid.at(column, number), band, {sample.x, sample.y});
-    }
-    return true;
-}
-
-} // namespace
 
 Result<bool> draw_bands(Renderer& renderer, const ExposedFrame& frame, const BeforeTile& before_tile,
                         const TakeBand& take) {

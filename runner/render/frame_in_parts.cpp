@@ -1,8 +1,6 @@
 #include "render/frame_in_parts.hpp"
 
-#include "base/error.hpp"
 #include "base/supervision.hpp"
-#include "render/gl_textures.hpp"
 #include "render/renderer.hpp"
 
 #include <fmt/format.h>

@@ -1,13 +1,11 @@
 #include "render/frame_plan.hpp"
 
-#include "base/error.hpp"
 #include "render/gl_context.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <span>
-#include <utility>
 
 namespace tidemark::render {
 namespace {

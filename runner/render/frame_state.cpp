@@ -1,5 +1,6 @@
 #include "render/frame_state.hpp"
 
+#include "base/encoding.hpp"
 #include "render/pass_state.hpp"
 
 #include <fmt/format.h>
@@ -10,13 +11,10 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <ctime>
 #include <limits>
-#include <optional>
-#include <vector>
 
 namespace tidemark::render {
 namespace {
@@ -25,6 +23,60 @@ constexpr int k_row = 256;
 
 bool is_code(int code) {
     return code >= 0 && code < k_row;
+}
+
+constexpr double k_highest = 89.9;
+constexpr double k_nearest = 1e-3;
+constexpr double k_farthest = 1e6;
+constexpr double k_zoom_a_notch = 0.9;
+
+glm::dmat4 camera_to_world(const OrbitCamera& camera) {
+    glm::dmat4 matrix = glm::translate(glm::dmat4(1), camera.target);
+    matrix = glm::rotate(matrix, glm::radians(camera.azimuth), glm::dvec3(0, 1, 0));
+    matrix = glm::rotate(matrix, glm::radians(-camera.elevation), glm::dvec3(1, 0, 0));
+    return glm::translate(matrix, glm::dvec3(0, 0, camera.distance));
+}
+
+double wrapped(double degrees) {
+    const double turned = std::fmod(degrees, 360.0);
+    const double positive = turned < 0 ? turned + 360 : turned;
+    return positive < 360 ? positive : 0; // a tiny negative angle rounds to 360
+}
+
+/// Consumes a number of at least 0 and then `separator`, unless that is 0.
+template <class T>
+bool take_number(std::string_view& text, T& number, char separator) {
+    return consume_number(text, number) && number >= 0 && (separator == 0 || consume(text, separator));
+}
+
+bool take_time_of_day(std::string_view& text, double& seconds) {
+    int hour = 0;
+    int minute = 0;
+    double second = 0;
+    if (!take_number(text, hour, ':') || !take_number(text, minute, ':') || !take_number(text, second, 0))
+        return false;
+    seconds = hour * 3600.0 + minute * 60.0 + second;
+    return hour < 24 && minute < 60 && second < 61;
+}
+
+UniformNumbers resolutions_of(const ChannelFacts& channels) {
+    UniformNumbers numbers{};
+    for (const ChannelFact& channel : channels)
+        numbers.append(channel.resolution.begin(), channel.resolution.end());
+    return numbers;
+}
+
+UniformNumbers times_of(const ChannelFacts& channels) {
+    UniformNumbers numbers{};
+    for (const ChannelFact& channel : channels)
+        numbers.append(&channel.time, &channel.time + 1);
+    return numbers;
+}
+
+UniformNumbers elements_of(const glm::mat4& matrix) {
+    UniformNumbers numbers{};
+    numbers.append(&matrix[0][0], &matrix[0][0] + 16);
+    return numbers;
 }
 
 } // namespace
@@ -95,42 +147,6 @@ void Mouse::stretch(Extent from, Extent to) {
     pressed_at = glm::floor(pressed_at * scale);
 }
 
-namespace {
-
-constexpr double k_highest = 89.9;
-constexpr double k_nearest = 1e-3;
-constexpr double k_farthest = 1e6;
-constexpr double k_zoom_a_notch = 0.9;
-
-glm::dmat4 camera_to_world(const OrbitCamera& camera) {
-    glm::dmat4 matrix = glm::translate(glm::dmat4(1), camera.target);
-    matrix = glm::rotate(matrix, glm::radians(camera.azimuth), glm::dvec3(0, 1, 0));
-    matrix = glm::rotate(matrix, glm::radians(-camera.elevation), glm::dvec3(1, 0, 0));
-    return glm::translate(matrix, glm::dvec3(0, 0, camera.distance));
-}
-
-double wrapped(double degrees) {
-    const double turned = std::fmod(degrees, 360.0);
-    const double positive = turned < 0 ? turned + 360 : turned;
-    return positive < 360 ? positive : 0; // a tiny negative angle rounds to 360
-}
-
-/// Reads comma-separated numbers within the range of a float; returns nothing for any other text.
-std::optional<std::vector<double>> numbers_of(std::string_view text) {
-    std::vector<double> numbers;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    do {
-        const auto [rest, error] = std::from_chars(at, end, numbers.emplace_back());
-        if (error != std::errc{} || !(std::abs(numbers.back()) <= std::numeric_limits<float>::max()))
-            return std::nullopt;
-        at = rest;
-    } while (at != end && *at == ',' && ++at);
-    return at == end ? std::optional(std::move(numbers)) : std::nullopt;
-}
-
-} // namespace
-
 void OrbitCamera::turn(double dx, double dy, double height) {
     azimuth = wrapped(azimuth - dx / height * 180);
     elevation = std::clamp(elevation - dy / height * 180, -k_highest, k_highest);
@@ -164,60 +180,30 @@ OrbitMotion motion_of(const OrbitCamera& camera) {
 }
 
 Result<OrbitCamera> parse_camera(std::string_view setting) {
-    const auto numbers = numbers_of(setting);
-    if (!numbers || (numbers->size() != 3 && numbers->size() != 6) || (*numbers)[2] < k_nearest ||
-        (*numbers)[2] > k_farthest)
+    const std::vector<double> numbers = numbers_from<double>(setting);
+    const auto fits = [](double number) { return std::abs(number) <= std::numeric_limits<float>::max(); };
+    if ((numbers.size() != 3 && numbers.size() != 6) || !std::ranges::all_of(numbers, fits) ||
+        numbers[2] < k_nearest || numbers[2] > k_farthest)
         return fail(ErrorCode::usage,
                     fmt::format("--camera {}: give azimuth,elevation,distance as in 30,20,10 (degrees, "
                                 "degrees, a distance above 0), and after them x,y,z if the view was panned",
                                 setting));
     OrbitCamera camera;
-    camera.azimuth = wrapped((*numbers)[0]);
-    camera.elevation = std::clamp((*numbers)[1], -k_highest, k_highest);
-    camera.distance = (*numbers)[2];
-    if (numbers->size() == 6)
-        camera.target = {(*numbers)[3], (*numbers)[4], (*numbers)[5]};
+    camera.azimuth = wrapped(numbers[0]);
+    camera.elevation = std::clamp(numbers[1], -k_highest, k_highest);
+    camera.distance = numbers[2];
+    if (numbers.size() == 6)
+        camera.target = {numbers[3], numbers[4], numbers[5]};
     return camera;
 }
-
-namespace {
-
-/// Consumes a decimal number of at least one digit and then `separator`, unless that is 0.
-template <class T>
-bool take_number(std::string_view& text, T& number, char separator) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || number < 0)
-        return false;
-    text.remove_prefix(size_t(end - text.data()));
-    if (separator == 0)
-        return true;
-    if (!text.starts_with(separator))
-        return false;
-    text.remove_prefix(1);
-    return true;
-}
-
-bool take_time_of_day(std::string_view& text, double& seconds) {
-    int hour = 0;
-    int minute = 0;
-    double second = 0;
-    if (!take_number(text, hour, ':') || !take_number(text, minute, ':') || !take_number(text, second, 0))
-        return false;
-    seconds = hour * 3600.0 + minute * 60.0 + second;
-    return hour < 24 && minute < 60 && second < 61;
-}
-
-} // namespace
 
 Result<Date> parse_date(std::string_view iso) {
     Date date{0, 0, 0, 0};
     std::string_view rest = iso;
     bool good = take_number(rest, date.year, '-') && take_number(rest, date.month, '-') &&
                 take_number(rest, date.day, 0);
-    if (good && (rest.starts_with('T') || rest.starts_with(' '))) {
-        rest.remove_prefix(1);
+    if (good && (consume(rest, 'T') || consume(rest, ' ')))
         good = take_time_of_day(rest, date.seconds);
-    }
     // std::chrono keeps a month in a byte: a month of 257 would look like January.
     good = good && date.year <= 9999 && date.month <= 12 && date.day <= 31;
     const std::chrono::year_month_day day{std::chrono::year(date.year),
@@ -308,30 +294,6 @@ FrameInputs inputs_of(const FrameState& state) {
         inputs.view = inverse(state.initial_camera->matrix()) * inputs.camera;
     return inputs;
 }
-
-namespace {
-
-UniformNumbers resolutions_of(const ChannelFacts& channels) {
-    UniformNumbers numbers{};
-    for (const ChannelFact& channel : channels)
-        numbers.append(channel.resolution.begin(), channel.resolution.end());
-    return numbers;
-}
-
-UniformNumbers times_of(const ChannelFacts& channels) {
-    UniformNumbers numbers{};
-    for (const ChannelFact& channel : channels)
-        numbers.append(&channel.time, &channel.time + 1);
-    return numbers;
-}
-
-UniformNumbers elements_of(const glm::mat4& matrix) {
-    UniformNumbers numbers{};
-    numbers.append(&matrix[0][0], &matrix[0][0] + 16);
-    return numbers;
-}
-
-} // namespace
 
 UniformNumbers value_of(scene::HostValue value, const FrameInputs& inputs, Extent resolution,
                         const ChannelFacts& channels) {

@@ -1,7 +1,5 @@
 #include "render/frame_stepper.hpp"
 
-#include "render/renderer.hpp"
-
 #include <algorithm>
 
 namespace tidemark::render {
@@ -14,22 +12,6 @@ PassPreview::PassPreview(Renderer& renderer, size_t pass, const FrameInputs& inp
 void PassPreview::Reset::operator()(Renderer* renderer) const {
     if (renderer->plan().feedback)
         renderer->reset();
-}
-
-const scene::Scene& PassPreview::scene() const {
-    return renderer_->scene();
-}
-
-const scene::Pass& PassPreview::pass() const {
-    return scene().passes[pass_];
-}
-
-const gl::Program& PassPreview::program() const {
-    return renderer_->program(pass_);
-}
-
-const glsl::Dialect& PassPreview::dialect() const {
-    return renderer_->dialect(pass_);
 }
 
 Extent PassPreview::extent() const {

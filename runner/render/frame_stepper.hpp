@@ -16,8 +16,6 @@
 
 namespace tidemark::render {
 
-class Renderer;
-
 /// While it lives, the buffers are within a frame, and its Renderer must not draw. With feedback, the
 /// destructor clears the buffers, because a partly drawn frame cannot be continued.
 class PassPreview {
@@ -25,11 +23,11 @@ public:
     /// Draws the passes of the frame before `pass`.
     PassPreview(Renderer& renderer, size_t pass, const FrameInputs& inputs);
 
-    const scene::Scene& scene() const;
-    const scene::Pass& pass() const;
+    const scene::Scene& scene() const { return renderer_->scene(); }
+    const scene::Pass& pass() const { return scene().passes[pass_]; }
     /// The pass's own program, and the dialect that it was linked in.
-    const gl::Program& program() const;
-    const glsl::Dialect& dialect() const;
+    const gl::Program& program() const { return renderer_->program(pass_); }
+    const glsl::Dialect& dialect() const { return renderer_->dialect(pass_); }
     /// Returns the size of the pass's picture.
     Extent extent() const;
 

@@ -17,6 +17,27 @@ std::string text_of(GLenum name) {
     return text ? reinterpret_cast<const char*>(text) : "unknown";
 }
 
+/// A limit, because a lost context may report errors without end.
+constexpr int k_most_errors = 100;
+
+bool ran_out_of_memory() {
+    bool ran_out = false;
+    for (int i = 0; i < k_most_errors; ++i) {
+        const GLenum error = glGetError();
+        if (error == GL_NO_ERROR)
+            break;
+        ran_out |= error == GL_OUT_OF_MEMORY;
+    }
+    return ran_out;
+}
+
+void APIENTRY keep(GLenum source, GLenum, GLuint, GLenum, GLsizei length, const GLchar* text,
+                   const void* messages) {
+    if (source == GL_DEBUG_SOURCE_SHADER_COMPILER)
+        static_cast<std::vector<std::string>*>(const_cast<void*>(messages))
+            ->emplace_back(text, length < 0 ? std::strlen(text) : size_t(length));
+}
+
 } // namespace
 
 Capabilities query_capabilities() {
@@ -37,24 +58,6 @@ std::vector<std::string> query_extensions() {
         names.emplace_back(reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, GLuint(i))));
     return names;
 }
-
-namespace {
-
-/// A limit, because a lost context may report errors without end.
-constexpr int k_most_errors = 100;
-
-bool ran_out_of_memory() {
-    bool ran_out = false;
-    for (int i = 0; i < k_most_errors; ++i) {
-        const GLenum error = glGetError();
-        if (error == GL_NO_ERROR)
-            break;
-        ran_out |= error == GL_OUT_OF_MEMORY;
-    }
-    return ran_out;
-}
-
-} // namespace
 
 std::optional<std::string_view> reset_reason() {
     switch (glGetGraphicsResetStatus()) {
@@ -80,17 +83,6 @@ Result<void> check_work(std::string_view what) {
                     fmt::format("the graphics driver ran out of memory while {}", what));
     return {};
 }
-
-namespace {
-
-void APIENTRY keep(GLenum source, GLenum, GLuint, GLenum, GLsizei length, const GLchar* text,
-                   const void* messages) {
-    if (source == GL_DEBUG_SOURCE_SHADER_COMPILER)
-        static_cast<std::vector<std::string>*>(const_cast<void*>(messages))
-            ->emplace_back(text, length < 0 ? std::strlen(text) : size_t(length));
-}
-
-} // namespace
 
 CompilerMessages::CompilerMessages() {
     glEnable(GL_DEBUG_OUTPUT);

@@ -9,26 +9,17 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <optional>
 #include <type_traits>
 
 namespace tidemark::gl {
 namespace {
 
-std::string shader_log(GLuint shader) {
+/// Returns the log of a shader or a program; the functions are GL's for that kind of object.
+std::string log_of(GLuint object, decltype(glGetShaderiv) get, decltype(glGetShaderInfoLog) get_log) {
     GLint length = 0;
-    glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+    get(object, GL_INFO_LOG_LENGTH, &length);
     std::string log(size_t(std::max(length, 1)), '\0');
-    glGetShaderInfoLog(shader, GLsizei(log.size()), &length, log.data());
-    log.resize(size_t(length));
-    return log;
-}
-
-std::string program_log(GLuint program) {
-    GLint length = 0;
-    glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-    std::string log(size_t(std::max(length, 1)), '\0');
-    glGetProgramInfoLog(program, GLsizei(log.size()), &length, log.data());
+    get_log(object, GLsizei(log.size()), &length, log.data());
     log.resize(size_t(length));
     return log;
 }
@@ -42,7 +33,7 @@ tl::expected<ShaderHandle, std::string> compile(GLenum stage, std::string_view t
     GLint compiled = GL_FALSE;
     glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
     if (compiled == GL_FALSE)
-        return tl::unexpected(shader_log(shader.id()));
+        return tl::unexpected(log_of(shader.id(), glGetShaderiv, glGetShaderInfoLog));
     return shader;
 }
 
@@ -68,64 +59,6 @@ Reflection reflect(GLuint program) {
     }
     return reflection;
 }
-
-} // namespace
-
-const Uniform* Reflection::find(std::string_view name) const {
-    const auto found = std::find_if(uniforms.begin(), uniforms.end(),
-                                    [&](const Uniform& uniform) { return uniform.name == name; });
-    return found == uniforms.end() ? nullptr : &*found;
-}
-
-tl::expected<Program, std::string> Program::link(std::string_view vertex, std::string_view fragment) {
-    const auto vertex_shader = compile(GL_VERTEX_SHADER, vertex);
-    if (!vertex_shader)
-        return tl::unexpected(vertex_shader.error());
-    const auto fragment_shader = compile(GL_FRAGMENT_SHADER, fragment);
-    if (!fragment_shader)
-        return tl::unexpected(fragment_shader.error());
-    Program program;
-    program.handle_ = ProgramHandle(glCreateProgram());
-    const GLuint id = program.id();
-    glAttachShader(id, vertex_shader->id());
-    glAttachShader(id, fragment_shader->id());
-    glProgramParameteri(id, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
-    glLinkProgram(id);
-    glDetachShader(id, vertex_shader->id());
-    glDetachShader(id, fragment_shader->id());
-    GLint linked = GL_FALSE;
-    glGetProgramiv(id, GL_LINK_STATUS, &linked);
-    if (linked == GL_FALSE)
-        return tl::unexpected(program_log(id));
-    program.reflection_ = reflect(id);
-    return program;
-}
-
-std::optional<Program> Program::load(const ProgramBinary& binary) {
-    Program program;
-    program.handle_ = ProgramHandle(glCreateProgram());
-    glProgramBinary(program.id(), binary.format, binary.bytes.data(), GLsizei(binary.bytes.size()));
-    while (glGetError() != GL_NO_ERROR) { // an unknown format sets an error
-    }
-    GLint linked = GL_FALSE;
-    glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
-    if (linked == GL_FALSE)
-        return std::nullopt;
-    program.reflection_ = reflect(program.id());
-    return program;
-}
-
-ProgramBinary Program::binary() const {
-    GLint length = 0;
-    glGetProgramiv(id(), GL_PROGRAM_BINARY_LENGTH, &length);
-    ProgramBinary binary{0, std::string(size_t(std::max(length, 0)), '\0')};
-    if (length > 0)
-        glGetProgramBinary(id(), length, &length, &binary.format, binary.bytes.data());
-    binary.bytes.resize(size_t(std::max(length, 0)));
-    return binary;
-}
-
-namespace {
 
 enum class Scalar { float32, int32, uint32, float64 };
 
@@ -202,7 +135,92 @@ void set_vector(GLuint program, const Uniform& uniform, int components, GLsizei 
     setters[size_t(components - 1)](program, uniform.location, count, converted<T>(values).data());
 }
 
+/// Room for some thousand programs.
+constexpr uint64_t k_most_bytes = uint64_t{64} << 20;
+
+bool has_binaries() {
+    GLint formats = 0;
+    glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
+    return formats > 0;
+}
+
+/// Hashes all that determines the binary: our version, the driver and the two texts.
+std::string key_of(std::string_view vertex, std::string_view fragment) {
+    const Capabilities driver = query_capabilities();
+    std::string all;
+    for (const std::string_view part :
+         {std::string_view(TIDEMARK_VERSION), std::string_view(driver.vendor),
+          std::string_view(driver.renderer), std::string_view(driver.version), vertex, fragment}) {
+        all += part;
+        all += '\0'; // does not occur in a part
+    }
+    return sha256(std::as_bytes(std::span(all)));
+}
+
+std::optional<Program> recalled(const std::optional<std::string>& kept) {
+    ProgramBinary binary;
+    if (!kept || kept->size() <= sizeof binary.format)
+        return std::nullopt;
+    std::memcpy(&binary.format, kept->data(), sizeof binary.format);
+    binary.bytes = kept->substr(sizeof binary.format);
+    return Program::load(binary);
+}
+
 } // namespace
+
+const Uniform* Reflection::find(std::string_view name) const {
+    const auto found = std::find_if(uniforms.begin(), uniforms.end(),
+                                    [&](const Uniform& uniform) { return uniform.name == name; });
+    return found == uniforms.end() ? nullptr : &*found;
+}
+
+tl::expected<Program, std::string> Program::link(std::string_view vertex, std::string_view fragment) {
+    const auto vertex_shader = compile(GL_VERTEX_SHADER, vertex);
+    if (!vertex_shader)
+        return tl::unexpected(vertex_shader.error());
+    const auto fragment_shader = compile(GL_FRAGMENT_SHADER, fragment);
+    if (!fragment_shader)
+        return tl::unexpected(fragment_shader.error());
+    Program program;
+    program.handle_ = ProgramHandle(glCreateProgram());
+    const GLuint id = program.id();
+    glAttachShader(id, vertex_shader->id());
+    glAttachShader(id, fragment_shader->id());
+    glProgramParameteri(id, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
+    glLinkProgram(id);
+    glDetachShader(id, vertex_shader->id());
+    glDetachShader(id, fragment_shader->id());
+    GLint linked = GL_FALSE;
+    glGetProgramiv(id, GL_LINK_STATUS, &linked);
+    if (linked == GL_FALSE)
+        return tl::unexpected(log_of(id, glGetProgramiv, glGetProgramInfoLog));
+    program.reflection_ = reflect(id);
+    return program;
+}
+
+std::optional<Program> Program::load(const ProgramBinary& binary) {
+    Program program;
+    program.handle_ = ProgramHandle(glCreateProgram());
+    glProgramBinary(program.id(), binary.format, binary.bytes.data(), GLsizei(binary.bytes.size()));
+    while (glGetError() != GL_NO_ERROR) { // an unknown format sets an error
+    }
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
+    if (linked == GL_FALSE)
+        return std::nullopt;
+    program.reflection_ = reflect(program.id());
+    return program;
+}
+
+ProgramBinary Program::binary() const {
+    GLint length = 0;
+    glGetProgramiv(id(), GL_PROGRAM_BINARY_LENGTH, &length);
+    ProgramBinary binary{0, std::string(size_t(std::max(length, 0)), '\0')};
+    if (length > 0)
+        glGetProgramBinary(id(), length, &length, &binary.format, binary.bytes.data());
+    binary.bytes.resize(size_t(std::max(length, 0)));
+    return binary;
+}
 
 bool is_number(GLenum type) {
     const Shape shape = shape_of(type);
@@ -248,41 +266,6 @@ void set_uniform(const Program& program, const Uniform& uniform, std::span<const
             {glProgramUniform1iv, glProgramUniform2iv, glProgramUniform3iv, glProgramUniform4iv});
     }
 }
-
-namespace {
-
-/// Room for some thousand programs.
-constexpr uint64_t k_most_bytes = uint64_t{64} << 20;
-
-bool has_binaries() {
-    GLint formats = 0;
-    glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
-    return formats > 0;
-}
-
-/// Hashes all that determines the binary: our version, the driver and the two texts.
-std::string key_of(std::string_view vertex, std::string_view fragment) {
-    const Capabilities driver = query_capabilities();
-    std::string all;
-    for (const std::string_view part :
-         {std::string_view(TIDEMARK_VERSION), std::string_view(driver.vendor),
-          std::string_view(driver.renderer), std::string_view(driver.version), vertex, fragment}) {
-        all += part;
-        all += '\0'; // does not occur in a part
-    }
-    return sha256(std::as_bytes(std::span(all)));
-}
-
-std::optional<Program> recalled(const std::optional<std::string>& kept) {
-    ProgramBinary binary;
-    if (!kept || kept->size() <= sizeof binary.format)
-        return std::nullopt;
-    std::memcpy(&binary.format, kept->data(), sizeof binary.format);
-    binary.bytes = kept->substr(sizeof binary.format);
-    return Program::load(binary);
-}
-
-} // namespace
 
 tl::expected<Program, std::string> link_or_recall(std::string_view vertex, std::string_view fragment) {
     const auto folder = user_cache_folder();

@@ -1,47 +1,11 @@
 #include "render/gl_textures.hpp"
 
-#include "base/extent.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <utility>
 
 namespace tidemark::gl {
-
-void delete_texture(GLuint id) {
-    glDeleteTextures(1, &id);
-}
-
-void delete_sampler(GLuint id) {
-    glDeleteSamplers(1, &id);
-}
-
-void delete_framebuffer(GLuint id) {
-    glDeleteFramebuffers(1, &id);
-}
-
-void delete_vertex_array(GLuint id) {
-    glDeleteVertexArrays(1, &id);
-}
-
-void delete_shader(GLuint id) {
-    glDeleteShader(id);
-}
-
-void delete_program(GLuint id) {
-    glDeleteProgram(id);
-}
-
-void delete_buffer(GLuint id) {
-    glDeleteBuffers(1, &id);
-}
-
-void delete_query(GLuint id) {
-    glDeleteQueries(1, &id);
-}
-
 namespace {
 
 Texture new_texture(GLenum target, Extent extent, int depth, GLenum internal_format, int levels) {
@@ -57,7 +21,20 @@ Texture new_texture(GLenum target, Extent extent, int depth, GLenum internal_for
     return {TextureHandle(id), target, extent, depth, internal_format, levels};
 }
 
+Rectangle fitted(Extent picture, Extent window) {
+    const double scale =
+        std::min(double(window.width) / picture.width, double(window.height) / picture.height);
+    const Extent size{int(std::lround(picture.width * scale)), int(std::lround(picture.height * scale))};
+    return {(window.width - size.width) / 2, (window.height - size.height) / 2, size};
+}
+
 } // namespace
+
+VertexArrayHandle make_vertex_array() {
+    GLuint id = 0;
+    glCreateVertexArrays(1, &id);
+    return VertexArrayHandle(id);
+}
 
 Texture make_texture(Extent extent, GLenum internal_format, int levels) {
     return new_texture(GL_TEXTURE_2D, extent, 1, internal_format, levels);
@@ -204,17 +181,6 @@ void blit_to_window(const RenderTarget& target, Extent window) {
     glBlitNamedFramebuffer(target.framebuffer.id(), 0, 0, 0, from.width, from.height, 0, 0, window.width,
                            window.height, GL_COLOR_BUFFER_BIT, from == window ? GL_NEAREST : GL_LINEAR);
 }
-
-namespace {
-
-Rectangle fitted(Extent picture, Extent window) {
-    const double scale =
-        std::min(double(window.width) / picture.width, double(window.height) / picture.height);
-    const Extent size{int(std::lround(picture.width * scale)), int(std::lround(picture.height * scale))};
-    return {(window.width - size.width) / 2, (window.height - size.height) / 2, size};
-}
-
-} // namespace
 
 void blit_fitted(const RenderTarget& target, Extent window) {
     clear_window();

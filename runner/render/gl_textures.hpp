@@ -10,13 +10,14 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace tidemark::gl {
 
-/// `Delete(id)` deletes the GL object.
-template <void (*Delete)(GLuint)>
+/// `Delete` is the GL function that deletes one object, `Delete(id)`, or several, `Delete(count, ids)`.
+template <auto Delete>
 class Handle {
 public:
     Handle() = default;
@@ -29,8 +30,12 @@ public:
     Handle(const Handle&) = delete;
     Handle& operator=(const Handle&) = delete;
     ~Handle() {
-        if (id_ != 0)
+        if (id_ == 0)
+            return;
+        if constexpr (std::is_invocable_v<decltype(Delete), GLuint>)
             Delete(id_);
+        else
+            Delete(1, &id_);
     }
 
     GLuint id() const { return id_; }
@@ -40,23 +45,17 @@ private:
     GLuint id_ = 0;
 };
 
-void delete_texture(GLuint id);
-void delete_sampler(GLuint id);
-void delete_framebuffer(GLuint id);
-void delete_vertex_array(GLuint id);
-void delete_shader(GLuint id);
-void delete_program(GLuint id);
-void delete_buffer(GLuint id);
-void delete_query(GLuint id);
+using TextureHandle = Handle<glDeleteTextures>;
+using SamplerHandle = Handle<glDeleteSamplers>;
+using FramebufferHandle = Handle<glDeleteFramebuffers>;
+using VertexArrayHandle = Handle<glDeleteVertexArrays>;
+using ShaderHandle = Handle<glDeleteShader>;
+using ProgramHandle = Handle<glDeleteProgram>;
+using BufferHandle = Handle<glDeleteBuffers>;
+using QueryHandle = Handle<glDeleteQueries>;
 
-using TextureHandle = Handle<delete_texture>;
-using SamplerHandle = Handle<delete_sampler>;
-using FramebufferHandle = Handle<delete_framebuffer>;
-using VertexArrayHandle = Handle<delete_vertex_array>;
-using ShaderHandle = Handle<delete_shader>;
-using ProgramHandle = Handle<delete_program>;
-using BufferHandle = Handle<delete_buffer>;
-using QueryHandle = Handle<delete_query>;
+/// Makes a vertex array without attributes, which drawing requires.
+VertexArrayHandle make_vertex_array();
 
 // Creates, fills and reads 2-D, 3-D and cube textures, and creates samplers.
 

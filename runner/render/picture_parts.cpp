@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace tidemark::render {
 namespace {
 
@@ -11,6 +9,33 @@ constexpr size_t k_whole_pixels = 4096 * 2160;
 constexpr int k_tile_pixels = 1 << 18; ///< 640x360 has 0.88 times as many
 constexpr int k_tile_height = 256;
 constexpr size_t k_band_bytes = size_t{64} << 20;
+
+/// Keeps the 64x64 blocks that llvmpipe assigns to its threads whole in large parts.
+constexpr int k_large_rows = 64;
+
+int whole_blocks(size_t pixels) {
+    return std::max(int(pixels) / k_block_side, 1) * k_block_side;
+}
+
+/// Divides columns evenly, so that the last part is not a small rest.
+int evenly(int columns, int most) {
+    const int parts = (columns + most - 1) / most;
+    const int blocks = (columns + parts * k_block_side - 1) / (parts * k_block_side);
+    return std::min(blocks * k_block_side, columns);
+}
+
+size_t pixels_of(const PassArea& area) {
+    return area.extent.pixels() * size_t(area.faces);
+}
+
+constexpr double k_wanted_ms = 25;
+/// Below this time, the driver's overhead outweighs the pixels.
+constexpr double k_telling_ms = 3;
+/// Largest growth from one part to the next, because the cost of adjacent pixels may differ a lot.
+constexpr double k_growth = 2;
+constexpr double k_growth_of_quick = 8;
+constexpr size_t k_block = size_t(k_block_side) * k_block_side;
+constexpr size_t k_most = size_t{1} << 30;
 
 } // namespace
 
@@ -35,28 +60,6 @@ Result<Extent> tile_of_side(int side, int largest_target) {
                                                   side, largest_target));
     return Extent{side, side};
 }
-
-namespace {
-
-/// Keeps the 64x64 blocks that llvmpipe assigns to its threads whole in large parts.
-constexpr int k_large_rows = 64;
-
-int whole_blocks(size_t pixels) {
-    return std::max(int(pixels) / k_block_side, 1) * k_block_side;
-}
-
-/// Divides columns evenly, so that the last part is not a small rest.
-int evenly(int columns, int most) {
-    const int parts = (columns + most - 1) / most;
-    const int blocks = (columns + parts * k_block_side - 1) / (parts * k_block_side);
-    return std::min(blocks * k_block_side, columns);
-}
-
-size_t pixels_of(const PassArea& area) {
-    return area.extent.pixels() * size_t(area.faces);
-}
-
-} // namespace
 
 std::optional<Part> PartCursor::ahead() const {
     if (index_ == areas_.size())
@@ -131,19 +134,6 @@ double PartCursor::share() const {
     }
     return all == 0 ? 1 : double(behind) / double(all);
 }
-
-namespace {
-
-constexpr double k_wanted_ms = 25;
-/// Below this time, the driver's overhead outweighs the pixels.
-constexpr double k_telling_ms = 3;
-/// Largest growth from one part to the next, because the cost of adjacent pixels may differ a lot.
-constexpr double k_growth = 2;
-constexpr double k_growth_of_quick = 8;
-constexpr size_t k_block = size_t(k_block_side) * k_block_side;
-constexpr size_t k_most = size_t{1} << 30;
-
-} // namespace
 
 size_t PartSize::pixels(const Part& ahead) const {
     const auto known = rows_.find({ahead.pass, ahead.face});

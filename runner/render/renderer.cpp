@@ -1,6 +1,5 @@
 #include "render/renderer.hpp"
 
-#include "base/error.hpp"
 #include "base/supervision.hpp"
 
 #include <fmt/format.h>
@@ -40,11 +39,8 @@ void set_face(const gl::Program& program, int face) {
 } // namespace
 
 Renderer::Renderer(CompiledScene compiled)
-    : compiled_(std::move(compiled)), extent_(compiled_.options().extent), passes_(scene().passes.size()) {
-    GLuint vertex_array = 0;
-    glCreateVertexArrays(1, &vertex_array);
-    no_vertices_ = gl::VertexArrayHandle(vertex_array);
-}
+    : compiled_(std::move(compiled)), extent_(compiled_.options().extent),
+      no_vertices_(gl::make_vertex_array()), passes_(scene().passes.size()) {}
 
 Result<Renderer> Renderer::create(scene::Scene scene, const RenderOptions& options) {
     auto compiled = TRY(CompiledScene::create(std::move(scene), options));
@@ -79,16 +75,14 @@ Result<void> Renderer::make_targets() {
 Result<void> Renderer::bind_channels() {
     for (const PlannedPass& planned : plan().passes) {
         const auto add = [&](int unit, const scene::Channel& channel) -> Result<void> {
-            auto bound = TRY(make_channel(program(planned.pass), unit, channel, textures_));
-            passes_[planned.pass].channels.push_back(std::move(bound));
+            passes_[planned.pass].channels.push_back(
+                TRY(make_channel(program(planned.pass), unit, channel, textures_)));
             return {};
         };
         for (const int number : planned.channels)
             TRY(add(number, scene().passes[planned.pass].channels[size_t(number)]));
         if (planned.keyboard_helpers)
-            if (auto added = add(k_keyboard_unit, {scene::Keyboard{4}, scene::k_keyboard_sampling, {}});
-                !added)
-                return added;
+            TRY(add(k_keyboard_unit, {scene::Keyboard{4}, scene::k_keyboard_sampling, {}}));
     }
     return {};
 }
@@ -104,8 +98,7 @@ Result<void> Renderer::resize(Extent extent) {
     for (const PlannedPass& planned : plan().passes) {
         if (has_own_size(planned.pass))
             continue;
-        auto target = TRY(passes_[planned.pass].target.resized(extent));
-        fresh[planned.pass] = std::move(target);
+        fresh[planned.pass] = TRY(passes_[planned.pass].target.resized(extent));
     }
     for (const PlannedPass& planned : plan().passes)
         if (!has_own_size(planned.pass))

@@ -1,11 +1,9 @@
 #include "render/sound_renderer.hpp"
 
-#include "base/error.hpp"
 #include "base/supervision.hpp"
 #include "media/sound_file.hpp"
 #include "render/compiled_scene.hpp"
 #include "render/frame_plan.hpp"
-#include "shader/shader_source.hpp"
 
 #include <fmt/format.h>
 
@@ -48,17 +46,15 @@ Result<SoundRenderer> SoundRenderer::create(const scene::Scene& scene, const Dat
     renderer.inputs_.date = date;
     renderer.inputs_.date.seconds = std::floor(date.seconds);
     renderer.uniforms_ = UniformTable(renderer.program_.reflection(), {scene.knobs});
-    GLuint vertex_array = 0;
-    glCreateVertexArrays(1, &vertex_array);
-    renderer.no_vertices_ = gl::VertexArrayHandle(vertex_array);
+    renderer.no_vertices_ = gl::make_vertex_array();
     for (int number = 0; number < scene::k_channel_count; ++number) {
         scene::Channel channel = pass->channels[size_t(number)];
         if (!is_heard(channel.input))
             channel.input = scene::Unbound{texture_kind(scene, channel.input)};
         if (!needs_texture(channel.input, number, renderer.program_.reflection()))
             continue;
-        auto bound = TRY(make_channel(renderer.program_, number, channel, renderer.textures_));
-        renderer.channels_.push_back(std::move(bound));
+        renderer.channels_.push_back(
+            TRY(make_channel(renderer.program_, number, channel, renderer.textures_)));
     }
     return renderer;
 }

@@ -1,16 +1,25 @@
 #include "web/audience.hpp"
 
 #include "base/dynamic_library.hpp"
-#include "base/error.hpp"
 #include "base/overloaded.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 namespace tidemark::serve {
+namespace {
+
+constexpr size_t k_most_waiting = 4096;
+constexpr double k_as_good_as_forever = 1e6;
+
+SharedMessage steering_text(bool you, size_t viewers) {
+    return std::make_shared<Message>(
+        Message{fmt::format(R"({{"steering":{{"you":{},"viewers":{}}}}})", you, viewers)});
+}
+
+} // namespace
 
 void Hands::follow(const platform::InputEvent& event) {
     std::visit(Overloaded{
@@ -34,13 +43,6 @@ std::vector<platform::InputEvent> Hands::let_go() {
     keys_.clear();
     return events;
 }
-
-namespace {
-
-constexpr size_t k_most_waiting = 4096;
-constexpr double k_as_good_as_forever = 1e6;
-
-} // namespace
 
 bool Inbox::is_full() const {
     const std::lock_guard lock(mutex_);
@@ -79,15 +81,6 @@ void Inbox::wake() {
     woken_ = true;
     changed_.notify_one();
 }
-
-namespace {
-
-SharedMessage steering_text(bool you, size_t viewers) {
-    return std::make_shared<Message>(
-        Message{fmt::format(R"({{"steering":{{"you":{},"viewers":{}}}}})", you, viewers)});
-}
-
-} // namespace
 
 bool Audience::came(ViewerId viewer) {
     const std::lock_guard lock(mutex_);

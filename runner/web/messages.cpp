@@ -1,5 +1,6 @@
 #include "web/messages.hpp"
 
+#include "host/json.hpp"
 #include "web/page.hpp"
 
 #include <nlohmann/json.hpp>
@@ -74,10 +75,9 @@ double in_hundredths(double value) {
     return std::round(value * 100) / 100;
 }
 
-/// Replaces bytes that are not UTF-8, which file names may contain.
-std::string dump(const Json& json) {
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+using cli::dump; // replaces bytes that are not UTF-8, which file names may contain
+
+using Clock = std::chrono::steady_clock;
 
 } // namespace
 
@@ -108,12 +108,6 @@ std::string to_text(const PictureHead& head) {
 std::string line_text(const char* name, const std::string& line) {
     return dump({{name, line}});
 }
-
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-} // namespace
 
 PictureEncoder::PictureEncoder(Settings settings)
     : settings_(std::move(settings)), thread_([this] { run(); }) {}

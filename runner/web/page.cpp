@@ -3,7 +3,6 @@
 #include "web/page.hpp"
 
 #include "base/encoding.hpp"
-#include "base/error.hpp"
 #include "base/file.hpp"
 #include "lab/report_page.hpp"
 #include "media/generated_textures.hpp"
@@ -12,7 +11,6 @@
 #include "media/texture_files.hpp"
 #include "scene/channel.hpp"
 #include "scene/host_uniforms.hpp"
-#include "scene/scene.hpp"
 #include "shader/pass_reading.hpp"
 #include "web/embedded.hpp"
 
@@ -23,43 +21,19 @@
 #include <cassert>
 #include <limits>
 #include <span>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 namespace tidemark::web {
+namespace {
 
 /// Bytes of the largest file that is embedded in a page.
-inline constexpr size_t k_largest_file = size_t{64} << 20;
-
-// A scene as JSON for its page: the passes' texts with the authors' lines, the channels' inputs, the knobs.
-// `host/` reads it.
-
-namespace {
+constexpr size_t k_largest_file = size_t{64} << 20;
 
 Json numbers(const scene::KnobValue& value, int count) {
     return Json(std::vector<double>(value.begin(), value.begin() + count));
 }
-
-} // namespace
-
-Json knob_data(const scene::Knob& knob) {
-    const scene::KnobTypeInfo& type = info(knob.type);
-    Json data = {{"name", knob.name},
-                 {"colour", knob.type == scene::KnobType::color3},
-                 {"whole", type.whole},
-                 {"value", numbers(knob.value, type.components)}};
-    if (knob.range) {
-        data["low"] = numbers(knob.range->low, type.components);
-        data["high"] = numbers(knob.range->high, type.components);
-    }
-    if (knob.step)
-        data["step"] = numbers(*knob.step, type.components);
-    return data;
-}
-
-namespace {
 
 using image::Image;
 using image::SampleType;
@@ -224,8 +198,6 @@ private:
     bool vflip_;
 };
 
-} // namespace
-
 /// Returns an object whose `kind` determines the other members (host/inputs.js). Not for a PassOutput. Fails
 /// (ErrorCode::load) on a file that cannot be read or is too large.
 Result<Json> input_data(const scene::Channel& channel) {
@@ -234,8 +206,6 @@ Result<Json> input_data(const scene::Channel& channel) {
         return fail(error_at(channel.where, data.error().message));
     return data;
 }
-
-namespace {
 
 std::string_view name_of(scene::PassKind kind) {
     switch (kind) {
@@ -276,8 +246,6 @@ Json line_runs(const text::MappedText& source, const scene::Scene& scene) {
     return runs;
 }
 
-} // namespace
-
 /// Returns `name`, `kind`, `source` (GLSL ES 3.00: the author's text and the host's around it), `lines`
 /// (which lines of the source come from which file), `discards`, and `foreign` (it may use other hosts'
 /// uniforms).
@@ -305,8 +273,6 @@ std::vector<size_t> channels_named(const scene::Scene& scene, const scene::Pass&
             channels.push_back(i);
     return channels;
 }
-
-namespace {
 
 using scene::PassKind;
 
@@ -414,16 +380,12 @@ private:
     Json inputs_ = Json::array();
 };
 
-} // namespace
-
 /// Leaves out passes that are not needed and inputs that no text names. Fails like `make_page`.
 Result<Json> scene_data(const scene::Scene& scene, const Json& numbers) {
     auto data = TRY(Collector(scene).collect());
     data["numbers"] = numbers;
     return data;
 }
-
-namespace {
 
 /// Escapes everything to ASCII, since the page around a figure need not be in UTF-8; invalid bytes are
 /// replaced.
@@ -464,6 +426,21 @@ std::string uniform_rows() {
 }
 
 } // namespace
+
+Json knob_data(const scene::Knob& knob) {
+    const scene::KnobTypeInfo& type = info(knob.type);
+    Json data = {{"name", knob.name},
+                 {"colour", knob.type == scene::KnobType::color3},
+                 {"whole", type.whole},
+                 {"value", numbers(knob.value, type.components)}};
+    if (knob.range) {
+        data["low"] = numbers(knob.range->low, type.components);
+        data["high"] = numbers(knob.range->high, type.components);
+    }
+    if (knob.step)
+        data["step"] = numbers(*knob.step, type.components);
+    return data;
+}
 
 Result<std::string> make_page(const scene::Scene& scene, PageForm form, const Json& numbers) {
     const auto data = TRY(scene_data(scene, numbers));

@@ -1,6 +1,5 @@
 #include "web/request.hpp"
 
-#include "base/error.hpp"
 #include "host/overlay_fields.hpp"
 
 #include <fmt/format.h>
@@ -12,10 +11,8 @@
 #include <cctype>
 #include <cerrno>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <optional>
-#include <string>
 
 namespace tidemark::serve {
 namespace {
@@ -57,55 +54,6 @@ bool is_own(std::string_view origin, std::string_view host) {
     return scheme != std::string_view::npos && (name == "http" || name == "https") &&
            origin.substr(scheme + 3) == host;
 }
-
-} // namespace
-
-Result<std::string> make_token() {
-    std::array<unsigned char, k_token_letters> bytes{};
-    if (::getrandom(bytes.data(), bytes.size(), 0) != ssize_t(bytes.size()))
-        return fail(ErrorCode::load,
-                    fmt::format("the system gives no random numbers: {}", system_reason(errno)));
-    std::string token;
-    for (const unsigned char byte : bytes)
-        token += k_letters[byte % k_letters.size()];
-    return token;
-}
-
-Result<void> check_token(std::string_view token) {
-    const bool good = token.find_first_not_of(k_letters) == std::string_view::npos &&
-                      token.size() >= k_shortest && token.size() <= k_longest;
-    if (good)
-        return {};
-    return fail(ErrorCode::usage, fmt::format("the token has {} characters: give {} to {} letters, digits, - "
-                                              "or _, as in `openssl rand -hex 16`",
-                                              token.size(), k_shortest, k_longest));
-}
-
-bool is_same_token(std::string_view given, std::string_view right) {
-    if (given.size() != right.size())
-        return false; // the length is not secret
-    unsigned char difference = 0;
-    for (size_t i = 0; i < right.size(); ++i)
-        difference |= static_cast<unsigned char>(given[i] ^ right[i]);
-    return difference == 0;
-}
-
-Answer answer_to(const Knock& knock, std::string_view token) {
-    const size_t question = std::min(knock.target.find('?'), knock.target.size());
-    const std::string_view path = knock.target.substr(0, question);
-    const std::string_view query = knock.target.substr(std::min(question + 1, knock.target.size()));
-    if (knock.through_loopback && !is_loopback_name(name_of(knock.host)))
-        return Answer::forbidden;
-    if (!is_same_token(token_in(query), token))
-        return Answer::forbidden;
-    if (knock.upgrade && !knock.origin.empty() && !is_own(knock.origin, knock.host))
-        return Answer::forbidden;
-    if (path == "/socket" && knock.upgrade)
-        return Answer::socket;
-    return path == "/" && !knock.upgrade ? Answer::page : Answer::not_found;
-}
-
-namespace {
 
 using Json = nlohmann::ordered_json;
 using platform::Button;
@@ -282,7 +230,53 @@ constexpr Verb k_of_viewers[] = {
     {"let go", [](const Json&) -> Result<Request> { return LetGo{}; }},
 };
 
+/// Compares tokens in a time that does not depend on which letters differ.
+bool is_same_token(std::string_view given, std::string_view right) {
+    if (given.size() != right.size())
+        return false; // the length is not secret
+    unsigned char difference = 0;
+    for (size_t i = 0; i < right.size(); ++i)
+        difference |= static_cast<unsigned char>(given[i] ^ right[i]);
+    return difference == 0;
+}
+
 } // namespace
+
+Result<std::string> make_token() {
+    std::array<unsigned char, k_token_letters> bytes{};
+    if (::getrandom(bytes.data(), bytes.size(), 0) != ssize_t(bytes.size()))
+        return fail(ErrorCode::load,
+                    fmt::format("the system gives no random numbers: {}", system_reason(errno)));
+    std::string token;
+    for (const unsigned char byte : bytes)
+        token += k_letters[byte % k_letters.size()];
+    return token;
+}
+
+Result<void> check_token(std::string_view token) {
+    const bool good = token.find_first_not_of(k_letters) == std::string_view::npos &&
+                      token.size() >= k_shortest && token.size() <= k_longest;
+    if (good)
+        return {};
+    return fail(ErrorCode::usage, fmt::format("the token has {} characters: give {} to {} letters, digits, - "
+                                              "or _, as in `openssl rand -hex 16`",
+                                              token.size(), k_shortest, k_longest));
+}
+
+Answer answer_to(const Knock& knock, std::string_view token) {
+    const size_t question = std::min(knock.target.find('?'), knock.target.size());
+    const std::string_view path = knock.target.substr(0, question);
+    const std::string_view query = knock.target.substr(std::min(question + 1, knock.target.size()));
+    if (knock.through_loopback && !is_loopback_name(name_of(knock.host)))
+        return Answer::forbidden;
+    if (!is_same_token(token_in(query), token))
+        return Answer::forbidden;
+    if (knock.upgrade && !knock.origin.empty() && !is_own(knock.origin, knock.host))
+        return Answer::forbidden;
+    if (path == "/socket" && knock.upgrade)
+        return Answer::socket;
+    return path == "/" && !knock.upgrade ? Answer::page : Answer::not_found;
+}
 
 Result<Request> parse_request(std::string_view message) {
     if (message.size() > k_longest_request)

@@ -18,9 +18,6 @@ Result<std::string> make_token();
 /// Checks a token chosen by the user: 16 to 128 letters, digits, `-` and `_`. ErrorCode::usage says what is
 /// wrong.
 Result<void> check_token(std::string_view token);
-/// Compares tokens in a time that does not depend on which letters differ.
-bool is_same_token(std::string_view given, std::string_view right);
-
 /// A browser's HTTP request.
 struct Knock {
     std::string_view target;      ///< `/?token=…`

@@ -15,7 +15,6 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -66,14 +65,12 @@ bool has_word(int socket) {
 
 /// Returns what is wrong; empty: nothing.
 std::string tried(const Rehearsal::Play& play, const HeldTexts& held, uint64_t memory, int socket) {
-    ForkedLimits limits{.seconds = std::numeric_limits<double>::infinity(), .memory = memory};
-    limits.unwanted = [socket] { return has_word(socket); };
     const auto run = run_forked(
         [&](const Tell&) {
             be_quiet();
             play(held);
         },
-        limits);
+        {.memory = memory, .unwanted = [socket] { return has_word(socket); }});
     if (!run)
         return run.error().message;
     if (run->over_memory)

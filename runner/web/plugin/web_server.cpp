@@ -1,5 +1,4 @@
-// One connection: answers an HTTP request, or becomes a WebSocket that stays open. Uses Boost.Beast, on one
-// thread.
+// Implements the plug-in's Server with Boost.Beast: a thread that accepts connections and passes messages.
 
 #include "base/extent.hpp"
 #include "web/plugin/server.hpp"
@@ -28,87 +27,14 @@
 #include <utility>
 
 namespace tidemark::serve {
-
-/// The server as its connections see it; used on its thread only.
-class House {
-public:
-    virtual ~House() = default;
-
-    virtual const ServerSettings& settings() const = 0;
-    virtual bool is_loopback() const = 0;
-    virtual Guests& guests() = 0;
-};
-
-/// Lives as long as one of its operations is pending.
-class Connection : public std::enable_shared_from_this<Connection> {
-public:
-    Connection(boost::asio::ip::tcp::socket socket, ViewerId id, House& house);
-    /// Reports that the viewer has left.
-    ~Connection();
-    Connection(const Connection&) = delete;
-    Connection& operator=(const Connection&) = delete;
-
-    void start();
-    void send(SharedMessage message);
-    void close();
-    /// Returns whether it has shown the token and is a viewer.
-    bool is_guest() const { return is_guest_; }
-    /// The server is stopping: leaving is not reported any more.
-    void part() { is_guest_ = false; }
-
-private:
-    using Error = boost::beast::error_code;
-
-    void answer();
-    void respond(boost::beast::http::status status, std::string text, const char* type = "text/plain");
-    void accept();
-    void welcome();
-    void listen();
-    void hear(const std::string& message);
-    void write_next();
-    void drop(const boost::beast::websocket::close_reason& why);
-
-    boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
-    ViewerId id_;
-    House& house_;
-    bool is_guest_ = false;
-    bool closing_ = false;
-    boost::beast::flat_buffer buffer_;
-    std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> request_;
-    std::deque<SharedMessage> waiting_; ///< the first is being written
-    size_t waiting_bytes_ = 0;
-};
-
-namespace {
-
-/// From this quality on, colour has full resolution.
-constexpr int k_fine_quality = 90;
-
-struct Destroy {
-    void operator()(void* compressor) const { tjDestroy(compressor); }
-};
-
-/// Implements ServePlugIn::encode.
-std::string encode_jpeg(Extent extent, std::span<const std::byte> rgba, int quality) {
-    static const std::unique_ptr<void, Destroy> compressor(tjInitCompress());
-    const int sampling = quality >= k_fine_quality ? TJSAMP_444 : TJSAMP_420;
-    std::string file(tjBufSize(extent.width, extent.height, sampling), '\0');
-    auto* begin = reinterpret_cast<unsigned char*>(file.data());
-    unsigned long size = file.size();
-    const int failed = tjCompress2(compressor.get(), reinterpret_cast<const unsigned char*>(rgba.data()),
-                                   extent.width, 0, extent.height, TJPF_RGBX, &begin, &size, sampling,
-                                   quality, TJFLAG_BOTTOMUP | TJFLAG_NOREALLOC | TJFLAG_FASTDCT);
-    file.resize(failed == 0 ? size : 0);
-    return file;
-}
-
-} // namespace
-
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
 namespace websocket = beast::websocket;
 namespace {
+
+using asio::ip::tcp;
+using ErrorWord = boost::system::error_code;
 
 constexpr std::chrono::seconds k_patience{10};
 /// Limit for clients that have not shown the token yet.
@@ -136,146 +62,190 @@ void shut_in(http::response<http::string_body>& response) {
     response.set("X-Content-Type-Options", "nosniff");
 }
 
-} // namespace
+/// The server as its connections see it.
+struct House {
+    ServerSettings settings;
+    bool is_loopback = true;
+    Guests* guests = nullptr; ///< set when the server starts
+};
 
-Connection::Connection(asio::ip::tcp::socket socket, ViewerId id, House& house)
-    : socket_(std::move(socket)), id_(id), house_(house) {}
-
-Connection::~Connection() {
-    if (is_guest_)
-        house_.guests().left(id_);
-}
-
-void Connection::start() {
-    boost::system::error_code ignored;
-    beast::get_lowest_layer(socket_).socket().set_option(asio::ip::tcp::no_delay(true), ignored);
-    beast::get_lowest_layer(socket_).expires_after(k_patience_with_strangers);
-    request_.emplace();
-    request_->header_limit(k_longest_header);
-    request_->body_limit(0);
-    http::async_read(socket_.next_layer(), buffer_, *request_,
-                     [self = shared_from_this()](Error error, size_t) {
-                         if (!error)
-                             self->answer();
-                     });
-}
-
-void Connection::answer() {
-    const auto& request = request_->get();
-    if (request.method() != http::verb::get)
-        return respond(http::status::method_not_allowed, "only GET is supported\n");
-    const Knock knock{.target = view_of(request.target()),
-                      .host = view_of(request[http::field::host]),
-                      .origin = view_of(request[http::field::origin]),
-                      .upgrade = websocket::is_upgrade(request),
-                      .through_loopback = house_.is_loopback()};
-    switch (answer_to(knock, house_.settings().token)) {
-    case Answer::page: return respond(http::status::ok, house_.settings().page, "text/html; charset=utf-8");
-    case Answer::socket: return accept();
-    case Answer::not_found: return respond(http::status::not_found, "not found\n");
-    case Answer::forbidden: break;
+/// Answers an HTTP request, or becomes a WebSocket that stays open. Lives as long as one of its operations is
+/// pending.
+class Connection : public std::enable_shared_from_this<Connection> {
+public:
+    Connection(tcp::socket socket, ViewerId id, const House& house)
+        : socket_(std::move(socket)), id_(id), house_(house) {}
+    /// Reports that the viewer has left.
+    ~Connection() {
+        if (is_guest_)
+            house_.guests->left(id_);
     }
-    respond(http::status::forbidden,
-            "access denied: open the full address printed by `tidemark serve`, including its token\n");
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
+
+    void start() {
+        boost::system::error_code ignored;
+        beast::get_lowest_layer(socket_).socket().set_option(asio::ip::tcp::no_delay(true), ignored);
+        beast::get_lowest_layer(socket_).expires_after(k_patience_with_strangers);
+        request_.emplace();
+        request_->header_limit(k_longest_header);
+        request_->body_limit(0);
+        http::async_read(socket_.next_layer(), buffer_, *request_,
+                         [self = shared_from_this()](Error error, size_t) {
+                             if (!error)
+                                 self->answer();
+                         });
+    }
+
+    void send(SharedMessage message) {
+        if (closing_)
+            return;
+        if (waiting_.size() >= k_most_waiting ||
+            (!waiting_.empty() && waiting_bytes_ + message->bytes.size() > k_most_bytes_waiting))
+            return close();
+        waiting_bytes_ += message->bytes.size();
+        waiting_.push_back(std::move(message));
+        if (waiting_.size() == 1)
+            write_next();
+    }
+
+    /// Closes the socket, which also ends pending operations.
+    void close() {
+        closing_ = true;
+        boost::system::error_code ignored;
+        beast::get_lowest_layer(socket_).socket().shutdown(asio::ip::tcp::socket::shutdown_both, ignored);
+        beast::get_lowest_layer(socket_).close();
+    }
+
+    /// Returns whether it has shown the token and is a viewer.
+    bool is_guest() const { return is_guest_; }
+    /// The server is stopping: leaving is not reported any more.
+    void part() { is_guest_ = false; }
+
+private:
+    using Error = beast::error_code;
+
+    void answer() {
+        const auto& request = request_->get();
+        if (request.method() != http::verb::get)
+            return respond(http::status::method_not_allowed, "only GET is supported\n");
+        const Knock knock{.target = view_of(request.target()),
+                          .host = view_of(request[http::field::host]),
+                          .origin = view_of(request[http::field::origin]),
+                          .upgrade = websocket::is_upgrade(request),
+                          .through_loopback = house_.is_loopback};
+        switch (answer_to(knock, house_.settings.token)) {
+        case Answer::page: return respond(http::status::ok, house_.settings.page, "text/html; charset=utf-8");
+        case Answer::socket: return accept();
+        case Answer::not_found: return respond(http::status::not_found, "not found\n");
+        case Answer::forbidden: break;
+        }
+        respond(http::status::forbidden,
+                "access denied: open the full address printed by `tidemark serve`, including its token\n");
+    }
+
+    void respond(http::status status, std::string text, const char* type = "text/plain") {
+        beast::get_lowest_layer(socket_).expires_after(k_patience); // time to read the response
+        auto response =
+            std::make_shared<http::response<http::string_body>>(status, request_->get().version());
+        response->set(http::field::content_type, type);
+        shut_in(*response);
+        response->keep_alive(false);
+        response->body() = std::move(text);
+        response->prepare_payload();
+        http::async_write(socket_.next_layer(), *response,
+                          [self = shared_from_this(), response](Error, size_t) { self->close(); });
+    }
+
+    void accept() {
+        beast::get_lowest_layer(socket_).expires_never(); // a WebSocket has timeouts of its own
+        auto times = websocket::stream_base::timeout::suggested(beast::role_type::server);
+        times.idle_timeout = 2 * k_patience;
+        times.keep_alive_pings = true;
+        socket_.set_option(times);
+        socket_.read_message_max(k_longest_request);
+        socket_.auto_fragment(false);
+        socket_.async_accept(request_->get(), [self = shared_from_this()](Error error) {
+            if (!error)
+                self->welcome();
+        });
+    }
+
+    void welcome() {
+        request_.reset();
+        is_guest_ = house_.guests->came(id_);
+        if (!is_guest_)
+            return drop({websocket::close_code::try_again_later, "too many viewers already"});
+        listen();
+    }
+
+    void listen() {
+        socket_.async_read(buffer_, [self = shared_from_this()](Error error, size_t) {
+            if (error)
+                return self->close();
+            self->hear(beast::buffers_to_string(self->buffer_.data()));
+            self->buffer_.clear();
+            if (!self->closing_)
+                self->listen();
+        });
+    }
+
+    void hear(const std::string& message) {
+        if (!socket_.got_text())
+            return drop({websocket::close_code::unknown_data, "a message must be text"});
+        if (auto taken = house_.guests->said(id_, message); !taken)
+            drop({websocket::close_code::policy_error, taken.error().message.substr(0, k_longest_reason)});
+    }
+
+    void write_next() {
+        const Message& message = *waiting_.front();
+        socket_.binary(message.binary);
+        socket_.async_write(asio::buffer(message.bytes), [self = shared_from_this()](Error error, size_t) {
+            if (error)
+                return self->close();
+            self->waiting_bytes_ -= self->waiting_.front()->bytes.size();
+            self->waiting_.pop_front();
+            if (!self->waiting_.empty() && !self->closing_)
+                self->write_next();
+        });
+    }
+
+    void drop(const websocket::close_reason& why) {
+        if (!std::exchange(closing_, true))
+            socket_.async_close(why, [self = shared_from_this()](Error) { self->close(); });
+    }
+
+    beast::websocket::stream<beast::tcp_stream> socket_;
+    ViewerId id_;
+    const House& house_;
+    bool is_guest_ = false;
+    bool closing_ = false;
+    beast::flat_buffer buffer_;
+    std::optional<beast::http::request_parser<beast::http::empty_body>> request_;
+    std::deque<SharedMessage> waiting_; ///< the first is being written
+    size_t waiting_bytes_ = 0;
+};
+
+/// From this quality on, colour has full resolution.
+constexpr int k_fine_quality = 90;
+
+struct Destroy {
+    void operator()(void* compressor) const { tjDestroy(compressor); }
+};
+
+/// Implements ServePlugIn::encode.
+std::string encode_jpeg(Extent extent, std::span<const std::byte> rgba, int quality) {
+    static const std::unique_ptr<void, Destroy> compressor(tjInitCompress());
+    const int sampling = quality >= k_fine_quality ? TJSAMP_444 : TJSAMP_420;
+    std::string file(tjBufSize(extent.width, extent.height, sampling), '\0');
+    auto* begin = reinterpret_cast<unsigned char*>(file.data());
+    unsigned long size = file.size();
+    const int failed = tjCompress2(compressor.get(), reinterpret_cast<const unsigned char*>(rgba.data()),
+                                   extent.width, 0, extent.height, TJPF_RGBX, &begin, &size, sampling,
+                                   quality, TJFLAG_BOTTOMUP | TJFLAG_NOREALLOC | TJFLAG_FASTDCT);
+    file.resize(failed == 0 ? size : 0);
+    return file;
 }
-
-void Connection::respond(http::status status, std::string text, const char* type) {
-    beast::get_lowest_layer(socket_).expires_after(k_patience); // time to read the response
-    auto response = std::make_shared<http::response<http::string_body>>(status, request_->get().version());
-    response->set(http::field::content_type, type);
-    shut_in(*response);
-    response->keep_alive(false);
-    response->body() = std::move(text);
-    response->prepare_payload();
-    http::async_write(socket_.next_layer(), *response,
-                      [self = shared_from_this(), response](Error, size_t) { self->close(); });
-}
-
-void Connection::accept() {
-    beast::get_lowest_layer(socket_).expires_never(); // a WebSocket has timeouts of its own
-    auto times = websocket::stream_base::timeout::suggested(beast::role_type::server);
-    times.idle_timeout = 2 * k_patience;
-    times.keep_alive_pings = true;
-    socket_.set_option(times);
-    socket_.read_message_max(k_longest_request);
-    socket_.auto_fragment(false);
-    socket_.async_accept(request_->get(), [self = shared_from_this()](Error error) {
-        if (!error)
-            self->welcome();
-    });
-}
-
-void Connection::welcome() {
-    request_.reset();
-    is_guest_ = house_.guests().came(id_);
-    if (!is_guest_)
-        return drop({websocket::close_code::try_again_later, "too many viewers already"});
-    listen();
-}
-
-void Connection::listen() {
-    socket_.async_read(buffer_, [self = shared_from_this()](Error error, size_t) {
-        if (error)
-            return self->close();
-        self->hear(beast::buffers_to_string(self->buffer_.data()));
-        self->buffer_.clear();
-        if (!self->closing_)
-            self->listen();
-    });
-}
-
-void Connection::hear(const std::string& message) {
-    if (!socket_.got_text())
-        return drop({websocket::close_code::unknown_data, "a message must be text"});
-    if (auto taken = house_.guests().said(id_, message); !taken)
-        drop({websocket::close_code::policy_error, taken.error().message.substr(0, k_longest_reason)});
-}
-
-void Connection::send(SharedMessage message) {
-    if (closing_)
-        return;
-    if (waiting_.size() >= k_most_waiting ||
-        (!waiting_.empty() && waiting_bytes_ + message->bytes.size() > k_most_bytes_waiting))
-        return close();
-    waiting_bytes_ += message->bytes.size();
-    waiting_.push_back(std::move(message));
-    if (waiting_.size() == 1)
-        write_next();
-}
-
-void Connection::write_next() {
-    const Message& message = *waiting_.front();
-    socket_.binary(message.binary);
-    socket_.async_write(asio::buffer(message.bytes), [self = shared_from_this()](Error error, size_t) {
-        if (error)
-            return self->close();
-        self->waiting_bytes_ -= self->waiting_.front()->bytes.size();
-        self->waiting_.pop_front();
-        if (!self->waiting_.empty() && !self->closing_)
-            self->write_next();
-    });
-}
-
-void Connection::drop(const websocket::close_reason& why) {
-    if (!std::exchange(closing_, true))
-        socket_.async_close(why, [self = shared_from_this()](Error) { self->close(); });
-}
-
-/// Closes the socket, which also ends pending operations.
-void Connection::close() {
-    closing_ = true;
-    boost::system::error_code ignored;
-    beast::get_lowest_layer(socket_).socket().shutdown(asio::ip::tcp::socket::shutdown_both, ignored);
-    beast::get_lowest_layer(socket_).close();
-}
-
-// Implements the plug-in's Server: a thread that accepts connections and passes messages.
-
-namespace {
-
-namespace asio = boost::asio;
-using asio::ip::tcp;
-using ErrorWord = boost::system::error_code;
 
 /// Viewers and clients without a token yet; more than there can be viewers.
 constexpr size_t k_most_connections = 64;
@@ -285,17 +255,17 @@ tl::unexpected<Error> cannot_listen(const ServerSettings& settings, const std::s
                 fmt::format("cannot listen at --host {} --port {}: {}", settings.host, settings.port, why));
 }
 
-class WebServer : public Server, public House {
+class WebServer : public Server {
 public:
-    explicit WebServer(ServerSettings settings) : settings_(std::move(settings)), acceptor_(context_) {}
+    explicit WebServer(ServerSettings settings) : house_{std::move(settings)}, acceptor_(context_) {}
     WebServer(const WebServer&) = delete;
     WebServer& operator=(const WebServer&) = delete;
     ~WebServer() override { end(); }
 
     ErrorWord open() {
         ErrorWord error;
-        const auto found = tcp::resolver(context_).resolve(settings_.host, std::to_string(settings_.port),
-                                                           tcp::resolver::passive, error);
+        const auto found = tcp::resolver(context_).resolve(
+            house_.settings.host, std::to_string(house_.settings.port), tcp::resolver::passive, error);
         if (error)
             return error;
         const tcp::endpoint place = found.begin()->endpoint();
@@ -306,7 +276,8 @@ public:
     }
 
     void start(Guests& guests) override {
-        guests_ = &guests;
+        house_.guests = &guests;
+        house_.is_loopback = is_loopback();
         accept();
         thread_ = std::thread([this] { run(); });
     }
@@ -331,8 +302,6 @@ public:
     }
 
     bool is_loopback() const override { return acceptor_.local_endpoint().address().is_loopback(); }
-    const ServerSettings& settings() const override { return settings_; }
-    Guests& guests() override { return *guests_; }
 
 private:
     void end() {
@@ -377,7 +346,7 @@ private:
             if (connections_.size() >= k_most_connections)
                 close_oldest_stranger();
             if (!error) {
-                const auto connection = std::make_shared<Connection>(std::move(socket), ++last_id_, *this);
+                const auto connection = std::make_shared<Connection>(std::move(socket), ++last_id_, house_);
                 connections_[last_id_] = connection;
                 connection->start();
             }
@@ -395,8 +364,7 @@ private:
             }
     }
 
-    ServerSettings settings_;
-    Guests* guests_ = nullptr; ///< set by start()
+    House house_;
     std::map<ViewerId, std::weak_ptr<Connection>> connections_;
     ViewerId last_id_ = 0;
     asio::io_context context_{1}; ///< destroyed before the members that its handlers use
@@ -419,6 +387,7 @@ Result<std::unique_ptr<Server>> open_server(const ServerSettings& settings) {
 const ServePlugIn k_plug_in{k_serve_version, open_server, encode_jpeg};
 
 } // namespace
+
 } // namespace tidemark::serve
 
 extern "C" __attribute__((visibility("default"))) const void* tidemark_serve() {

@@ -21,7 +21,7 @@ Result<ForkedHelper> echo() {
 }
 
 TEST(Forked, WhatWasToldSurvives) {
-    const auto run = run_forked([](const Tell& tell) { tell("one"), tell("two"); }, 60);
+    const auto run = run_forked([](const Tell& tell) { tell("one"), tell("two"); }, {60});
     ASSERT_TRUE(run);
     EXPECT_EQ(run->output, "one\ntwo\n");
     EXPECT_EQ(run->crash, "");
@@ -31,7 +31,7 @@ TEST(Forked, WhatWasToldSurvives) {
 TEST(Forked, AHelperAnswersItsQuestion) {
     auto helper = echo();
     ASSERT_TRUE(helper);
-    const auto run = helper->ask("how deep?", 60);
+    const auto run = helper->ask("how deep?", {60});
     ASSERT_TRUE(run);
     EXPECT_EQ(run->output, "asked: how deep?\ndone\n");
 }
@@ -67,7 +67,7 @@ TEST(Forked, WhatTheDriverWasAtIsKnown) {
             const Doing compiling("compiling Image");
             ::raise(SIGKILL);
         },
-        60);
+        {60});
     Doing::note_on(nullptr);
     ASSERT_TRUE(run);
     EXPECT_EQ(run->crash, "the driver crashed (SIGKILL) compiling Image");
@@ -75,15 +75,15 @@ TEST(Forked, WhatTheDriverWasAtIsKnown) {
 }
 
 TEST(Forked, ADriverThatEndsTheProcessIsSaid) {
-    const auto run = run_forked([](const Tell&) { ::_exit(66); }, 60);
+    const auto run = run_forked([](const Tell&) { ::_exit(66); }, {60});
     ASSERT_TRUE(run);
     EXPECT_EQ(run->crash, "the driver ended the process (exit code 66)");
-    EXPECT_EQ(run_forked([](const Tell&) {}, 60)->crash, "");
+    EXPECT_EQ(run_forked([](const Tell&) {}, {60})->crash, "");
 }
 
 TEST(Forked, AHelperThatCrashesIsSaid) {
     auto helper = echo();
-    const auto run = helper->ask("crash", 60);
+    const auto run = helper->ask("crash", {60});
     ASSERT_TRUE(run);
     EXPECT_EQ(run->output, "asked: crash\nbefore\n");
     EXPECT_EQ(run->crash, "the driver crashed (SIGKILL)");
@@ -91,7 +91,7 @@ TEST(Forked, AHelperThatCrashesIsSaid) {
 
 TEST(Forked, AHelperHasItsTime) {
     auto helper = echo();
-    const auto run = helper->ask("sleep", 0.2);
+    const auto run = helper->ask("sleep", {0.2});
     ASSERT_TRUE(run);
     EXPECT_TRUE(run->timed_out);
     EXPECT_EQ(run->output, "asked: sleep\ndone\n");
