@@ -1,4 +1,4 @@
-// What the panels show and edit.
+// The contents of the panels, and the edits that they keep.
 #include "support/scene_of.hpp"
 #include "window/overlay.hpp"
 
