@@ -180,6 +180,7 @@ constexpr double k_third = 1.0 / 3;
 } // namespace
 
 std::string where_digits_are_lost(ProbeBench& bench, const Mismatch& mismatch) {
+    constexpr double k_least_lost = 2;
     const auto truth = bench.picture(mismatch.state, glsl::Precision::promoted);
     if (!truth)
         return {};
@@ -196,9 +197,10 @@ std::string where_digits_are_lost(ProbeBench& bench, const Mismatch& mismatch) {
     if (!line)
         return {};
     const SourceLocation& where = line->line.where;
-    return line->lost > 0
-               ? fmt::format("{}:{} loses {:.1f} digits at once", where.file, where.line, line->lost)
-               : fmt::format("{}:{} has {:.1f} digits left", where.file, where.line, line->digits);
+    if (line->lost >= k_least_lost)
+        return fmt::format("{}:{} loses {:.1f} digits at once", where.file, where.line, line->lost);
+    return fmt::format("{}:{} adds so large a number that {:.1f} digits of the other are dropped", where.file,
+                       where.line, line->dropped);
 }
 
 Result<Horizon> find_horizon(ProbeBench& bench) {

@@ -1,4 +1,5 @@
-// Edges in the wrong order, coordinates that jump, whole quotients and negative dividends: what is found, and the fix.
+// Edges in the wrong order, coordinates that jump, whole quotients and negative dividends: what is found, and
+// the fix.
 #include "glsl_support.hpp"
 #include "shader/fixes.hpp"
 #include "shader/undefined_behaviour.hpp"
@@ -28,22 +29,26 @@ std::string without_seams(const std::string& body) {
     const auto read = parsed(k_front + body + " }\n");
     const TreeFacts facts = find_facts(*read);
     std::vector<Cure> cures;
-    for (const JumpingLookUp& each : find_jumping_look_ups(*read, facts, [](std::string_view) { return true; }))
+    for (const JumpingLookUp& each :
+         find_jumping_look_ups(*read, facts, [](std::string_view) { return true; }))
         if (auto cure = smooth_look_up(*read, facts, each))
             cures.push_back(*std::move(cure));
     return fixed(body, cures);
 }
 
 /// With the fix of every site of that kind.
-std::string of_sites(DomainKind kind, const std::string& body) {
+std::string of_sites(DomainKind kind, const std::string& body, bool upper = false) {
     const auto read = parsed(k_front + body + " }\n");
     const TreeFacts facts = find_facts(*read);
     std::vector<Cure> cures;
     for (const DomainSite& site : find_domain_sites(*read, facts, DomainScope::everything))
-        if (site.kind == kind)
-            if (auto cure = kind == DomainKind::whole ? between_whole_quotients(*read, facts, site.node)
-                                                      : unsigned_dividend(*read, facts, site.node))
+        if (site.kind == kind && kind == DomainKind::negative) {
+            if (const auto found = unsigned_dividend(*read, facts, site.node); !found.empty())
+                cures.push_back(upper ? found.back() : found.front());
+        } else if (site.kind == kind) {
+            if (auto cure = between_whole_quotients(*read, facts, site.node))
                 cures.push_back(*std::move(cure));
+        }
     return fixed(body, cures);
 }
 
@@ -61,17 +66,19 @@ TEST(Edges, AreOrderedWhereTheTextStatesThemInTheWrongOrder) {
 
 TEST(Edges, AreLeftWhereTheyAreInOrderOrUnknown) {
     for (const char* const body :
-         {"float f = smoothstep(0.4, 0.5, u.x);", "float f = clamp(u.x, 0.0, 1.0);", "float f = clamp(u.x, u.y, 0.0);",
-          "float e = 0.9; e = 0.1; float f = smoothstep(e, 0.5, u.x);", "float f = clamp(u.x, 0.5, 0.5);"})
+         {"float f = smoothstep(0.4, 0.5, u.x);", "float f = clamp(u.x, 0.0, 1.0);",
+          "float f = clamp(u.x, u.y, 0.0);", "float e = 0.9; e = 0.1; float f = smoothstep(e, 0.5, u.x);",
+          "float f = clamp(u.x, 0.5, 0.5);"})
         EXPECT_EQ(with_ordered_edges(body), body);
 }
 
 TEST(Seams, AreTakenFromTheLookUp) {
     EXPECT_EQ(without_seams("vec4 c = texture(tex, fract(u.xy * 4.0));"),
               "vec4 c = textureGrad(tex, fract(u.xy * 4.0), dFdx((u.xy * 4.0)), dFdy((u.xy * 4.0)));");
-    EXPECT_EQ(without_seams("vec2 q = floor(u.xy * 8.0) / 8.0; vec4 c = texture(tex, q);"),
-              "vec2 q = floor(u.xy * 8.0) / 8.0; vec4 c = textureGrad(tex, q, dFdx(((0.0 * (u.xy * 8.0)) / 8.0)), "
-              "dFdy(((0.0 * (u.xy * 8.0)) / 8.0)));");
+    EXPECT_EQ(
+        without_seams("vec2 q = floor(u.xy * 8.0) / 8.0; vec4 c = texture(tex, q);"),
+        "vec2 q = floor(u.xy * 8.0) / 8.0; vec4 c = textureGrad(tex, q, dFdx(((0.0 * (u.xy * 8.0)) / 8.0)), "
+        "dFdy(((0.0 * (u.xy * 8.0)) / 8.0)));");
     EXPECT_EQ(without_seams("vec4 c = texture(tex, vec2(atan(u.y, u.x), 0.5));"),
               "vec4 c = textureGrad(tex, vec2(atan(u.y, u.x), 0.5), "
               "(dot(dFdx(vec2(atan(u.y, u.x), 0.5)), dFdx(vec2(atan(u.y, u.x), 0.5))) < "
@@ -104,6 +111,8 @@ TEST(WholeQuotients, AreLeftByAHalfWhereTheDividendIsWhole) {
 TEST(NegativeDividends, AreDividedAsMagnitudes) {
     EXPECT_EQ(of_sites(DomainKind::negative, "int i = (n - 5) % 3;"),
               "int i = (sign(n - 5) * (abs((n - 5)) % 3));");
+    EXPECT_EQ(of_sites(DomainKind::negative, "int i = n % 3;", true),
+              "int i = ((n) < 0 ? 3 - 1 - (-1 - (n)) % 3 : n % 3);");
     EXPECT_EQ(of_sites(DomainKind::negative, "int i = 1 + n / 3;"), "int i = 1 + (sign(n) * (abs(n) / 3));");
     for (const char* const body : {"uint i = uint(n) % 3u;", "int i = 7 % 3;", "float f = u.x / 3.0;"})
         EXPECT_EQ(of_sites(DomainKind::negative, body), body);
