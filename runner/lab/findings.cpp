@@ -88,11 +88,10 @@ private:
         const PassText* const pass = text_of(outside.pass);
         if (!pass)
             return;
-        add_once(found_,
-                 found_in_text(Finding::Kind::bounds, outside.sentence,
-                               outside.site.kind == glsl::DomainKind::negative
-                                   ? glsl::unsigned_dividend(*pass->text, pass->facts, outside.site.node)
-                                   : std::nullopt));
+        Finding finding{Finding::Kind::bounds, outside.sentence, {}, {}};
+        if (outside.site.kind == glsl::DomainKind::negative)
+            finding.cures = glsl::unsigned_dividend(*pass->text, pass->facts, outside.site.node);
+        add_once(found_, std::move(finding));
     }
 
     /// Traces a picture that is not finite. Adds the first operation that was not finite and the one whose
@@ -297,7 +296,7 @@ void add_rounding(ProbeBench& bench, CurableFindings& found, const std::vector<P
         {Finding::Kind::rounding,
          fmt::format("at {:.6g} s float and double differ by {:.3g} or more in 1 % of the pixels",
                      horizon->mismatch->state.seconds(), horizon->mismatch->difference),
-         horizon->mismatch->state, std::move(cures), horizon->good == 0});
+         horizon->mismatch->state, std::move(cures)});
 }
 
 /// Adds the hashes of large sines, those in Common only once.

@@ -93,7 +93,8 @@ Result<double> count_wrong_edges(ProbeBench& bench) {
 }
 
 Result<double> count_seams(ProbeBench& bench) {
-    return double(TRY(find_seams(bench, TRY(read_texts(bench, true)))).size());
+    const auto texts = TRY(read_texts(bench, true));
+    return double(TRY(find_seams(bench, texts)).size());
 }
 
 Result<double> undefined_percent(ProbeBench& bench, const std::vector<PictureView>& views) {

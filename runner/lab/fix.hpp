@@ -36,7 +36,6 @@ struct Finding {
     std::string sentence;              ///< the fault and its place
     std::optional<FrameState> where{}; ///< a situation that shows it
     std::vector<glsl::Cure> cures{};   ///< the simplest first; empty: none is known
-    bool only_a_warning = false;       ///< `check` only warns of it: not reported if no fix helps
 };
 
 struct CurableFindings {

@@ -69,6 +69,7 @@ private:
     void count_turns(uint32_t block);
     Turns turns(uint32_t block) const;
     void measure_losses(const ir::LockstepEvaluator& evaluator, uint32_t block);
+    void measure_dropped(const ir::LockstepEvaluator& evaluator, ir::Value value);
     double widening(const ir::Instruction& instruction, double spread) const;
     void compare_conditions(const ir::LockstepEvaluator& evaluator, uint32_t block);
     void compare(const ir::Lockstep& condition, int line, uint32_t block);
@@ -280,6 +281,7 @@ void Recorder::measure_losses(const LockstepEvaluator& evaluator, uint32_t block
         if (instruction.type != Scalar::real || instruction.op == Op::store)
             continue;
         spreads_[value] = ir::relative_spread({&evaluator.value(value).samples, 1});
+        measure_dropped(evaluator, value);
         const double factor = widening(instruction, spreads_[value]);
         if (factor <= 1 || !std::isfinite(evaluator.value(value).in_float.real))
             continue;
@@ -290,6 +292,23 @@ void Recorder::measure_losses(const LockstepEvaluator& evaluator, uint32_t block
             on->traced.lost_turns = turns(block);
         }
     }
+}
+
+/// A sum keeps of its smaller operand only what is above half a unit in the last place of its result.
+void Recorder::measure_dropped(const LockstepEvaluator& evaluator, ir::Value value) {
+    const Instruction& instruction = function_->instructions[value];
+    if (instruction.op != Op::add && instruction.op != Op::subtract)
+        return;
+    const double sum = std::abs(evaluator.value(value).in_float.real);
+    double least = sum;
+    for (const ir::Value operand : function_->operands_of(instruction)) {
+        const double size = std::abs(evaluator.value(operand).in_float.real);
+        if (function_->instructions[operand].op != Op::constant && size > 0)
+            least = std::min(least, size);
+    }
+    const double dropped = sum > 0 && std::isfinite(sum) ? std::log10(sum / least) : 0;
+    if (Line* on = dropped > 0 ? line(instruction.line) : nullptr)
+        on->traced.dropped = std::max(on->traced.dropped, std::min(dropped, ir::k_most_digits));
 }
 
 void Recorder::compare_conditions(const LockstepEvaluator& evaluator, uint32_t block) {
@@ -529,8 +548,9 @@ const TracedLine* most_lossy(const PixelTrace& trace) {
     const auto most = std::ranges::max_element(trace.lines, {}, &TracedLine::lost);
     if (most != trace.lines.end() && most->lost >= k_least)
         return &*most;
-    const auto fewest = std::ranges::min_element(trace.lines, {}, &TracedLine::digits);
-    return fewest != trace.lines.end() && fewest->digits < ir::k_most_digits - k_least ? &*fewest : nullptr;
+    constexpr double k_most_dropped = 4;
+    const auto dropping = std::ranges::max_element(trace.lines, {}, &TracedLine::dropped);
+    return dropping != trace.lines.end() && dropping->dropped >= k_most_dropped ? &*dropping : nullptr;
 }
 
 bool is_as_drawn(const PixelTrace& trace) {

@@ -69,6 +69,8 @@ struct TracedLine {
     Turns fewest_turns{};
     double lost = 0; ///< digits lost by one operation: how many fewer its result has than its operands
     Turns lost_turns{};
+    double dropped =
+        0; ///< most digits of the smaller operand of a sum that its float result has no place for
     std::optional<TracedValue> not_finite{}; ///< the first such value
     Occurrence mismatch{};                   ///< a condition whose value in double differs
     bool float_holds = false;                ///< that condition in float

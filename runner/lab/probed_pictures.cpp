@@ -237,6 +237,7 @@ Result<std::optional<TimeStep>> visible_step(ProbeBench& bench, double seconds, 
 } // namespace
 
 std::string where_digits_are_lost(ProbeBench& bench, const Mismatch& mismatch) {
+    constexpr double k_least_lost = 2;
     const auto truth = bench.picture(mismatch.state, glsl::Precision::promoted);
     if (!truth)
         return {};
@@ -253,9 +254,10 @@ std::string where_digits_are_lost(ProbeBench& bench, const Mismatch& mismatch) {
     if (!line)
         return {};
     const SourceLocation& where = line->line.where;
-    return line->lost > 0
-               ? fmt::format("{}:{} loses {:.1f} digits at once", where.file, where.line, line->lost)
-               : fmt::format("{}:{} has {:.1f} digits left", where.file, where.line, line->digits);
+    if (line->lost >= k_least_lost)
+        return fmt::format("{}:{} loses {:.1f} digits at once", where.file, where.line, line->lost);
+    return fmt::format("{}:{} adds so large a number that {:.1f} digits of the other are dropped", where.file,
+                       where.line, line->dropped);
 }
 
 Result<Horizon> find_horizon(ProbeBench& bench) {

@@ -208,7 +208,9 @@ constexpr double k_fine_trial = 0.1;
 constexpr double k_looking = 0.15, k_alone = 0.45, k_together = 0.7, k_timing = 0.25,
                  k_others = 0.03; ///< `k_others` is for drawing the other views once
 /// The verdict's pictures are made smaller if everything would else take more than this share of the budget.
-constexpr double k_everything = 1.2;
+constexpr double k_everything = 1.1;
+/// The least share of the budget that the verdict's rounds get.
+constexpr double k_least_timing = 0.1;
 /// Savings of single cuts that differ by less than this count as equal.
 constexpr double k_alike = 0.05;
 /// Share of the allowed error that the search may use: moments it did not see rarely have as little error as
@@ -334,9 +336,10 @@ private:
         }
     }
 
-    /// Returns the seconds that are left for the verdict.
+    /// Returns the seconds that are left to time the verdict's pictures, after two programs were compiled.
     double seconds_left() const {
-        return std::max(k_everything * request_.seconds - seconds(), k_timing * request_.seconds);
+        return std::max(k_everything * request_.seconds - seconds() - 2 * longest_trial_,
+                        k_least_timing * request_.seconds);
     }
 
     /// Returns the size of the verdict's pictures: the requested one, or a smaller one of the same shape if
@@ -380,7 +383,7 @@ private:
             study.views.push_back(unseen(last, later * std::max(last.state.seconds(), 1.0)));
         const double needed = double(k_fewest_rounds * (steps_.size() + 1)) * round;
         const Timing timing{steps_.empty() ? size_t(0) : size_t(2), steps_.empty() ? size_t(3) : size_t(30),
-                            std::max(std::min(needed, seconds_left()), k_timing * request_.seconds)};
+                            std::min(std::max(needed, k_timing * request_.seconds), seconds_left())};
         Watch watch = watch_;
         if (!watch_.keep_going()) // a cancelled search still judges its results
             watch.keep_going = [] { return true; };

@@ -22,6 +22,8 @@ namespace {
 
 /// A seam is one or two pixels wide: large enough a picture that mipmaps are read as in an ordinary one.
 constexpr Extent k_seam_extent{320, 180};
+/// Percent of the pixels: fewer are a dot, not a line.
+constexpr double k_least_of_a_seam = 0.1;
 /// Percent of the pixels: where more change, the coordinates jump everywhere, and there is no line to see.
 constexpr double k_most_of_a_seam = 20;
 
@@ -328,7 +330,7 @@ Result<std::vector<Seam>> find_seams(ProbeBench& bench, const std::vector<PassTe
             const image::Image before = TRY(bench.picture(state));
             const auto after = ProbeBench(*scene, bench.promises()).picture(state);
             const double percent = after ? visibly_different_percent(before, *after) : 0;
-            if (percent > 0 && percent < k_most_of_a_seam)
+            if (percent >= k_least_of_a_seam && percent < k_most_of_a_seam)
                 found.push_back(
                     {place, pass.text->spelled(pass.text->tree()[each.call].begin),
                      fmt::format("{}: the coordinates of `{}` jump by {}, so that pixels at the "

@@ -360,19 +360,27 @@ std::vector<Cure> domain_guards(const ParsedText& text, const TreeFacts& facts, 
     return Proposer(text, facts, operation).run();
 }
 
-std::optional<Cure> unsigned_dividend(const ParsedText& text, const TreeFacts& facts, NodeId operation) {
+std::vector<Cure> unsigned_dividend(const ParsedText& text, const TreeFacts& facts, NodeId operation) {
     const SyntaxTree& tree = text.tree();
     if (tree[operation].kind != NodeKind::binary)
-        return std::nullopt;
-    const NodeId left = tree.child(operation, 0);
-    const auto dividend = written_for(text, left, operation), all = written_for(text, operation, operation);
+        return {};
+    const NodeId left = tree.child(operation, 0), right = tree.child(operation, 1);
+    const auto dividend = written_for(text, left, operation), divisor = written_for(text, right, operation),
+               all = written_for(text, operation, operation);
     const auto words = dividend ? said_again(text, facts, left, *dividend) : std::nullopt;
     if (!words || !all)
-        return std::nullopt;
+        return {};
     const std::string once = tree[left].kind == NodeKind::parenthesis ? *words : "(" + *words + ")";
-    return Cure{
-        {wrapped(text, *all, fmt::format("(sign{} * (", once), "))"), wrapped(text, *dividend, "abs(", ")")},
-        "divides the magnitude, then gives it the sign: rounded towards 0, as on this device"};
+    std::vector<Cure> cures{
+        {{wrapped(text, *all, fmt::format("(sign{} * (", once), "))"), wrapped(text, *dividend, "abs(", ")")},
+         "divides the magnitude, then gives it the sign of the dividend"}};
+    const auto type = expression_type(text, facts, left);
+    const auto by = divisor ? said_again(text, facts, right, *divisor) : std::nullopt;
+    if (text.word_of(operation) == "%" && type && type->scalar() && by)
+        cures.push_back(
+            {{wrapped(text, *all, fmt::format("({0} < 0 ? {1} - 1 - (-1 - {0}) % {1} : ", once, *by), ")")},
+             "gives a negative integer the remainder from 0 up"});
+    return cures;
 }
 
 namespace {

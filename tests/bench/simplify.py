@@ -38,7 +38,7 @@ def worst_flip(program, own, cut, moments, folder):
         if not captured(program, own, moment, "own.png", folder) or not captured(program, cut, moment, "cut.png", folder):
             return None
         done = run([program, "compare", "own.png", "cut.png", "--json"], folder, 60)
-        worst = max(worst, (json.loads(done.stdout)["flip"], moment))
+        worst = max(worst, (json.loads(done.stdout)["frames"][0]["flip"], moment))
     return worst
 
 

@@ -42,19 +42,19 @@ class CheckHazards(ProgramTest):
     def fixed(self, text: str, code: int = 0) -> str:
         scene = self.write("a.glsl", text)
         done = self.run_program("check", "--fix", "a.glsl", "--write", *BUDGET)
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        self.assertEqual(done.returncode, code, f"{done.stdout}{done.stderr}")
         return scene.read_text()
 
     def test_remainders_of_negative_integers(self):
         fault = BODY % "int i = (int(p.x) - 20) %% 3; c = vec4(0.3 * abs(float(i)));".replace("%%", "%")
         said = self.finding("bounds", "warn", fault)
         self.assertIn("a.glsl:2: `(int(p.x) - 20) % 3`: the remainder of a negative integer (-", said)
-        self.assertIn("int i = (sign((int(p.x) - 20)) * (abs((int(p.x) - 20)) % 3));", self.fixed(fault))
+        self.assertRegex(self.fixed(fault), r"int i = \((sign\(int\(p.x\) - 20\)|\(int\(p.x\) - 20\) < 0 \?) ")
         self.finding("bounds", "pass", BODY % "int i = int(p.x) % 3; c = vec4(0.3 * float(i));")
 
     def test_divisions_of_negative_integers_that_leave_a_remainder(self):
         said = self.finding("bounds", "warn", BODY % "ivec2 i = (ivec2(p) - 20) / 3; c = vec4(vec2(i), 0.0, 1.0);")
-        self.assertIn("a negative integer (-1) divided with a remainder", said)
+        self.assertIn("a negative integer (-10) divided with a remainder", said)
         self.finding("bounds", "pass", BODY % "ivec2 i = (ivec2(p) - 20) * 3 / 3; c = vec4(vec2(i), 0.0, 1.0);")
 
     def test_the_angle_of_no_direction_in_the_middle_of_an_odd_picture(self):
@@ -116,7 +116,7 @@ class CheckHazards(ProgramTest):
             self.assertRegex(self.finding("horizon", "warn", BODY % body), f"; {line} (loses|has) ")
 
     def test_hashes_of_products_that_a_fused_multiply_add_changes(self):
-        large = "float hash(vec2 p) { p = fract(p * vec2(5.3987, 5.4421)) * 997.0; p += dot(p.yx, p + 21.5351) * 8.1; " \
+        large = "float hash(vec2 p) { p = fract(p * vec2(5.3987, 5.4421)); p += dot(p.yx, p + vec2(21.5351, 14.3137)); " \
                 "return fract(p.x * p.y * 95.4307); }\n"
         self.assertIn("a.glsl:1 hash", self.finding("hashes", "warn", large + BODY % "c = vec4(hash(floor(p)));"))
         self.finding("hashes", "pass", BODY % "c = vec4(fract(p * 0.1031), 0.0, 1.0);")
@@ -134,7 +134,7 @@ class CheckHazards(ProgramTest):
     def test_what_has_no_fix_is_named_with_the_reason(self):
         self.write("a.glsl", HEAT % "0.26")
         done = self.run_program("check", "--fix", "a.glsl", *BUDGET)
-        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertEqual(done.returncode, 1, f"{done.stdout}{done.stderr}")
         self.assertIn("it overflows\n  not fixed: no fix is known", done.stdout)
 
 

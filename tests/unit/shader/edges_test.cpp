@@ -37,15 +37,18 @@ std::string without_seams(const std::string& body) {
 }
 
 /// With the fix of every site of that kind.
-std::string of_sites(DomainKind kind, const std::string& body) {
+std::string of_sites(DomainKind kind, const std::string& body, bool upper = false) {
     const auto read = parsed(k_front + body + " }\n");
     const TreeFacts facts = find_facts(*read);
     std::vector<Cure> cures;
     for (const DomainSite& site : find_domain_sites(*read, facts, DomainScope::everything))
-        if (site.kind == kind)
-            if (auto cure = kind == DomainKind::whole ? between_whole_quotients(*read, facts, site.node)
-                                                      : unsigned_dividend(*read, facts, site.node))
+        if (site.kind == kind && kind == DomainKind::negative) {
+            if (const auto found = unsigned_dividend(*read, facts, site.node); !found.empty())
+                cures.push_back(upper ? found.back() : found.front());
+        } else if (site.kind == kind) {
+            if (auto cure = between_whole_quotients(*read, facts, site.node))
                 cures.push_back(*std::move(cure));
+        }
     return fixed(body, cures);
 }
 
@@ -108,6 +111,8 @@ TEST(WholeQuotients, AreLeftByAHalfWhereTheDividendIsWhole) {
 TEST(NegativeDividends, AreDividedAsMagnitudes) {
     EXPECT_EQ(of_sites(DomainKind::negative, "int i = (n - 5) % 3;"),
               "int i = (sign(n - 5) * (abs((n - 5)) % 3));");
+    EXPECT_EQ(of_sites(DomainKind::negative, "int i = n % 3;", true),
+              "int i = ((n) < 0 ? 3 - 1 - (-1 - (n)) % 3 : n % 3);");
     EXPECT_EQ(of_sites(DomainKind::negative, "int i = 1 + n / 3;"), "int i = 1 + (sign(n) * (abs(n) / 3));");
     for (const char* const body : {"uint i = uint(n) % 3u;", "int i = 7 % 3;", "float f = u.x / 3.0;"})
         EXPECT_EQ(of_sites(DomainKind::negative, body), body);
