@@ -236,28 +236,30 @@ Result<std::optional<TimeStep>> visible_step(ProbeBench& bench, double seconds, 
 
 } // namespace
 
-std::string where_digits_are_lost(ProbeBench& bench, const Mismatch& mismatch) {
+std::optional<LostDigits> where_digits_are_lost(ProbeBench& bench, const Mismatch& mismatch) {
     constexpr double k_least_lost = 2;
     const auto truth = bench.picture(mismatch.state, glsl::Precision::promoted);
     if (!truth)
-        return {};
+        return std::nullopt;
     const std::vector<double> largest = largest_differences(mismatch.floats, *truth);
     const auto worst = int(std::ranges::max_element(largest) - largest.begin());
     const int width = mismatch.floats.extent.width, height = mismatch.floats.extent.height;
     const auto renderer = bench.drawn(mismatch.state);
     if (!renderer)
-        return {};
+        return std::nullopt;
     // Pictures begin with their top row, pixels are counted from the bottom.
     const auto trace = trace_pixel(**renderer, render::inputs_of(mismatch.state),
                                    {.pixel = {worst % width, height - 1 - worst / width}});
     const TracedLine* const line = trace ? most_lossy(*trace) : nullptr;
     if (!line)
-        return {};
+        return std::nullopt;
     const SourceLocation& where = line->line.where;
     if (line->lost >= k_least_lost)
-        return fmt::format("{}:{} loses {:.1f} digits at once", where.file, where.line, line->lost);
-    return fmt::format("{}:{} adds so large a number that {:.1f} digits of the other are dropped", where.file,
-                       where.line, line->dropped);
+        return LostDigits{
+            where, fmt::format("{}:{} loses {:.1f} digits at once", where.file, where.line, line->lost)};
+    return LostDigits{where,
+                      fmt::format("{}:{} adds so large a number that {:.1f} digits of the other are dropped",
+                                  where.file, where.line, line->dropped)};
 }
 
 Result<Horizon> find_horizon(ProbeBench& bench) {

@@ -78,9 +78,15 @@ struct Horizon {
     std::optional<TimeStep> time_step{};
 };
 
+/// A line that loses digits of a pixel, and by what.
+struct LostDigits {
+    SourceLocation where;
+    std::string sentence;
+};
+
 /// Returns where the pixel that differs most loses its digits, by a trace of it, such as `a.glsl:4 loses 6.1
-/// digits`; empty if that cannot be followed.
-std::string where_digits_are_lost(ProbeBench& bench, const Mismatch& mismatch);
+/// digits`; nothing if that cannot be followed.
+std::optional<LostDigits> where_digits_are_lost(ProbeBench& bench, const Mismatch& mismatch);
 
 /// Compares at 1, 10, … 10^6 s (each plus a third). Fails if the scene cannot be drawn, or not in double.
 Result<Horizon> find_horizon(ProbeBench& bench);

@@ -119,6 +119,20 @@ Result<bool> starts_again(ProbeBench& bench, double moment) {
     return moves;
 }
 
+/// Returns the first mismatch from `first` on that is more than barely visible, up to the promised time; if
+/// there is none, `first`.
+Result<Mismatch> noticeable_mismatch(ProbeBench& bench, const Mismatch& first) {
+    Mismatch shown = first;
+    while (shown.difference <= k_noticeable_gap && 10 * shown.seconds <= bench.promises().time_horizon) {
+        shown.seconds *= 10;
+        shown.state = state_at_float(shown.seconds);
+        shown.floats = TRY(bench.picture(shown.state));
+        const auto truth = TRY(bench.picture(shown.state, glsl::Precision::promoted));
+        shown.difference = p99_difference(shown.floats, truth);
+    }
+    return shown.difference > k_noticeable_gap ? shown : first;
+}
+
 } // namespace
 
 Result<Answer> ask_horizon(ProbeBench& bench) {
@@ -136,7 +150,7 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
         return Answer{Verdict::pass, "float and double agree up to 1e6 s" + steps};
     const double good = horizon->good, time = horizon->mismatch->seconds;
     const bool kept = good >= bench.promises().time_horizon;
-    const double gap = horizon->mismatch->difference;
+    const Mismatch shown = TRY(noticeable_mismatch(bench, *horizon->mismatch));
     const std::string found =
         good == 0
             ? fmt::format("float and double differ already at 1 s, by {:.3g} or more in 1 % of the pixels: "
@@ -145,18 +159,19 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
             : fmt::format("at the same iTime, float and double agree up to {:g} s; at {:g} s 1 % of the "
                           "pixels are off by {:.3g} or more",
                           good, time, horizon->mismatch->difference);
-    const std::string line = where_digits_are_lost(bench, *horizon->mismatch);
-    const bool noticeable = gap > k_noticeable_gap;
+    const auto lost = where_digits_are_lost(bench, shown);
+    const bool noticeable = shown.difference > k_noticeable_gap;
     Answer answer{kept                                               ? Verdict::pass
                   : bench.promises().stated.contains("time_horizon") ? Verdict::fail
                   : noticeable                                       ? Verdict::warn
                                                                      : Verdict::note,
-                  found + (line.empty() ? "" : "; " + line) + steps, horizon->mismatch->state,
-                  horizon->mismatch->floats};
+                  found + (lost ? "; " + lost->sentence : "") + steps, shown.state, shown.floats};
     const char* const effect = noticeable ? "the picture breaks up" : "the picture changes a little";
     answer.effect = good == 0 ? fmt::format("{} through the rounding of floats, from the start", effect)
                               : fmt::format("{} within {}: floats have too few digits for iTime", effect,
-                                            duration_in_words(time));
+                                            duration_in_words(shown.seconds));
+    if (lost)
+        add_place(answer, lost->where);
     return answer;
 }
 

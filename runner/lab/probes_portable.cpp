@@ -60,6 +60,8 @@ public:
             return {Verdict::pass, sound + ": " + (hardly.empty() ? "the same picture" : listed(hardly))};
         Answer answer{devices ? Verdict::warn : Verdict::note,
                       "the picture changes visibly with " + listed(visible), k_state, std::move(picture_)};
+        if (!devices)
+            answer.effect = "the picture changes a little with other roundings";
         answer.where->pass = pass_ == bench_.scene().image_index() ? "" : bench_.scene().passes[pass_].name;
         return answer;
     }

@@ -196,13 +196,21 @@ SourceLocation location_of_site(const glsl::ParsedText& text, const glsl::Domain
 
 namespace {
 
-/// Returns whether the variable is read by its own update, as in `sum += x`: then the first update reads no
+/// Returns whether the variable is only ever set by updates, as in `sum += x`: then the first one reads no
 /// value.
-bool is_read_by_update(const glsl::ParsedText& text, const glsl::Unassigned& each) {
+bool is_set_by_updates_only(const glsl::ParsedText& text, const glsl::Unassigned& each) {
     constexpr std::string_view k_updates[] = {"+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "++", "--"};
-    const size_t next = text.tree()[each.at].word + 1;
-    return each.why == glsl::Unassigned::Why::on_some_way && next < text.words().size() &&
-           std::ranges::find(k_updates, text.word(next)) != std::end(k_updates);
+    if (each.why != glsl::Unassigned::Why::on_some_way)
+        return false;
+    const std::string_view name = text.word_of(each.what);
+    bool updated = false;
+    for (size_t i = 0; i + 1 < text.words().size(); ++i)
+        if (text.word(i) == name) {
+            if (text.word(i + 1) == "=")
+                return false;
+            updated |= std::ranges::find(k_updates, text.word(i + 1)) != std::end(k_updates);
+        }
+    return updated;
 }
 
 } // namespace
@@ -222,7 +230,7 @@ Result<Answer> ask_unassigned(ProbeBench& bench) {
             add_place(answer, pass.text->spelled(word_without_value(*pass.text, each)));
             // A path to the others may never be taken.
             if (each.why == glsl::Unassigned::Why::never || each.why == glsl::Unassigned::Why::not_given ||
-                is_read_by_update(*pass.text, each))
+                is_set_by_updates_only(*pass.text, each))
                 answer.verdict = Verdict::warn;
         }
     const std::string_view looked =

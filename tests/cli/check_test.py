@@ -364,7 +364,7 @@ class Check(ProgramTest):
         self.assertEqual(self.verdicts(smooth, "--probe", "sine")["sine"]["verdict"], "pass")
 
     def test_reports_dependence_on_the_last_bit(self):
-        for text, manner in (("fract(p.x * 15625.3 + 0.37)", "fused multiply-add"),
+        for text, manner in (("fract(p.x * 62500.3 + 0.37)", "fused multiply-add"),
                              ("fract(0.3 * p.x + (1e6 + iTime) - (1e6 - iTime))", "sums added in reverse order"),
                              ("fract(1e6 * sqrt(p.x))", "quotients, roots, powers and logarithms a unit off"),
                              ("fract(iTime * 1e5 + p.x)", "iTime, iResolution and iMouse a unit in the last place")):
