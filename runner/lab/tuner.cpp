@@ -45,15 +45,25 @@ struct Stage {
 };
 constexpr Stage k_search{0.15, 0.05, 1, 7}, k_judgement{0.25, 0.1, 1.5, 15};
 
-/// Returns the axes by which a truth becomes stricter. A step that is scaled down reaches less far, so its
-/// scale is held unless the count of the march grows with it.
-std::vector<Axis> axes_of_truth(const std::vector<QualitySetting>& settings) {
-    const bool counts = std::ranges::any_of(settings, [](const QualitySetting& each) {
-        return each.march && each.role == QualitySetting::Role::bound;
-    });
+/// Returns the smallest threshold that the rounding of floats leaves meaningful: the scene's own, or a strict one.
+std::string threshold_for_floats(const QualitySetting& setting) {
+    constexpr double k_strict = 2e-5;
+    const Axis& axis = setting.axis;
+    const std::string own = axis.values[std::min(setting.own, axis.values.size() - 1)];
+    return number_of(own).value_or(0) > 4 * k_strict ? fmt::format("{}", k_strict) : own;
+}
+
+/// Returns the axes by which a truth becomes stricter. A step that is scaled down reaches less far, so its scale
+/// is held unless the count of the march grows with it.
+/// In single precision thresholds are held where floats still come to them.
+std::vector<Axis> axes_of_truth(const std::vector<QualitySetting>& settings, bool in_double) {
+    const bool counts = std::ranges::any_of(
+        settings, [](const QualitySetting& each) { return each.march && each.role == QualitySetting::Role::bound; });
     std::vector<Axis> axes;
     for (const QualitySetting& each : settings)
-        if (counts || each.role != QualitySetting::Role::step)
+        if (!in_double && each.role == QualitySetting::Role::threshold)
+            axes.push_back({each.axis.name, {threshold_for_floats(each)}});
+        else if (counts || each.role != QualitySetting::Role::step)
             axes.push_back(each.axis);
     return axes;
 }
@@ -78,7 +88,14 @@ public:
             if (later == k_later.front() || views.back().state.frame < 120 ||
                 !render::may_have_feedback(scene_))
                 views.push_back(unseen(request_.views.back(), later));
-        Tuned tuned{{TRY(measure(found, request_.extent, std::move(views), k_judgement)), {}}, {}};
+        Findings findings = TRY(measure(found, request_.extent, views, k_judgement));
+        if (const std::string why = blur(findings.set);
+            !why.empty() && !request_.as_it_is && !by_hits() && request_.goal.most_error) {
+            sentences_.push_back("the scene as it is takes the place of a reference: " + why);
+            request_.as_it_is = true;
+            findings = TRY(measure(found, request_.extent, std::move(views), k_judgement));
+        }
+        Tuned tuned{{std::move(findings), {}}, {}};
         TRY(judge(tuned));
         return tuned;
     }
@@ -89,7 +106,7 @@ private:
     Study study(const std::vector<std::vector<Setting>>& points, Extent extent, std::vector<View> views,
                 const Stage& stage) const {
         Study study = study_of(points, request_.settings);
-        study.axes = axes_of_truth(request_.settings);
+        study.axes = axes_of_truth(request_.settings, in_double_);
         study.extent = extent;
         study.views = std::move(views);
         study.rays = by_hits(); // hits need a second program for every point
@@ -440,16 +457,16 @@ Result<ChosenKnobs> choose_knobs(const scene::Scene& scene, std::vector<QualityS
         tries.push_back(std::move(march));
     for (std::vector<QualitySetting>& each : tries) {
         Study small = study_of({}, each);
-        small.axes = axes_of_truth(each);
         small.extent = small_of(study.extent, k_small);
         small.views = study.views;
         small.rays = false;
         small.longest_step = k_longest_trial;
         for (const bool in_double : {false, true}) {
             small.promote = in_double;
+            small.axes = axes_of_truth(each, in_double);
             const auto truth = converged_pictures(scene, small, keep_going);
             if (truth && truth->standard.none.empty() && truth->standard.uncertainty)
-                return ChosenKnobs{std::move(each), std::move(small.axes), false, std::move(chosen.why)};
+                return ChosenKnobs{each, axes_of_truth(each, true), false, std::move(chosen.why)};
             chosen.why = truth ? truth->standard.none : to_string(truth.error());
         }
     }

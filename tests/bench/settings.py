@@ -23,14 +23,15 @@ LOOP = re.compile(r"\b(?:for|while)\s*\(")
 
 
 def is_marcher(text):
-    """A loop that calls a function of the text and advances by what it returned."""
+    """A loop that calls a function of the text at a place along a ray, and advances along it by what it returned."""
     functions = set(re.findall(r"\b(?:float|vec2|vec3|vec4)\s+(\w+)\s*\([^)]*\)\s*\{", text))
     for loop in LOOP.finditer(text):
         body = text[loop.end():loop.end() + 700]
-        answers = {name for name, function in re.findall(r"(\w+)\s*=\s*[^;=]*?(\w+)\s*\(", body) if function in functions}
+        answers = {name for name, function in re.findall(r"(\w+)\s*=\s*(?:[\w.]+\s*\*\s*)?(\w+)\s*\(", body) if function in functions}
         for step in MARCH.finditer(body):
-            words = set(re.findall(r"\w+", step.group(0)))
-            if words & answers and re.search(rf"(\*\s*{step.group(1)}\b|\b{step.group(1)}\s*\*|\(\s*{step.group(1)}\s*[,)])", body):
+            name, words = re.escape(step.group(1)), set(re.findall(r"\w+", step.group(0)))
+            along = rf"\+\s*(?:\w+\s*\*\s*{name}\b|{name}\s*\*\s*\w+)|(?:{'|'.join(map(re.escape, functions)) or '-'})\s*\(\s*{name}\b"
+            if words & answers and re.search(along, body):
                 return True
     return False
 
