@@ -45,7 +45,8 @@ struct Stage {
 };
 constexpr Stage k_search{0.15, 0.05, 1, 7}, k_judgement{0.25, 0.1, 1.5, 15};
 
-/// Returns the smallest threshold that the rounding of floats leaves meaningful: the scene's own, or a strict one.
+/// Returns the smallest threshold that the rounding of floats leaves meaningful: the scene's own, or a strict
+/// one.
 std::string threshold_for_floats(const QualitySetting& setting) {
     constexpr double k_strict = 2e-5;
     const Axis& axis = setting.axis;
@@ -53,12 +54,13 @@ std::string threshold_for_floats(const QualitySetting& setting) {
     return number_of(own).value_or(0) > 4 * k_strict ? fmt::format("{}", k_strict) : own;
 }
 
-/// Returns the axes by which a truth becomes stricter. A step that is scaled down reaches less far, so its scale
-/// is held unless the count of the march grows with it.
-/// In single precision thresholds are held where floats still come to them.
+/// Returns the axes by which a truth becomes stricter. A step that is scaled down reaches less far, so its
+/// scale is held unless the count of the march grows with it. In single precision thresholds are held where
+/// floats still come to them.
 std::vector<Axis> axes_of_truth(const std::vector<QualitySetting>& settings, bool in_double) {
-    const bool counts = std::ranges::any_of(
-        settings, [](const QualitySetting& each) { return each.march && each.role == QualitySetting::Role::bound; });
+    const bool counts = std::ranges::any_of(settings, [](const QualitySetting& each) {
+        return each.march && each.role == QualitySetting::Role::bound;
+    });
     std::vector<Axis> axes;
     for (const QualitySetting& each : settings)
         if (!in_double && each.role == QualitySetting::Role::threshold)
