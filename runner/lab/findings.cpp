@@ -88,10 +88,12 @@ private:
         const PassText* const pass = text_of(outside.pass);
         if (!pass)
             return;
-        Finding finding{Finding::Kind::bounds, outside.sentence, {}, {}};
         if (outside.site.kind == glsl::DomainKind::negative)
-            finding.cures = glsl::unsigned_dividend(*pass->text, pass->facts, outside.site.node);
-        add_once(found_, std::move(finding));
+            add_once(found_,
+                     found_in_text(Finding::Kind::remainder, outside.sentence,
+                                   glsl::unsigned_dividend(*pass->text, pass->facts, outside.site.node)));
+        else
+            add_once(found_, {Finding::Kind::bounds, outside.sentence, {}, {}});
     }
 
     /// Traces a picture that is not finite. Adds the first operation that was not finite and the one whose

@@ -28,7 +28,8 @@ struct Finding {
         divergence, ///< a derivative where neighbouring pixels may have taken another branch
         rounding,   ///< a picture in float that differs from that in double
         hash,       ///< random numbers from large sines
-        bounds,     ///< an index, a shift, an integer division, a texel or a conversion out of bounds
+        bounds,     ///< an index, a shift, a division by 0, a texel or a conversion out of bounds
+        remainder,  ///< an integer division of a negative number
         edges,      ///< clamp or smoothstep with edges in the wrong order
         seam,       ///< a mipmap chosen across a jump of the coordinates
     };

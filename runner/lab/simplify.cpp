@@ -313,10 +313,10 @@ private:
         if (good_.empty())
             return;
         way_.push_back({good_.front()}); // tried alone already
-        std::optional<CutTrial> last;
+        double best = good_.front().time;
         for (const ChosenCut& cut : std::span(good_).subspan(1)) {
             watch_.advance();
-            if (!goes_on(k_together, longest_trial_))
+            if (!goes_on(k_together))
                 break;
             std::vector<ChosenCut> next = way_.back();
             const bool gone = std::ranges::any_of(next, [&](const ChosenCut& other) {
@@ -326,12 +326,10 @@ private:
                 continue;
             std::erase_if(next, [&](const ChosenCut& other) { return is_inside(other.change, cut.change); });
             next.push_back(cut);
-            if (!last)
-                last = tried(bench, changes_of(way_.back()), bench.own());
-            auto trial = tried(bench, changes_of(next), last ? last->specimen : bench.own());
-            if (!trial || trial->time > k_pays)
+            const auto trial = tried(bench, changes_of(next), bench.own());
+            if (!trial || trial->time > k_pays * best)
                 continue;
-            last = std::move(trial);
+            best = trial->time;
             way_.push_back(std::move(next));
         }
     }

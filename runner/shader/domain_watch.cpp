@@ -12,6 +12,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -93,10 +94,15 @@ std::string overloads(const BuiltinFunction& function, std::string_view prefix) 
         "if({4})r={0}undefined(i,{5},r);return r;}}\n",
         prefix, function.name, for_each([&](size_t i) { return fmt::format("float {}", k_names[i]); }),
         for_each([&](size_t i) { return k_names[i]; }), undefined, domain.argument, domain.room);
+    std::set<std::string> seen;
     for (const BuiltinOverload& overload : overloads_of(function)) {
         const auto type = [&](size_t i) { return overload.parameters[i].type; };
         if (overload.parameters.size() != count || overload.result == "float")
             continue;
+        const std::string parameters =
+            for_each([&](size_t i) { return fmt::format("{} {}", type(i), k_names[i]); });
+        if (!seen.insert(parameters).second)
+            continue; // `I I I I` and `I I i i` are one for scalars
         const bool watched = class_of_type(overload.result) == TypeClass::floating;
         std::string parts;
         for (int part = 0; watched && part < value_type(overload.result)->rows; ++part)
@@ -107,10 +113,8 @@ std::string overloads(const BuiltinFunction& function, std::string_view prefix) 
                                  }));
         if (!watched) // clamp of whole numbers
             parts = fmt::format("{}({})", function.name, for_each([&](size_t i) { return k_names[i]; }));
-        text +=
-            fmt::format("{0} {1}{2}({3},int i,inout float m){{return {0}({4});}}\n", overload.result, prefix,
-                        function.name,
-                        for_each([&](size_t i) { return fmt::format("{} {}", type(i), k_names[i]); }), parts);
+        text += fmt::format("{0} {1}{2}({3},int i,inout float m){{return {0}({4});}}\n", overload.result,
+                            prefix, function.name, parameters, parts);
     }
     return text;
 }

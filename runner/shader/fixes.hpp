@@ -50,10 +50,9 @@ std::optional<Cure> initial_value(const ParsedText& text, const TreeFacts& facts
 /// text cannot be changed there. The caller measures whether a guard helps.
 std::vector<Cure> domain_guards(const ParsedText& text, const TreeFacts& facts, NodeId operation);
 
-/// Returns fixes for `a % b` and `a / b` of a negative integer: the value of devices that round towards 0,
-/// and for a remainder also that of devices that give it the sign of b. Both divide numbers that are not
-/// negative.
-std::vector<Cure> unsigned_dividend(const ParsedText& text, const TreeFacts& facts, NodeId operation);
+/// Divides the magnitude of a in `a % b` and `a / b`, where a may be negative, and gives the result the sign
+/// of a: rounded towards 0. Returns nothing for `a %= b`.
+std::optional<Cure> unsigned_dividend(const ParsedText& text, const TreeFacts& facts, NodeId operation);
 
 /// Returns fixes for `mod(a, b)` and `floor(a / b)` of whole numbers, whose quotient a device with
 /// reciprocals may miss: a half is added to a, so that no quotient is a whole number. Nothing if the text

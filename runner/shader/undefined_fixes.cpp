@@ -56,7 +56,7 @@ std::optional<Cure> smooth_look_up(const ParsedText& text, const TreeFacts& fact
         if (fault.other_angle.empty())
             return one;
         const std::string other = fmt::format("{}({})", function, fault.other_angle);
-        return fmt::format("(dot({0}, {0}) < dot({1}, {1}) ? {0} : {1})", one, other);
+        return fmt::format("mix({0}, {1}, step(dot({1}, {1}), dot({0}, {0})))", one, other); // the smaller
     };
     return Cure{{in_place_of(text, {call->first, call->first}, "textureGrad"),
                  wrapped(text, {call->last, call->last},
@@ -360,27 +360,19 @@ std::vector<Cure> domain_guards(const ParsedText& text, const TreeFacts& facts, 
     return Proposer(text, facts, operation).run();
 }
 
-std::vector<Cure> unsigned_dividend(const ParsedText& text, const TreeFacts& facts, NodeId operation) {
+std::optional<Cure> unsigned_dividend(const ParsedText& text, const TreeFacts& facts, NodeId operation) {
     const SyntaxTree& tree = text.tree();
     if (tree[operation].kind != NodeKind::binary)
-        return {};
-    const NodeId left = tree.child(operation, 0), right = tree.child(operation, 1);
-    const auto dividend = written_for(text, left, operation), divisor = written_for(text, right, operation),
-               all = written_for(text, operation, operation);
+        return std::nullopt;
+    const NodeId left = tree.child(operation, 0);
+    const auto dividend = written_for(text, left, operation), all = written_for(text, operation, operation);
     const auto words = dividend ? said_again(text, facts, left, *dividend) : std::nullopt;
     if (!words || !all)
-        return {};
+        return std::nullopt;
     const std::string once = tree[left].kind == NodeKind::parenthesis ? *words : "(" + *words + ")";
-    std::vector<Cure> cures{
-        {{wrapped(text, *all, fmt::format("(sign{} * (", once), "))"), wrapped(text, *dividend, "abs(", ")")},
-         "divides the magnitude, then gives it the sign of the dividend"}};
-    const auto type = expression_type(text, facts, left);
-    const auto by = divisor ? said_again(text, facts, right, *divisor) : std::nullopt;
-    if (text.word_of(operation) == "%" && type && type->scalar() && by)
-        cures.push_back(
-            {{wrapped(text, *all, fmt::format("({0} < 0 ? {1} - 1 - (-1 - {0}) % {1} : ", once, *by), ")")},
-             "gives a negative integer the remainder from 0 up"});
-    return cures;
+    return Cure{
+        {wrapped(text, *all, fmt::format("(sign{} * (", once), "))"), wrapped(text, *dividend, "abs(", ")")},
+        "divides the magnitude, then gives it the sign: rounded towards 0, as most GPUs do"};
 }
 
 namespace {

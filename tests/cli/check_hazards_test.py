@@ -49,7 +49,7 @@ class CheckHazards(ProgramTest):
         fault = BODY % "int i = (int(p.x) - 20) %% 3; c = vec4(0.3 * abs(float(i)));".replace("%%", "%")
         said = self.finding("bounds", "warn", fault)
         self.assertIn("a.glsl:2: `(int(p.x) - 20) % 3`: the remainder of a negative integer (-", said)
-        self.assertRegex(self.fixed(fault), r"int i = \((sign\(int\(p.x\) - 20\)|\(int\(p.x\) - 20\) < 0 \?) ")
+        self.assertIn("int i = (sign(int(p.x) - 20) * (abs((int(p.x) - 20)) % 3));", self.fixed(fault))
         self.finding("bounds", "pass", BODY % "int i = int(p.x) % 3; c = vec4(0.3 * float(i));")
 
     def test_divisions_of_negative_integers_that_leave_a_remainder(self):
@@ -113,7 +113,7 @@ class CheckHazards(ProgramTest):
                            ("float s = 0.0, q = 0.0;\n    for (int i = 0; i < 16; i++) { float x = 1000.0 + 0.05 * "
                             "sin(float(i) + p.x); s += x; q += x * x; }\n    float v = q / 16.0 - (s / 16.0) * (s / 16.0);\n"
                             "    c = vec4(20.0 * sqrt(max(v, 0.0)));", "a.glsl:4")):
-            self.assertRegex(self.finding("horizon", "warn", BODY % body), f"; {line} (loses|has) ")
+            self.assertRegex(self.finding("horizon", "warn", BODY % body), f"; {line} (loses|adds) ")
 
     def test_hashes_of_products_that_a_fused_multiply_add_changes(self):
         large = "float hash(vec2 p) { p = fract(p * vec2(5.3987, 5.4421)); p += dot(p.yx, p + vec2(21.5351, 14.3137)); " \
@@ -135,7 +135,7 @@ class CheckHazards(ProgramTest):
         self.write("a.glsl", HEAT % "0.26")
         done = self.run_program("check", "--fix", "a.glsl", *BUDGET)
         self.assertEqual(done.returncode, 1, f"{done.stdout}{done.stderr}")
-        self.assertIn("it overflows\n  not fixed: no fix is known", done.stdout)
+        self.assertIn("it overflows\n  not fixed: no fix is known", done.stdout.decode())
 
 
 if __name__ == "__main__":

@@ -37,18 +37,15 @@ std::string without_seams(const std::string& body) {
 }
 
 /// With the fix of every site of that kind.
-std::string of_sites(DomainKind kind, const std::string& body, bool upper = false) {
+std::string of_sites(DomainKind kind, const std::string& body) {
     const auto read = parsed(k_front + body + " }\n");
     const TreeFacts facts = find_facts(*read);
     std::vector<Cure> cures;
     for (const DomainSite& site : find_domain_sites(*read, facts, DomainScope::everything))
-        if (site.kind == kind && kind == DomainKind::negative) {
-            if (const auto found = unsigned_dividend(*read, facts, site.node); !found.empty())
-                cures.push_back(upper ? found.back() : found.front());
-        } else if (site.kind == kind) {
-            if (auto cure = between_whole_quotients(*read, facts, site.node))
+        if (site.kind == kind)
+            if (auto cure = kind == DomainKind::whole ? between_whole_quotients(*read, facts, site.node)
+                                                      : unsigned_dividend(*read, facts, site.node))
                 cures.push_back(*std::move(cure));
-        }
     return fixed(body, cures);
 }
 
@@ -81,12 +78,12 @@ TEST(Seams, AreTakenFromTheLookUp) {
         "dFdy(((0.0 * (u.xy * 8.0)) / 8.0)));");
     EXPECT_EQ(without_seams("vec4 c = texture(tex, vec2(atan(u.y, u.x), 0.5));"),
               "vec4 c = textureGrad(tex, vec2(atan(u.y, u.x), 0.5), "
-              "(dot(dFdx(vec2(atan(u.y, u.x), 0.5)), dFdx(vec2(atan(u.y, u.x), 0.5))) < "
-              "dot(dFdx(vec2(atan(-(u.y), -(u.x)), 0.5)), dFdx(vec2(atan(-(u.y), -(u.x)), 0.5))) ? "
-              "dFdx(vec2(atan(u.y, u.x), 0.5)) : dFdx(vec2(atan(-(u.y), -(u.x)), 0.5))), "
-              "(dot(dFdy(vec2(atan(u.y, u.x), 0.5)), dFdy(vec2(atan(u.y, u.x), 0.5))) < "
-              "dot(dFdy(vec2(atan(-(u.y), -(u.x)), 0.5)), dFdy(vec2(atan(-(u.y), -(u.x)), 0.5))) ? "
-              "dFdy(vec2(atan(u.y, u.x), 0.5)) : dFdy(vec2(atan(-(u.y), -(u.x)), 0.5))));");
+              "mix(dFdx(vec2(atan(u.y, u.x), 0.5)), dFdx(vec2(atan(-(u.y), -(u.x)), 0.5)), "
+              "step(dot(dFdx(vec2(atan(-(u.y), -(u.x)), 0.5)), dFdx(vec2(atan(-(u.y), -(u.x)), 0.5))), "
+              "dot(dFdx(vec2(atan(u.y, u.x), 0.5)), dFdx(vec2(atan(u.y, u.x), 0.5))))), "
+              "mix(dFdy(vec2(atan(u.y, u.x), 0.5)), dFdy(vec2(atan(-(u.y), -(u.x)), 0.5)), "
+              "step(dot(dFdy(vec2(atan(-(u.y), -(u.x)), 0.5)), dFdy(vec2(atan(-(u.y), -(u.x)), 0.5))), "
+              "dot(dFdy(vec2(atan(u.y, u.x), 0.5)), dFdy(vec2(atan(u.y, u.x), 0.5))))));");
 }
 
 TEST(Seams, AreNotSeenWhereCoordinatesAreSmoothOrUnknown) {
@@ -111,8 +108,6 @@ TEST(WholeQuotients, AreLeftByAHalfWhereTheDividendIsWhole) {
 TEST(NegativeDividends, AreDividedAsMagnitudes) {
     EXPECT_EQ(of_sites(DomainKind::negative, "int i = (n - 5) % 3;"),
               "int i = (sign(n - 5) * (abs((n - 5)) % 3));");
-    EXPECT_EQ(of_sites(DomainKind::negative, "int i = n % 3;", true),
-              "int i = ((n) < 0 ? 3 - 1 - (-1 - (n)) % 3 : n % 3);");
     EXPECT_EQ(of_sites(DomainKind::negative, "int i = 1 + n / 3;"), "int i = 1 + (sign(n) * (abs(n) / 3));");
     for (const char* const body : {"uint i = uint(n) % 3u;", "int i = 7 % 3;", "float f = u.x / 3.0;"})
         EXPECT_EQ(of_sites(DomainKind::negative, body), body);
