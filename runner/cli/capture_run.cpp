@@ -120,8 +120,9 @@ std::string Capture::cut_loops_warning() {
     if (!limit || !*limit)
         return {};
     const auto cut = lab::cut_loops(renderer_, inputs_of(plan_.states(plan_.frames.frames.back())), true);
-    return cut && !cut->empty() ? "warning: " + lab::to_string(*cut, **limit) + ": the picture is incomplete here"
-                                : std::string();
+    return cut && !cut->empty()
+               ? "warning: " + lab::to_string(*cut, **limit) + ": the picture is incomplete here"
+               : std::string();
 }
 
 Capture::Capture(const CapturePlan& plan, Trial& compiled, std::filesystem::path sound)

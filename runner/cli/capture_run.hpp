@@ -99,8 +99,8 @@ public:
     size_t whole_frames();
 
     const FrameRecords& records() const { return delivery_.records(); }
-    /// Returns a warning if the driver cuts loops in the last frame; empty if not. It draws nothing unless the
-    /// text's loops may have more iterations than any driver is known to allow.
+    /// Returns a warning if the driver cuts loops in the last frame; empty if not. It draws nothing unless
+    /// the text's loops may have more iterations than any driver is known to allow.
     std::string cut_loops_warning();
     /// Valid for a complete sequence.
     const LoopCheck& loop() const { return loop_; }

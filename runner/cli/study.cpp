@@ -224,9 +224,7 @@ void add_study(Command app, Action& chosen) {
             "Settings of the reference [the strictest, made stricter until the picture no longer changes]")
         .type_name("NAME=V,...")
         .repeatable();
-    command
-        .add_option("--even", options->even,
-                    "A knob that takes even values only, as Simpson's rule does")
+    command.add_option("--even", options->even, "A knob that takes even values only, as Simpson's rule does")
         .type_name("NAME")
         .repeatable();
     command.add_option("--size", options->size, "Resolution in pixels [320x180]").type_name("WxH");

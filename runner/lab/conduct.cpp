@@ -160,8 +160,8 @@ private:
             const auto own = std::ranges::find(set().scene_values, setting.name, &Setting::name);
             const auto number = number_of(setting.value);
             return own != set().scene_values.end() &&
-                   (own->value == setting.value ||
-                    (number && number == number_of(own->value) && is_int(setting.value) == is_int(own->value)));
+                   (own->value == setting.value || (number && number == number_of(own->value) &&
+                                                    is_int(setting.value) == is_int(own->value)));
         });
     }
 

@@ -53,7 +53,7 @@ struct HitErrors {
     /// Upper 95 % bound of `wrong_tenth` if `no_truth` is not 0, else equal to it.
     double most_wrong_tenth = 0;
     double least_wrong_tenth = 0; ///< the lower bound
-    double wrong_footprint = 0; ///< the same with an error above the width of a pixel at that distance
+    double wrong_footprint = 0;   ///< the same with an error above the width of a pixel at that distance
     double no_answer = 0;
     // Percent of all pixels:
     double exhausted = 0;

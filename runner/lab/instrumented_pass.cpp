@@ -149,9 +149,11 @@ void for_each_block(Extent extent, Draw draw) {
     for (int row = 0; row < k_rows; ++row)
         for (int column = 0; column < k_columns; ++column) {
             const auto first = [](int at, int count, int size) {
-                return std::clamp((2 * at + 1) * size / (2 * count) - k_block / 2, 0, std::max(size - k_block, 0));
+                return std::clamp((2 * at + 1) * size / (2 * count) - k_block / 2, 0,
+                                  std::max(size - k_block, 0));
             };
-            glScissor(first(column, k_columns, extent.width), first(row, k_rows, extent.height), k_block, k_block);
+            glScissor(first(column, k_columns, extent.width), first(row, k_rows, extent.height), k_block,
+                      k_block);
             draw();
         }
     glDisable(GL_SCISSOR_TEST);
@@ -200,8 +202,9 @@ Result<std::vector<LoopEnd>> loop_ends(const PassPreview& preview, bool sampled)
             stand_in.draw(preview, face);
     const std::vector<uint32_t> words = buffer.read();
     for (size_t i = 0; i < ends.loops.size(); ++i)
-        found.push_back({text->spelled(text->tree()[ends.loops[i]].begin), glsl::words_of(*text, ends.loops[i]),
-                         words[glsl::LoopEnds::cut(i)] != 0, words[glsl::LoopEnds::counted_out(i)] != 0});
+        found.push_back({text->spelled(text->tree()[ends.loops[i]].begin),
+                         glsl::words_of(*text, ends.loops[i]), words[glsl::LoopEnds::cut(i)] != 0,
+                         words[glsl::LoopEnds::counted_out(i)] != 0});
     return found;
 }
 
@@ -209,7 +212,8 @@ Result<std::vector<SourceLocation>> cut_loops(render::Renderer& renderer, const 
                                               bool sampled) {
     std::vector<SourceLocation> cut;
     for (const render::PlannedPass& planned : renderer.plan().passes) {
-        if (!may_exceed(renderer.scene(), renderer.scene().passes[planned.pass], renderer.dialect(planned.pass)))
+        if (!may_exceed(renderer.scene(), renderer.scene().passes[planned.pass],
+                        renderer.dialect(planned.pass)))
             continue;
         const PassPreview preview(renderer, planned.pass, inputs);
         for (LoopEnd& end : TRY(loop_ends(preview, sampled)))
@@ -243,8 +247,9 @@ Result<Answer> ask_loop_ends(ProbeBench& bench) {
 std::string to_string(const std::vector<SourceLocation>& cut, double limit) {
     const std::string others =
         cut.size() > 1 ? fmt::format(" (and {} other{})", cut.size() - 1, cut.size() > 2 ? "s" : "") : "";
-    return fmt::format("the driver ends a pixel's loops after {:.0f} iterations together: the loop at {}:{}{} is cut",
-                       limit, cut.front().file, cut.front().line, others);
+    return fmt::format(
+        "the driver ends a pixel's loops after {:.0f} iterations together: the loop at {}:{}{} is cut", limit,
+        cut.front().file, cut.front().line, others);
 }
 
 } // namespace tidemark::lab

@@ -259,8 +259,8 @@ void find_idle(WorkPrecisionSet& set, const std::vector<Sight>& sights) {
 
 namespace {
 
-/// Errors of random samples fall so slowly that a truth is hardly ten times as exact: with too few solid points,
-/// those with an error of this many uncertainties of the reference tell the order, too.
+/// Errors of random samples fall so slowly that a truth is hardly ten times as exact: with too few solid
+/// points, those with an error of this many uncertainties of the reference tell the order, too.
 constexpr double k_solid_enough = 3;
 
 bool tells_order(const WorkPrecisionSet& set, const WorkPrecision& point, bool solid) {
@@ -269,7 +269,8 @@ bool tells_order(const WorkPrecisionSet& set, const WorkPrecision& point, bool s
 }
 
 /// Returns the curves of a series over its last knob.
-std::vector<Curve> curves_of(const WorkPrecisionSet& set, size_t series, const std::string& knob, bool solid) {
+std::vector<Curve> curves_of(const WorkPrecisionSet& set, size_t series, const std::string& knob,
+                             bool solid) {
     std::vector<Curve> curves;
     for (const WorkPrecision& point : set.points) {
         if (point.point.series != series || !point.measured())
@@ -283,7 +284,8 @@ std::vector<Curve> curves_of(const WorkPrecisionSet& set, size_t series, const s
         const std::string text = value_at(set, point.point, knob);
         const auto value = number_of(text);
         const double error = error_of(set, point.all);
-        if (!tells_order(set, point, solid) || !value || !(*value > 0) || !(error > 0) || !std::isfinite(error))
+        if (!tells_order(set, point, solid) || !value || !(*value > 0) || !(error > 0) ||
+            !std::isfinite(error))
             continue;
         curve->knob.push_back(std::log(*value));
         curve->error.push_back(std::log(error));
@@ -304,8 +306,8 @@ void observe_orders(WorkPrecisionSet& set) {
                                  wider = curves_of(set, series, knob, false);
         for (size_t i = 0; i < solid.size(); ++i)
             if (solid[i].points >= k_fewest_points) {
-                const bool enough = solid[i].knob.size() >= k_fewest_points ||
-                                    wider[i].knob.size() < k_fewest_points;
+                const bool enough =
+                    solid[i].knob.size() >= k_fewest_points || wider[i].knob.size() < k_fewest_points;
                 set.orders.push_back(order_of(enough ? solid[i] : wider[i], knob, truth));
                 set.orders.back().series = set.study.series[series].name;
             }

@@ -162,10 +162,10 @@ private:
                 if (!tokens_[i].is("+") || !tokens_[i + 1].is("=") ||
                     tokens_[i - 1].kind != text::TokenKind::identifier)
                     continue;
-                const bool advances = calls_function(i, end) ||
-                                      std::ranges::any_of(answers, [&](std::string_view name) {
-                                          return mentions(i + 2, end, name);
-                                      });
+                const bool advances =
+                    calls_function(i, end) || std::ranges::any_of(answers, [&](std::string_view name) {
+                        return mentions(i + 2, end, name);
+                    });
                 found = found || (advances && is_used_beside(loop, tokens_[i - 1].text, begin, end));
             }
         });
@@ -247,7 +247,8 @@ void add_functions(const text::MappedText& text, std::set<std::string, std::less
     const auto tokens = text::tokenize(text.text());
     for (size_t i = 1; i + 1 < tokens.size(); ++i)
         if (tokens[i - 1].kind == text::TokenKind::identifier && !tokens[i - 1].is("return") &&
-            !tokens[i - 1].is("else") && tokens[i].kind == text::TokenKind::identifier && tokens[i + 1].is("("))
+            !tokens[i - 1].is("else") && tokens[i].kind == text::TokenKind::identifier &&
+            tokens[i + 1].is("("))
             names.insert(std::string(tokens[i].text));
 }
 
@@ -325,13 +326,15 @@ std::vector<QualitySetting> longest_marches(std::vector<Literal> literals, const
     constexpr double k_fewest_steps = 12; // shorter loops that advance by a function warp a pattern
     const auto count = [](const Literal& each) { return number_of(each.text).value_or(0); };
     std::erase_if(literals, [&](const Literal& each) {
-        return each.use.role != Role::bound || count(each) < k_fewest_steps || count(each) > traits(Role::bound).most ||
+        return each.use.role != Role::bound || count(each) < k_fewest_steps ||
+               count(each) > traits(Role::bound).most ||
                (scene.image().bare_file && each.where.file != scene.file.string());
     });
     std::ranges::stable_sort(literals, std::greater<>(), count);
     std::vector<QualitySetting> found;
     for (const Literal& each : literals) {
-        auto setting = found.size() < k_most ? around(place_name(each.where), each.text, each.use) : std::nullopt;
+        auto setting =
+            found.size() < k_most ? around(place_name(each.where), each.text, each.use) : std::nullopt;
         if (!setting)
             continue;
         setting->why = fmt::format("{}, which bounds the march", each.text);
@@ -376,9 +379,9 @@ QualitySettings quality_settings(const scene::Scene& scene, const std::optional<
             settings.found.push_back(*std::move(setting));
     if (!march)
         for (QualitySetting& setting : longest_marches(literals, scene))
-            if (std::ranges::find(settings.found, setting.axis.name,
-                                  [](const QualitySetting& each) { return each.axis.name; }) ==
-                settings.found.end())
+            if (std::ranges::find(settings.found, setting.axis.name, [](const QualitySetting& each) {
+                    return each.axis.name;
+                }) == settings.found.end())
                 settings.found.push_back(std::move(setting));
     if (const auto words = compiled_words(scene))
         std::erase_if(settings.found,

@@ -340,7 +340,8 @@ void mainImage(out vec4 tidemark_c, in vec2 tidemark_p) {{
 
 } // namespace
 
-std::optional<scene::Scene> with_nudged_buffers(scene::Scene scene, glsl::Precision precision, double& share) {
+std::optional<scene::Scene> with_nudged_buffers(scene::Scene scene, glsl::Precision precision,
+                                                double& share) {
     const Nudge& nudge = precision == glsl::Precision::single ? k_float_nudge : k_double_nudge;
     share = nudge.share;
     constexpr const char* k_own = "tidemark_exact_image";

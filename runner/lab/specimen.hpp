@@ -147,9 +147,9 @@ private:
     bool own_text_only_ = false;                            ///< the driver rejects the text with uniforms
 };
 
-/// Returns the scene with each value of its buffers changed by about the rounding of a float, in pseudo-random
-/// directions; nullopt if a buffer has no mainImage of its own. `share` of the picture's change stands for the
-/// effect of rounding itself.
+/// Returns the scene with each value of its buffers changed by about the rounding of a float, in
+/// pseudo-random directions; nullopt if a buffer has no mainImage of its own. `share` of the picture's change
+/// stands for the effect of rounding itself.
 std::optional<scene::Scene> with_nudged_buffers(scene::Scene scene, glsl::Precision precision, double& share);
 
 } // namespace tidemark::lab

@@ -336,9 +336,8 @@ public:
         each(json, "omissions", "", [&](const Json& item, const std::string& at) {
             study.omissions.push_back(string_of(item, at));
         });
-        each(json, "even", "", [&](const Json& item, const std::string& at) {
-            study.even.push_back(string_of(item, at));
-        });
+        each(json, "even", "",
+             [&](const Json& item, const std::string& at) { study.even.push_back(string_of(item, at)); });
         if (json.contains("promise"))
             study.promise = promise(json["promise"]);
         if (error_)

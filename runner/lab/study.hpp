@@ -87,10 +87,10 @@ struct Study {
     std::vector<std::string> omissions; ///< parts of the scene that were left out, and why
     Promise promise;
     std::vector<std::string> even; ///< knobs whose values must be even, as Simpson's rule wants it
-    bool as_it_is = false; ///< the pictures' truth is the unchanged scene
-    bool promote = true; ///< the pictures' truth is drawn in double if possible
-    int first_step = 0;  ///< of the ladder of ever stricter settings, if earlier ones are known to differ
-    bool rays = true; ///< also measures hits, if the scene provides them
+    bool as_it_is = false;         ///< the pictures' truth is the unchanged scene
+    bool promote = true;           ///< the pictures' truth is drawn in double if possible
+    int first_step = 0; ///< of the ladder of ever stricter settings, if earlier ones are known to differ
+    bool rays = true;   ///< also measures hits, if the scene provides them
     /// Seconds. A step of the reference pictures' ladder that takes longer is its last: the next one would
     /// take twice as long, in doubles several times.
     double longest_step = 10;

@@ -350,11 +350,12 @@ private:
                 return {{}, fmt::format("it could not be drawn with {}", to_string(settings)), false};
             const double change = apart(what, last_, *other);
             if (!(change <= rounding(what)))
-                return {{},
-                        fmt::format("it does not converge: {} and {} show the same, but {} differs by {:.2g}{}",
-                                    to_string(strictest(study_, step_ - 1)), to_string(last_.settings),
-                                    to_string(settings), change, question_of_even(what, step)),
-                        false};
+                return {
+                    {},
+                    fmt::format("it does not converge: {} and {} show the same, but {} differs by {:.2g}{}",
+                                to_string(strictest(study_, step_ - 1)), to_string(last_.settings),
+                                to_string(settings), change, question_of_even(what, step)),
+                    false};
             same_bits = same_bits && change == 0;
             still.how += fmt::format("; {} shows the same", to_string(settings));
         }
@@ -366,8 +367,8 @@ private:
         return look_back(what, std::move(still));
     }
 
-    /// If settings beside the ladder differ only where an even number became odd, returns the question whether
-    /// it must be even.
+    /// If settings beside the ladder differ only where an even number became odd, returns the question
+    /// whether it must be even.
     std::string question_of_even(What what, int step) {
         Study even = study_;
         for (const std::string& name : knobs_with_even_values(study_))
@@ -482,9 +483,10 @@ private:
             return;
         }
         const double rounding = share * change;
-        standard.check += fmt::format("; its buffers are stored as floats, which rounds the picture by {:.2g}, "
-                                      "as trial changes of them show",
-                                      rounding);
+        standard.check +=
+            fmt::format("; its buffers are stored as floats, which rounds the picture by {:.2g}, "
+                        "as trial changes of them show",
+                        rounding);
         if (standard.uncertainty)
             *standard.uncertainty += rounding;
     }
@@ -527,7 +529,7 @@ private:
     std::string not_promoted_;
     std::string stopped_;   ///< why the ladder ends although it could continue
     bool at_limit_ = false; ///< the driver would cut loops one step further
-    Shown first_;         ///< the requested settings, or the study's strictest
+    Shown first_;           ///< the requested settings, or the study's strictest
     Shown last_;
     int step_ = 0; ///< step of `last_`
     std::map<std::string, std::optional<Shown>> beside_;

@@ -118,13 +118,15 @@ std::string blur_of(const WorkPrecisionSet& set, Measure measure, double most) {
     if (!(most > 0))
         return "its error cannot be told from 0: allow one with --max-error";
     if (measure == Measure::rmse)
-        return *own < most ? ""
-                           : fmt::format("the reference's own error (RMSE {}) is not below the requested error ({})",
-                                         figure(*own), figure(most));
+        return *own < most
+                   ? ""
+                   : fmt::format("the reference's own error (RMSE {}) is not below the requested error ({})",
+                                 figure(*own), figure(most));
     const double enough = *sharpness({measure, most, {}});
-    return *own <= enough ? ""
-                          : fmt::format("the reference's own error (RMSE {}) is more than {}, which FLIP {} needs",
-                                        figure(*own), figure(enough), figure(most));
+    return *own <= enough
+               ? ""
+               : fmt::format("the reference's own error (RMSE {}) is more than {}, which FLIP {} needs",
+                             figure(*own), figure(enough), figure(most));
 }
 
 const WorkPrecision* best_by(const WorkPrecisionSet& set, const Goal& goal) {

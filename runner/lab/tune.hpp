@@ -78,9 +78,9 @@ struct SearchOutcome {
 
 struct QualitySetting {
     enum class Role { bound, threshold, step };
-    Axis axis;          ///< from the coarsest value to the strictest
-    size_t own = 0;     ///< index of the scene's own value; the number of values if it is not among them
-    std::string why{};  ///< for example "bounds the march at a.glsl:12"
+    Axis axis;         ///< from the coarsest value to the strictest
+    size_t own = 0;    ///< index of the scene's own value; the number of values if it is not among them
+    std::string why{}; ///< for example "bounds the march at a.glsl:12"
     Role role = Role::bound;
     bool march = false; ///< it belongs to the marching loop, whatever its name is
 };
@@ -146,9 +146,9 @@ Result<Tuned> tune(const scene::Scene& scene, TuneRequest request, const Watch& 
 /// A study of the scene's own quality settings, one curve each.
 struct ChosenKnobs {
     std::vector<QualitySetting> settings{};
-    std::vector<Axis> axes{};  ///< of the truth
-    bool as_it_is = false;     ///< no truth converges: the scene as it is takes its place
-    std::string why{};         ///< why settings were left out, or why there is no truth; empty: all have one
+    std::vector<Axis> axes{}; ///< of the truth
+    bool as_it_is = false;    ///< no truth converges: the scene as it is takes its place
+    std::string why{};        ///< why settings were left out, or why there is no truth; empty: all have one
 };
 
 /// Chooses the knobs of a study without any: those whose small pictures converge together; else those of the

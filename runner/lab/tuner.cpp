@@ -31,7 +31,7 @@ constexpr double k_proof = 0.05;
 /// Combinations that are measured at full size.
 constexpr size_t k_judged = 3;
 /// A truth in single precision is tried first if errors below this, RMSE, need not be told apart.
-constexpr double k_float_will_do = 1e-3;
+constexpr double k_float_will_do = 1e-4;
 /// Seconds that a step of a small truth may take while knobs are chosen.
 constexpr double k_longest_trial = 3;
 /// Gains below this are not worth a change.
@@ -45,7 +45,8 @@ struct Stage {
 };
 constexpr Stage k_search{0.15, 0.05, 1, 7}, k_judgement{0.25, 0.1, 1.5, 15};
 
-/// Returns the smallest threshold that the rounding of floats leaves meaningful: the scene's own, or a strict one.
+/// Returns the smallest threshold that the rounding of floats leaves meaningful: the scene's own, or a strict
+/// one.
 std::string threshold_for_floats(const QualitySetting& setting) {
     constexpr double k_strict = 2e-5;
     const Axis& axis = setting.axis;
@@ -53,12 +54,13 @@ std::string threshold_for_floats(const QualitySetting& setting) {
     return number_of(own).value_or(0) > 4 * k_strict ? fmt::format("{}", k_strict) : own;
 }
 
-/// Returns the axes by which a truth becomes stricter. A step that is scaled down reaches less far, so its scale
-/// is held unless the count of the march grows with it.
-/// In single precision thresholds are held where floats still come to them.
+/// Returns the axes by which a truth becomes stricter. A step that is scaled down reaches less far, so its
+/// scale is held unless the count of the march grows with it. In single precision thresholds are held where
+/// floats still come to them.
 std::vector<Axis> axes_of_truth(const std::vector<QualitySetting>& settings, bool in_double) {
-    const bool counts = std::ranges::any_of(
-        settings, [](const QualitySetting& each) { return each.march && each.role == QualitySetting::Role::bound; });
+    const bool counts = std::ranges::any_of(settings, [](const QualitySetting& each) {
+        return each.march && each.role == QualitySetting::Role::bound;
+    });
     std::vector<Axis> axes;
     for (const QualitySetting& each : settings)
         if (!in_double && each.role == QualitySetting::Role::threshold)
@@ -85,7 +87,8 @@ public:
         found = TRY(screened(std::move(found)));
         std::vector<View> views = request_.views;
         for (const double later : k_later)
-            if (later == k_later.front() || views.back().state.frame < 120 || !render::may_have_feedback(scene_))
+            if (later == k_later.front() || views.back().state.frame < 120 ||
+                !render::may_have_feedback(scene_))
                 views.push_back(unseen(request_.views.back(), later));
         Findings findings = TRY(measure(found, request_.extent, views, k_judgement));
         if (const std::string why = blur(findings.set);
@@ -156,12 +159,10 @@ private:
         return findings;
     }
 
-    Extent small() const {
-        return small_of(request_.extent, request_.as_it_is ? k_small_as_it_is : k_small);
-    }
+    Extent small() const { return small_of(request_.extent, request_.as_it_is ? k_small_as_it_is : k_small); }
 
-    /// Studies the single values. Without a truth for all settings, takes only those of the march; without one
-    /// for them, the scene as it is becomes the truth if an error was given.
+    /// Studies the single values. Without a truth for all settings, takes only those of the march; without
+    /// one for them, the scene as it is becomes the truth if an error was given.
     Result<WorkPrecisionSet> explore() {
         if (by_hits())
             return explore_hits();
@@ -194,8 +195,8 @@ private:
     }
 
     void say_why_only_march(const std::string& why) {
-        sentences_.push_back("only the march's own settings were varied: for the others there is no reference (" +
-                             why + ")");
+        sentences_.push_back(
+            "only the march's own settings were varied: for the others there is no reference (" + why + ")");
     }
 
     /// Finds small pictures to which the scene converges, in single precision if that is enough.
@@ -323,9 +324,8 @@ private:
         for (const WorkPrecision* point : points)
             if (kept.size() < k_judged)
                 kept.push_back(point->point.settings);
-        const auto exact = std::ranges::min_element(points, {}, [&](const WorkPrecision* point) {
-            return error_by(measure, point->all);
-        });
+        const auto exact = std::ranges::min_element(
+            points, {}, [&](const WorkPrecision* point) { return error_by(measure, point->all); });
         if (exact != points.end() && std::ranges::find(kept, (*exact)->point.settings) == kept.end())
             kept.back() = (*exact)->point.settings;
         return kept;

@@ -26,9 +26,9 @@ struct Outcome {
     size_t no_truth = 0;           ///< number of pixels without a truth
     std::optional<HitErrors> hits; ///< set if the scene's and the true hits are known
     std::array<size_t, k_causes> causes{};
-    TimeSummary wall; ///< wall clock, milliseconds a frame
-    TimeSummary cpu;  ///< CPU time of the process
-    TimeSummary gpu;  ///< the driver's timer, if it is trusted; else without runs
+    TimeSummary wall;    ///< wall clock, milliseconds a frame
+    TimeSummary cpu;     ///< CPU time of the process
+    TimeSummary gpu;     ///< the driver's timer, if it is trusted; else without runs
     bool by_cpu = false; ///< the study compares CPU times
 
     /// Returns the time by the clock that the study uses.

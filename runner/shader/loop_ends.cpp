@@ -72,7 +72,8 @@ public:
         for (NodeId id = 1; id < tree_.nodes.size(); ++id) // inner nodes come before outer ones
             visit(id);
         result_.text = headers_with_buffers(text_) +
-                       spell(k_ends_prelude, prefix_, fmt::format("{}", result_.loops.size())) + edits_.text();
+                       spell(k_ends_prelude, prefix_, fmt::format("{}", result_.loops.size())) +
+                       edits_.text();
         return std::move(result_);
     }
 
@@ -87,7 +88,8 @@ private:
         for (NodeId id = tree_[jump].parent; id != k_no_node; id = tree_[id].parent) {
             if (is_loop_node(tree_[id].kind))
                 return id;
-            if (tree_[id].kind == NodeKind::function || (tree_[id].kind == NodeKind::switch_on && !leaves_function))
+            if (tree_[id].kind == NodeKind::function ||
+                (tree_[id].kind == NodeKind::switch_on && !leaves_function))
                 return k_no_node;
         }
         return k_no_node;
@@ -121,10 +123,11 @@ private:
         if (left == k_no_node)
             return;
         const size_t index = index_of(left);
-        edits_.wrap(id,
-                    fmt::format("{{{0}open[{1}]=false;{2}", prefix_, index,
-                                tests_a_count(id, left) ? fmt::format("{}counts({},false);", prefix_, index) : ""),
-                    "}");
+        edits_.wrap(
+            id,
+            fmt::format("{{{0}open[{1}]=false;{2}", prefix_, index,
+                        tests_a_count(id, left) ? fmt::format("{}counts({},false);", prefix_, index) : ""),
+            "}");
     }
 
     void loop(NodeId id) {

@@ -26,7 +26,7 @@ MARCH = """void mainImage(out vec4 c, in vec2 f) {
     c = vec4(vec3(t / 20.0), 1.0);
 }
 """
-QUICK = ("--size", "48x27", "--budget", "10")
+QUICK = ("--size", "48x27", "--budget", "40")
 
 
 class Tune(ProgramTest):

@@ -145,23 +145,24 @@ TEST(QualitySettings, are_no_counts_that_define_the_picture) {
 }
 
 TEST(QualitySettings, of_loops_that_look_like_marches_are_found_without_analysis) {
-    const auto settings = found_in("#define LAYERS 70\n"
-                                   "float field(vec3 p) { return length(p) - 1.0; }\n"
-                                   "float noise(vec3 p) { return p.x; }\n"
-                                   "float march(vec3 o, vec3 r) {\n"
-                                   "    float t = 0.0;\n"
-                                   "    for (int i = 0; i < 96; i++) {\n"
-                                   "        float d = field(o + t * r);\n"
-                                   "        t += 0.7 * d;\n"
-                                   "    }\n"
-                                   "    for (int i = 0; i < LAYERS; i++) { vec3 p = o + t * r; t += field(p); }\n"
-                                   "    return t;\n"
-                                   "}\n"
-                                   "float sum(vec3 p) {\n"
-                                   "    float f = 0.0, a = 0.5;\n"
-                                   "    for (int i = 0; i < 60; i++) { f += a * noise(p); p *= 2.0; a *= 0.5; }\n"
-                                   "    return f;\n"
-                                   "}\n");
+    const auto settings =
+        found_in("#define LAYERS 70\n"
+                 "float field(vec3 p) { return length(p) - 1.0; }\n"
+                 "float noise(vec3 p) { return p.x; }\n"
+                 "float march(vec3 o, vec3 r) {\n"
+                 "    float t = 0.0;\n"
+                 "    for (int i = 0; i < 96; i++) {\n"
+                 "        float d = field(o + t * r);\n"
+                 "        t += 0.7 * d;\n"
+                 "    }\n"
+                 "    for (int i = 0; i < LAYERS; i++) { vec3 p = o + t * r; t += field(p); }\n"
+                 "    return t;\n"
+                 "}\n"
+                 "float sum(vec3 p) {\n"
+                 "    float f = 0.0, a = 0.5;\n"
+                 "    for (int i = 0; i < 60; i++) { f += a * noise(p); p *= 2.0; a *= 0.5; }\n"
+                 "    return f;\n"
+                 "}\n");
     EXPECT_THAT(names(settings), ElementsAre("LAYERS", HasSubstr(":6:25")));
     EXPECT_TRUE(settings.found[0].march);
 }

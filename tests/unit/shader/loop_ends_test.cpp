@@ -1,5 +1,5 @@
-// How many iterations loops may have by their heads, and the text that records how each of them ended. What it
-// records on a device: tests/cli/study_truth_test.py.
+// How many iterations loops may have by their heads, and the text that records how each of them ended. What
+// it records on a device: tests/cli/study_truth_test.py.
 #include "glsl_support.hpp"
 #include "shader/loops.hpp"
 #include "shader/tree_facts.hpp"
@@ -21,7 +21,8 @@ double most(const std::string& text) {
 TEST(Iterations, add_up_over_nested_loops_and_calls) {
     EXPECT_EQ(most("void main() {}"), 0);
     EXPECT_EQ(most("void main() { for (int i = 0; i < 100; i++) {} for (int i = 0; i <= 9; ++i) {} }"), 110);
-    EXPECT_EQ(most("void main() { for (int i = 0; i < 300; i++) for (int j = 0; j < 300; j++) {} }"), 300 * 301);
+    EXPECT_EQ(most("void main() { for (int i = 0; i < 300; i++) for (int j = 0; j < 300; j++) {} }"),
+              300 * 301);
     EXPECT_EQ(most("float f() { float x = 0.0; for (int i = 0; i < 5; i++) x += 1.0; return x; }\n"
                    "float unused() { for (int i = 0; i < 900; i++) {} return 0.0; }\n"
                    "void main() { for (int i = 0; i < 10; i++) { f(); f(); } }"),
@@ -39,12 +40,14 @@ std::string recorded(const std::string& text) {
 }
 
 TEST(LoopEnds, say_which_loops_a_count_ended) {
-    const std::string text = recorded("void main() { for (int i = 0; i < 9; i++) { float d = 1.0; if (d < 0.1) break; } }");
+    const std::string text =
+        recorded("void main() { for (int i = 0; i < 9; i++) { float d = 1.0; if (d < 0.1) break; } }");
     EXPECT_EQ(count(text, "counts(0,i<9)"), 1) << text;
     EXPECT_EQ(count(text, "open[0]=false;break;"), 1) << text;
     const std::string inside = recorded("void main() { int n = 3; while (true) { if (++n > 7) break; } }");
     EXPECT_EQ(count(inside, "counts(0,false);break;"), 1) << inside;
-    EXPECT_THAT(recorded("void main() { float t = 0.0; while (t < 9.0) t += 0.5 * t; }"), Not(HasSubstr("counts(0,t")));
+    EXPECT_THAT(recorded("void main() { float t = 0.0; while (t < 9.0) t += 0.5 * t; }"),
+                Not(HasSubstr("counts(0,t")));
 }
 
 TEST(LoopEnds, belong_to_the_innermost_loop_that_is_left) {
