@@ -14,6 +14,8 @@
 namespace tidemark::lab {
 namespace {
 
+/// Room for moments that were not drawn, as a share of the error in the worst view.
+constexpr double k_room = 0.25;
 /// A truth is good enough if its own error is at most this share of the error in question.
 constexpr double k_part = 0.1;
 
@@ -52,7 +54,8 @@ double largest_error(const WorkPrecisionSet& set, const WorkPrecision& point, Me
     }
     const auto views = double(std::max<size_t>(1, point.views.size()));
     const double spread = std::sqrt(std::max(0.0, squares / views - sum * sum / (views * views)));
-    return std::max(error_by(measure, point.all), worst + spread) + own_error(set, measure);
+    const double room = point.views.size() > 1 ? std::max(spread, k_room * worst) : 0;
+    return std::max(error_by(measure, point.all), worst + room) + own_error(set, measure);
 }
 
 double least_error(const WorkPrecisionSet& set, const WorkPrecision& point, Measure measure) {

@@ -31,7 +31,7 @@ constexpr double k_proof = 0.05;
 /// Combinations that are measured at full size.
 constexpr size_t k_judged = 3;
 /// A truth in single precision is tried first if errors below this, RMSE, need not be told apart.
-constexpr double k_float_will_do = 1e-3;
+constexpr double k_float_will_do = 1e-4;
 /// Seconds that a step of a small truth may take while knobs are chosen.
 constexpr double k_longest_trial = 3;
 /// Gains below this are not worth a change.

@@ -26,7 +26,7 @@ MARCH = """void mainImage(out vec4 c, in vec2 f) {
     c = vec4(vec3(t / 20.0), 1.0);
 }
 """
-QUICK = ("--size", "48x27", "--budget", "10")
+QUICK = ("--size", "48x27", "--budget", "40")
 
 
 class Tune(ProgramTest):
@@ -47,7 +47,7 @@ class Tune(ProgramTest):
         self.assertEqual((self.folder / "sum.glsl").read_text(), SUM)
         self.assertTrue((self.folder / "sum-tune" / "report.html").exists())
         names = list(found["study"]["points"][0]["views"])
-        self.assertEqual(len(names), 3)
+        self.assertEqual(len(names), 4)
         self.assertIn("not searched", names[-1])
 
     def test_what_was_chosen_is_written(self):
