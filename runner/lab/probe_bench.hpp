@@ -33,8 +33,9 @@ struct Outside {
     bool bound = false;   ///< index, shift, whole-number divisor, texel or conversion
     std::string sentence; ///< only if `bound`: place, operand, pixel and moment
     SourceLocation place{};
-    bool is_texel = false; ///< a texel outside of its texture or level, which is 0 on ShaderToy's site and here
-    std::string what{};    ///< only if `bound`: the operand and its value
+    bool is_texel =
+        false;          ///< a texel outside of its texture or level, which is 0 on ShaderToy's site and here
+    std::string what{}; ///< only if `bound`: the operand and its value
 };
 
 struct Explored {
