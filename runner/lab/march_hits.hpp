@@ -25,7 +25,7 @@ struct ProvedRay {
     enum class Outcome {
         agrees,          ///< the march ends at its first hit, or has none and finds none
         steps_over,      ///< the march ends past its first hit
-        misses,          ///< the march ends without a hit, but there is one
+        misses,          ///< the march ends without a hit and not at the surface, but there is one
         undecided,       ///< see `reason`
         unknown_texture, ///< the march reads a texture whose texels are not available
         unfaithful       ///< the loop carries more than the place on the ray
@@ -35,7 +35,7 @@ struct ProvedRay {
     size_t turns = 0; ///< of the march
     /// Of a march that steps over its first hit: the place before its last one is not past the hit.
     bool within_last_step = false;
-    /// Of a march that misses: it went past the first hit.
+    /// Of a march that misses: it went past the first hit, or its limit of the distance ended it.
     bool went_past = false;
     /// The march was below the threshold at a place where that is excluded: a bug in Tidemark.
     bool contradicted = false;

