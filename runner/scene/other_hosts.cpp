@@ -1,7 +1,6 @@
-#include "scene/other_hosts.hpp"
-
 #include "base/encoding.hpp"
 #include "base/tokens.hpp"
+#include "scene/directives.hpp"
 #include "scene/host_uniforms.hpp"
 
 #include <fmt/format.h>

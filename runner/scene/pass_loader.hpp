@@ -5,7 +5,6 @@
 #include "base/error.hpp"
 #include "scene/directives.hpp"
 #include "scene/load_scene.hpp"
-#include "scene/other_hosts.hpp"
 #include "scene/scene.hpp"
 
 #include <filesystem>

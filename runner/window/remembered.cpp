@@ -1,10 +1,9 @@
-#include "window/remembered.hpp"
-
 #include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "host/console.hpp"
 #include "host/json.hpp"
+#include "window/viewer.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
