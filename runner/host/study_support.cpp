@@ -28,7 +28,8 @@ OutputPath report_folder(const OutputPath& folder, bool complete) {
     return complete || !finished ? folder : folder.beside("-interrupted");
 }
 
-/// Returns the program's version, the time and the number of cores.
+} // namespace
+
 lab::Circumstances circumstances_now() {
     lab::Circumstances facts;
     facts.tidemark = k_version;
@@ -36,8 +37,6 @@ lab::Circumstances circumstances_now() {
     facts.cores = int(std::thread::hardware_concurrency());
     return facts;
 }
-
-} // namespace
 
 lab::Watch StudyWatcher::watch() {
     return {[this](const std::string& what, size_t total) {

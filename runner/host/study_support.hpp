@@ -38,6 +38,9 @@ private:
     Result<void> driver_; ///< first error of the driver, kept because the driver reports a reset only once
 };
 
+/// Returns the program's version, the time and the number of cores.
+lab::Circumstances circumstances_now();
+
 /// Returns these with the scene and the driver; a context must be current.
 lab::Circumstances circumstances_of(const scene::Scene& scene);
 
