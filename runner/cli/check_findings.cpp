@@ -307,7 +307,11 @@ std::string printed(const ProbesRequest& request, std::span<const ProbeResult> r
         if (finding.level != Verdict::note || all)
             text += finding_text(finding);
     text += details(request, results, all);
-    text += fmt::format("{}; {:.1f} s{}\n", counted(findings), seconds, all ? shares(results, seconds) : "");
+    const size_t cut = count_verdict(results, Verdict::cut);
+    text +=
+        fmt::format("{}{}; {:.1f} s{}\n", counted(findings),
+                    cut > 0 ? fmt::format(" so far, {} not answered", number_of(cut, "probe", "probes")) : "",
+                    seconds, all ? shares(results, seconds) : "");
     const bool notes = std::ranges::find(findings, Verdict::note, &JoinedFinding::level) != findings.end();
     if (const size_t silent = count_verdict(results, Verdict::not_applicable); !all && (notes || silent > 0))
         text.insert(text.size() - 1,

@@ -214,8 +214,10 @@ std::optional<std::string> beyond(const Axis& axis, int steps) {
     const auto ratio = ratio_of(axis);
     if (!ratio)
         return std::nullopt;
+    constexpr double k_most = 4; // of a count: larger steps soon exceed the iterations that a device can do
+    const double most = is_int(axis.values.back()) ? k_most : INFINITY;
     return scaled(axis.values.back(),
-                  std::pow(*ratio > 1 ? std::max(*ratio, 2.0) : std::min(*ratio, 0.5), steps));
+                  std::pow(*ratio > 1 ? std::clamp(*ratio, 2.0, most) : std::min(*ratio, 0.5), steps));
 }
 
 std::vector<Axis> axes_of(const Study& study) {

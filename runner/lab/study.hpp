@@ -131,8 +131,8 @@ bool is_int(const std::string& number);
 std::optional<std::string> scaled(const std::string& text, double factor);
 
 /// Returns the value `steps` beyond the end of the axis: in the ratio of its last two values, at least a
-/// factor of two. Returns nullopt for texts that are not numbers, a single value, and whole numbers that
-/// would fall below 1. A negative `steps` goes back.
+/// factor of 2, and of a whole number at most of 4. Returns nullopt for texts that are not numbers, a single
+/// value, and whole numbers that would fall below 1. A negative `steps` goes back.
 std::optional<std::string> beyond(const Axis& axis, int steps);
 
 /// Returns every knob that a study varies, with its values from coarse to strict: the axes of its last

@@ -157,13 +157,13 @@ class Check(ProgramTest):
 
     def test_rays_are_recorded_where_no_main_hit_says_what_they_meet(self):
         """The march's own faults, and the probes that answer of a sound one."""
-        for step, turns, probe, found in (
-                ("max(d, 0.4)", 99, "overstep", r"[1-9][\d.]* % of the rays take a sample below the surface"),
-                ("d", 4, "budget", r"[1-9][\d.]* % of the rays run out of steps")):
+        for step, turns, probe, verdict, found in (
+                ("max(d, 0.4)", 99, "overstep", "note", r"[1-9][\d.]* % of the rays take a sample below the surface"),
+                ("d", 4, "budget", "warn", r"[1-9][\d.]* % of the rays run out of steps")):
             with self.subTest(probe):
                 text = MARCH.replace("max(d, 0.4)", step).replace("i < 99", f"i < {turns}")
                 entry = self.verdicts(self.write("march.glsl", text), "--probe", probe)[probe]
-                self.assertEqual(entry["verdict"], "note", entry["found"])
+                self.assertEqual(entry["verdict"], verdict, entry["found"])
                 self.assertRegex(entry["found"], "^" + found)
         self.write("march.check.json", '{ "largest_slope": 1 }')
         for field, verdict in (("length(p) - 1.0", "pass"), ("1.3 * (length(p) - 1.0)", "fail")):

@@ -94,6 +94,7 @@ class Commands(ProgramTest):
         for fence in fences():
             if name := fence.file():
                 self.write(name, fence.text)
+        self.write("sandbox.glsl", "uniform float amount; // 0 2\nvoid main() { gl_FragColor = vec4(amount); }\n")
         self.write("my_shader.glsl", "#define MAX_STEPS 64\nvoid mainImage(out vec4 c, in vec2 p) {\n    float sum = 0.0;\n"
                    "    for (int i = 1; i <= MAX_STEPS; ++i)\n        sum += sin(float(i) * p.x) / float(i * i);\n"
                    "    c = vec4(vec3(sum), 1.0);\n}\n")

@@ -196,8 +196,7 @@ class Videos(Resume):
         self.assertNotIn("kept 50", self.resume(*arguments)[0])
         self.assertEqual(self.contents(), whole)
         self.cut(arguments, 2)
-        self.assertIn("drawing frames 0 to 9 again: ",
-                      self.resume(*arguments, "--set", "speed=0.75"))
+        self.assertTrue(self.resume(*arguments, "--set", "speed=0.75")[0].startswith("drawing frames 0 to 9 again: "))
 
     def test_segments_change_no_time(self):
         """Each frame appears when it does in a video of one segment, at a rate that no clock divides."""

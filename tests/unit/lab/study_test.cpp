@@ -172,7 +172,8 @@ TEST(StudyFile, those_of_our_scenes_name_knobs_that_the_scenes_have) {
 TEST(Stricter, goes_on_as_the_values_went) {
     EXPECT_EQ(beyond({"N", {"16", "32", "64"}}, 1), "128");
     EXPECT_EQ(beyond({"N", {"16", "32", "64"}}, 3), "512");
-    EXPECT_EQ(beyond({"N", {"10", "11"}}, 1), "22"); // at least doubled
+    EXPECT_EQ(beyond({"N", {"10", "11"}}, 1), "22");    // at least doubled
+    EXPECT_EQ(beyond({"N", {"8", "1024"}}, 1), "4096"); // at most four times as many
     EXPECT_EQ(beyond({"e", {"1e-3", "1e-4"}}, 1), "1e-05");
     EXPECT_EQ(beyond({"e", {"1.0", "0.9"}}, 1), "0.45");
     EXPECT_EQ(beyond({"N", {"8.0", "16.0"}}, 1), "32.0"); // a float stays one
