@@ -328,7 +328,7 @@ std::string error_beside(const WorkPrecisionSet& set, const WorkPrecision& from,
         text += fmt::format("; wrong rays {} % instead of {} %", figure(to.all.hits->wrong_tenth),
                             figure(from.all.hits->wrong_tenth));
     const auto psnr = [](const WorkPrecision& point) { return point.all.picture.samples.psnr; };
-    if (set.ranked_by_hits() && std::isfinite(psnr(from)) && std::isfinite(psnr(to)))
+    if (set.ranked_by_hits() && set.has_pictures() && std::isfinite(psnr(from)) && std::isfinite(psnr(to)))
         text += fmt::format("; PSNR {:.1f} dB instead of {:.1f} dB", psnr(to), psnr(from));
     return text;
 }
