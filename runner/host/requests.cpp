@@ -98,6 +98,22 @@ void say_warnings(const std::vector<Diagnostic>& warnings, const std::vector<Dia
             say(finding_of(warning));
 }
 
+/// Returns the warnings about uniforms that the text alone declares and to which the request gives a value.
+std::vector<Diagnostic> answered(const scene::Scene& scene, const SceneRequest& request,
+                                 const std::vector<scene::KnobSetting>& settings) {
+    std::vector<Diagnostic> warnings = request.said;
+    for (const scene::Knob& knob : scene.knobs) {
+        const bool given =
+            std::ranges::any_of(request.sets,
+                                [&](const std::string& set) { return set.starts_with(knob.name + "="); }) ||
+            std::ranges::find(settings, knob.name, &scene::KnobSetting::name) != settings.end();
+        if (knob.plain && given)
+            std::ranges::copy_if(scene.warnings, std::back_inserter(warnings),
+                                 [&](const Diagnostic& warning) { return warning.where == knob.where; });
+    }
+    return warnings;
+}
+
 template <class T>
 Result<void> keep(Result<T> parsed, auto& place) {
     if (!parsed)
@@ -199,7 +215,7 @@ std::string to_string(const render::OrbitCamera& camera) {
 Result<scene::Scene> load_as_written(const SceneRequest& request) {
     auto scene = scene::load_scene(request.path, request.files);
     if (scene)
-        say_warnings(scene->warnings, request.said);
+        say_warnings(scene->warnings, answered(*scene, request, {}));
     return scene;
 }
 
@@ -238,7 +254,7 @@ Result<scene::Scene> load(const SceneRequest& request, const FrameSequence& sequ
 Result<scene::Scene> load(const SceneRequest& request, const FrameSequence& sequence,
                           Result<scene::Scene> files) {
     auto scene = TRY(std::move(files));
-    say_warnings(scene.warnings, request.said);
+    say_warnings(scene.warnings, answered(scene, request, sequence.state.knobs));
     TRY(apply_options(request, scene));
     if (sequence.input)
         if (auto known = check_knobs(*sequence.input, scene.knobs); !known)

@@ -404,7 +404,8 @@ private:
             const auto answer = probe.ask(now_->bench());
             if (!answer || (answer->verdict != Verdict::fail && answer->verdict != Verdict::warn))
                 continue;
-            const bool hashes = probe.name == "hashes" && !mending_.hashes;
+            const bool of_sines = probe.name == "hashes" || probe.name == "sine" || probe.name == "rounding";
+            const bool hashes = of_sines && !mending_.hashes && has_hashes();
             mending_.remains({fmt::format("{}: {}", probe.name, answer->sentence),
                               hashes ? "--hashes replaces them, which gives another picture"
                                      : "no fix is known for this probe's findings"});
@@ -426,6 +427,11 @@ private:
             mending_.offered(*offer, cures_);
         }
         return mended;
+    }
+
+    bool has_hashes() {
+        const auto answer = ask_hashes(now_->bench());
+        return answer && answer->verdict != Verdict::pass && answer->verdict != Verdict::not_applicable;
     }
 
     Result<std::optional<Offer>> first_better(const Finding& finding, const std::vector<PictureView>& views) {

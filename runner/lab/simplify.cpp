@@ -1,6 +1,7 @@
 #include "lab/simplify.hpp"
 
 #include "base/error.hpp"
+#include "base/software_renderer.hpp"
 #include "lab/conduct.hpp"
 #include "lab/pass_function.hpp"
 #include "lab/probe_inputs.hpp"
@@ -380,8 +381,9 @@ private:
         for (const double later : k_later)
             study.views.push_back(unseen(last, later * std::max(last.state.seconds(), 1.0)));
         const double needed = double(k_fewest_rounds * (steps_.size() + 1)) * round;
-        const Timing timing{steps_.empty() ? size_t(0) : size_t(2), steps_.empty() ? size_t(3) : size_t(30),
-                            std::min(std::max(needed, k_timing * request_.seconds), seconds_left())};
+        Timing timing{steps_.empty() ? size_t(0) : size_t(2), steps_.empty() ? size_t(3) : size_t(30),
+                      std::min(std::max(needed, k_timing * request_.seconds), seconds_left())};
+        timing.by_cpu = is_software_renderer(facts_.renderer); // other work of the machine does not count
         Watch watch = watch_;
         if (!watch_.keep_going()) // a cancelled search still judges its results
             watch.keep_going = [] { return true; };
@@ -409,8 +411,8 @@ private:
     }
 
     std::string cost_and_error(const WorkPrecision& point) const {
-        return fmt::format("{}, {} {}", cost_of(point), to_string(Goal{request_.goal.measure}),
-                           figure(worst(point)));
+        return fmt::format("{}{}, {} {}", cost_of(point), point.all.by_cpu ? " of CPU time" : "",
+                           to_string(Goal{request_.goal.measure}), figure(worst(point)));
     }
 
     void choose(Simplified& found, std::vector<std::string> left) const {

@@ -272,7 +272,7 @@ Result<void> DirectiveReader::read_channel(std::string_view keyword, const Sourc
 }
 
 Result<void> DirectiveReader::read_channel_source(size_t number, const SourceLocation& where) {
-    if (!at_end() && peek()->kind != TokenKind::string) {
+    if (!at_end() && peek()->kind != TokenKind::string && !next_is("\"") && !next_is("'")) {
         const std::string_view line = text::line_of(text_.text(), peek()->line);
         std::string_view rest = line.substr(size_t(peek()->column - 1));
         rest = rest.substr(0, rest.find_first_of(" \t\r"));

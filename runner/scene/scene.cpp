@@ -142,10 +142,6 @@ Result<void> override_knob(Scene& scene, std::string_view setting) {
     const auto knob = TRY(find_knob(scene.knobs, split.first));
     const auto value = TRY(parse_knob_value(*knob, split.second));
     knob->value = value;
-    // What said that nothing sets it no longer holds.
-    if (knob->plain)
-        std::erase_if(scene.warnings,
-                      [&](const Diagnostic& warning) { return warning.where == knob->where; });
     if (!in_range(*knob))
         scene.warnings.push_back(
             {knob->where, Severity::warning,

@@ -67,7 +67,7 @@ class CheckFix(ProgramTest):
 
     def test_rays_that_run_out_of_steps_get_more(self):
         scene = self.write("march.glsl", MARCH % (ROOM, 9))
-        cure, = self.fix("march.glsl", "--write")["cures"]
+        cure, = self.fix("march.glsl", "--write", code=None)["cures"]
         self.assertIn(scene.read_text(), [MARCH % (ROOM, turns) for turns in (18, 36, 72)])
         self.assertEqual(cure["fault"]["of"], "percent of the rays that run out of steps")
         self.assertLess(cure["fault"]["after"], 0.1)

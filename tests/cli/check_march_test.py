@@ -81,7 +81,7 @@ class CheckMarch(ProgramTest):
         self.assertIn("tests the distance: take shorter steps", found["turns"]["found"])
         leaps = filled(PLAIN, FIELD="4.0 * (length(q) - 1.0)").replace("0.5 * d", "d")
         found = self.entries(leaps, "first_hit")["first_hit"]
-        self.assertEqual(found["verdict"], "warn", found["found"])
+        self.assertEqual(found["verdict"], "fail", found["found"])
         self.assertTrue(found["found"].endswith("tests the distance: take shorter steps"), found["found"])
         few = filled(PLAIN, FIELD="length(q) - 1.0").replace("300", "6")
         found = self.entries(few, "first_hit")["first_hit"]
@@ -93,7 +93,7 @@ class CheckMarch(ProgramTest):
                 entry = self.entries(filled(HILLS, BACK=back, GROW=grow), "first_hit")["first_hit"]
                 self.assertRegex(entry["found"], r"^0 % of the decided rays step over their first hit by more than 1 % of the distance")
         entry = self.entries(filled(HILLS, BACK="t", GROW="0.02 * t"), "first_hit")["first_hit"]
-        self.assertEqual(entry["verdict"], "warn", entry["found"])
+        self.assertEqual(entry["verdict"], "fail", entry["found"])
         self.assertIn("look for the hit between the last two samples, or take shorter steps", entry["found"])
 
     def test_a_field_of_sums_alone_is_marched(self):

@@ -20,7 +20,7 @@ class CheckMotion(ProgramTest):
         self.assertRegex(entry["found"], r"^float and double agree up to 1e6 s; at 100000 s iTime itself moves in steps of 0.0078 s, "
                                          r"which change 1 % of the pixels by 0\.\d+ or more$")
         entry = self.entry("c = vec4(0.5 + 0.5 * sin(4000.0 * iTime + p.x));", "horizon")
-        self.assertEqual(entry["verdict"], "fail", entry["found"])
+        self.assertEqual(entry["verdict"], "warn", entry["found"])
         self.assertRegex(entry["found"], r"^at the same iTime, float and double agree up to 10* s; at 10+ s 1 % of the pixels")
         entry = self.entry("c = vec4(uv, 0.5 + 0.5 * sin(0.01 * iTime), 1.0);", "horizon")
         self.assertEqual((entry["verdict"], entry["found"]), ("pass", "float and double agree up to 1e6 s"))
@@ -36,7 +36,7 @@ class CheckMotion(ProgramTest):
             self.assertIn(entry["verdict"], ("pass", "n/a"), f"{line}: {entry['found']}")
         flip = "float a = 0.02 * iMouse.y; c = vec4(0.5 + 0.5 * sin(9.0 * uv.x + (iMouse.y > 90.0 ? 3.0 - a : a)));"
         entry = self.entry(flip, "camera")
-        self.assertEqual(entry["verdict"], "fail", entry["found"])
+        self.assertEqual(entry["verdict"], "warn", entry["found"])
         self.assertRegex(entry["found"], r"^the picture jumps where the mouse goes from y = 90 to 91 of 180: PSNR [\d.]+ dB, while 90 % of such "
                                          r"steps have [\d.]+ dB or more$")
 
@@ -44,9 +44,9 @@ class CheckMotion(ProgramTest):
         for line, verdict in (
                 ("c = vec4(fract(sin(floor(24.0 * iTime) * 12.9) * 43758.5));", "pass"),               # 24 pictures a second
                 ("c = vec4(mod(iTime, 2.0) < 1.0 ? 1.0 : 0.0, uv, 1.0);", "pass"),                     # a lamp that blinks
-                ("c = vec4(mod(iTime, 8.0) < 4.0 ? 1.0 : 0.0, 0.1 * fract(uv + iTime / 37.0), 1.0);", "warn"),  # and all else moves
+                ("c = vec4(mod(iTime, 8.0) < 4.0 ? 1.0 : 0.0, 0.1 * fract(uv + iTime / 37.0), 1.0);", "note"),  # and all else moves
                 ("c = vec4(0.5 + 0.009 * step(7.0, iTime) + 0.0001 * iTime);", "pass"),                 # 40 dB
-                ("c = vec4(0.5 + 0.5 * sin(9.0 * uv.x + 3.0 * mod(iTime, 7.0)));", "fail")):           # the clock restarts
+                ("c = vec4(0.5 + 0.5 * sin(9.0 * uv.x + 3.0 * mod(iTime, 7.0)));", "warn")):           # the clock restarts
             entry = self.entry(line, "time_discontinuity")
             self.assertEqual(entry["verdict"], verdict, f"{line}: {entry['found']}")
 

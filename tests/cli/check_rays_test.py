@@ -43,7 +43,7 @@ FAULTS = {
     "mouse_edge": {"turned": "(iMouse.x == 0.0 ? vec2(0.5, 0.1) : iMouse.xy / iResolution.xy)"},
     "grazing": {"steps": "24.0"},
     "far": {"step": "far_distance / 50.0", "field": "abs(cos(60.0 * (p.x + p.z)))", "epsilon": "0.05"},
-    "epsilon": {"field": "p.y + 1000.0", "knobs": SOUND["knobs"].replace("40.0", "9000.0"), "epsilon": "1e-9"},
+    "epsilon": {"field": "p.y + 1000.0", "knobs": SOUND["knobs"].replace("40.0", "9000.0").replace("80.0", "9000.0"), "epsilon": "1e-9"},
     "rays": {"field": "p.y - 0.2 * sin(2.0 * p.x) * sin(p.z + 4000.0 * iTime)"},
     "places": {"step": "0.8 * f * sqrt(min(1.0, 2.0 - 0.0001 * camera_position.y))"},
     "self_intersection": {"knobs": SOUND["knobs"] + "\n#iUniform float wave_steepness = 0.4 in { 0.0, 2.0 }\n"

@@ -99,8 +99,8 @@ class Report(CheckTest):
         result = self.check("#ifdef TIDEMARK_HITS\nvoid mainHit(out vec4 hit, in vec2 p) { hit = vec4(1.0); }\n#endif\n" + SOUND, "--all")
         lines = result.stdout.decode().splitlines()
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("warn  overstep    mainHit does not compile: " + str(self.folder / "scene.glsl") +
-                      ":1: error: `#ifdef TIDEMARK_HITS` leaves mainHit out; did you mean TIDEMARK_HIT?", lines)
+        self.assertTrue(any(line.startswith(f"warn  overstep    mainHit does not compile: {self.folder / 'scene.glsl'}:1: error: "
+                                            "`#ifdef TIDEMARK_HITS`") and "TIDEMARK_HIT?" in line for line in lines), lines)
         self.assertTrue(any(line.startswith("pass  horizon") for line in lines), lines)
         self.assertTrue(any(line.endswith("mainHit does not compile: see overstep") for line in lines), lines)
 

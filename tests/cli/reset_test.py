@@ -90,7 +90,7 @@ class Reset(ProgramTest):
         self.write("k.glsl", KNOBS)
         of_measuring = "reset while measuring: .* --size"
         for command, words in {("study", "k.glsl", "--vary", "turns=2,4,8"): of_measuring,
-                               ("tune", "k.glsl", "--max-error", "rmse=0.1"): of_measuring,
+                               ("tune", "k.glsl", "--vary", "turns=2,4,8", "--max-error", "rmse=0.1"): of_measuring,
                                ("simplify", "k.glsl"): of_measuring,
                                ("trace", "k.glsl", "--pixel", "3,3"): "reset while drawing the pixel: "}.items():
             with self.subTest(command[0]):

@@ -20,7 +20,7 @@ void mainImage(out vec4 c, in vec2 p) {
     c = vec4(colour, 1.0);
 }
 """
-QUICK = ("--size", "96x54", "--budget", "20")
+QUICK = ("--size", "96x54", "--budget", "60")
 
 
 class Simplify(ProgramTest):

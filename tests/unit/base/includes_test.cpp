@@ -116,11 +116,27 @@ TEST(Includes, in_angle_brackets_are_files_of_the_library) {
 }
 
 TEST(Includes, of_other_forms_are_left_for_the_driver) {
-    const std::string text = "#include <no>\n#include <tidemark/no\n>\n#include "
-                             "<other/tidemark/no>\n#include NAME\na #include \"no\"\n#include\n#";
+    const std::string text = "#include <tidemark/no\n>\n#include NAME\na #include \"no\"\n#include\n#if 0\n"
+                             "#include <other>\n#endif\n#";
     const auto expanded = expand({{"main.glsl", text}});
     ASSERT_TRUE(expanded);
-    EXPECT_EQ(expanded->text.text(), text + "\n");
+    EXPECT_THAT(expanded->text.text(), testing::AllOf(testing::HasSubstr("#include <tidemark/no\n>\n#include NAME\n"),
+                                                      testing::HasSubstr("#include <other>\n")));
+}
+
+TEST(Includes, in_angle_brackets_need_quotes) {
+    EXPECT_EQ(listed(expand({{"main.glsl", "\n#include <a/b.glsl>"}})),
+              "main.glsl:2: error: write the file's name in quotes: #include \"a/b.glsl\"");
+}
+
+TEST(Includes, of_a_file_with_pragma_once_paste_it_once) {
+    EXPECT_EQ(listed(expand({{"main.glsl", "#include \"b.glsl\"\n#include \"b.glsl\"\nend\n"},
+                             {"b.glsl", "#pragma once\nb\n"}})),
+              "b.glsl:1|#pragma once\n"
+              "b.glsl:2|b\n"
+              "main.glsl:1|\n"
+              "main.glsl:2|\n"
+              "main.glsl:3|end\n");
 }
 
 TEST(Includes, a_missing_file_is_named_with_the_way_to_it) {

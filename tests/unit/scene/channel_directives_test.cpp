@@ -160,7 +160,7 @@ TEST(ChannelDirectives, channels_that_there_are_not) {
 
 TEST(ChannelDirectives, what_is_missing_is_said) {
     EXPECT_THAT(refusal("#iChannel0 noise\n"),
-                naming("dir/a.glsl:1:12: error:", "name in quotes", "'noise'"));
+                naming("dir/a.glsl:1:12: error:", "needs quotes", "\"noise\""));
     EXPECT_THAT(refusal("#iChannel0"),
                 naming("dir/a.glsl:1:11: error:", "name in quotes", "the end of the file"));
     EXPECT_THAT(refusal("#iChannel0 \"a.png\nfloat x;"),

@@ -77,10 +77,6 @@ TEST(KnobDirectives, without_a_default_the_low_end_of_the_range) {
     EXPECT_EQ(read.initial, (KnobValue{0.25}));
 }
 
-TEST(KnobDirectives, a_default_may_lie_outside_the_range) {
-    EXPECT_EQ(knob("#iUniform float a = 7.0 in { 0.0, 1.0 }").value[0], 7);
-}
-
 TEST(KnobDirectives, steps_are_given_and_whole_numbers_have_one) {
     EXPECT_EQ(knob("#iUniform float a = 1.0 in { 0.0, 2.0 } step 0.25").step, (KnobValue{0.25}));
     EXPECT_EQ(knob("#iUniform vec2 a = 1.0 step 0.5").step, (KnobValue{0.5, 0.5}));

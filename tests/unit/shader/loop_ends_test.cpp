@@ -42,10 +42,10 @@ std::string recorded(const std::string& text) {
 TEST(LoopEnds, say_which_loops_a_count_ended) {
     const std::string text =
         recorded("void main() { for (int i = 0; i < 9; i++) { float d = 1.0; if (d < 0.1) break; } }");
-    EXPECT_EQ(count(text, "counts(0,i<9)"), 1) << text;
-    EXPECT_EQ(count(text, "open[0]=false;break;"), 1) << text;
+    EXPECT_EQ(count(text, "counts(0,i < 9)"), 1) << text;
+    EXPECT_EQ(count(text, "open[0]=false;break ;"), 1) << text;
     const std::string inside = recorded("void main() { int n = 3; while (true) { if (++n > 7) break; } }");
-    EXPECT_EQ(count(inside, "counts(0,false);break;"), 1) << inside;
+    EXPECT_EQ(count(inside, "counts(0,false);break ;"), 1) << inside;
     EXPECT_THAT(recorded("void main() { float t = 0.0; while (t < 9.0) t += 0.5 * t; }"),
                 Not(HasSubstr("counts(0,t")));
 }
@@ -56,7 +56,7 @@ TEST(LoopEnds, belong_to_the_innermost_loop_that_is_left) {
     const LoopEnds ends = record_loop_ends(*read, find_facts(*read));
     ASSERT_EQ(ends.loops.size(), 2U);
     EXPECT_EQ(ends.words(), 4U);
-    EXPECT_EQ(count(ends.text, "=false;break;"), 1) << ends.text;
+    EXPECT_EQ(count(ends.text, "=false;break ;"), 1) << ends.text;
     EXPECT_EQ(recorded("void main() {}"), "");
 }
 
