@@ -144,8 +144,10 @@ void add_command(const ProbesRequest& request, JoinedFinding& finding) {
 }
 
 JoinedFinding joined(const ProbesRequest& request, SameCause group) {
-    std::ranges::stable_sort(group, std::greater(),
-                             [](const Plain& plain) { return plain.result->answer.verdict; });
+    // What other GPUs draw says more than that floats are rounded, which `horizon` reports.
+    std::ranges::stable_sort(group, std::greater(), [](const Plain& plain) {
+        return std::pair(plain.result->answer.verdict, family_of(*plain.result) == Family::sines);
+    });
     JoinedFinding finding{.level = group.front().result->answer.verdict};
     std::string cause = group.front().cause;
     if (group.front().places.empty()) // then one that names the line says more of the cause

@@ -149,6 +149,8 @@ Answer running_out_answer(ProbeBench& bench, RunningOut most, std::string_view v
     bench.report_running_out(probe);
     answer.verdict = bench.has_main_hit() ? Verdict::fail : Verdict::warn;
     answer.sentence += allowed(promised);
+    if (const auto& image = bench.image_function(); !bench.has_main_hit() && image && !image->loops().empty())
+        add_place(answer, image->locate(image->loops().front().line));
     answer.where = most.where;
     answer.picture = std::move(most.map);
     return answer;

@@ -137,6 +137,29 @@ Result<Mismatch> noticeable_mismatch(ProbeBench& bench, const Mismatch& first) {
     return shown.difference > k_noticeable_gap ? shown : first;
 }
 
+/// Adds the place of the hash whose function the line is in, so that both are one finding.
+void add_hash_around(ProbeBench& bench, const SourceLocation& line, Answer& answer) {
+    const auto hashes = bench.hashes();
+    const auto texts = read_texts(bench, true);
+    if (!hashes || !texts)
+        return;
+    const auto holds = [](const SourceLocation& first, const SourceLocation& last, const SourceLocation& at) {
+        return first.file == at.file && first.line <= at.line && at.line <= last.line;
+    };
+    for (const PassText& pass : *texts)
+        for (const glsl::Node& node : pass.text->tree().nodes) {
+            if (node.kind != glsl::NodeKind::function)
+                continue;
+            const SourceLocation first = pass.text->spelled(node.begin),
+                                 last = pass.text->spelled(node.end - 1);
+            if (!holds(first, last, line))
+                continue;
+            for (const glsl::KeptHash& hash : *hashes)
+                if (holds(first, last, hash.where))
+                    add_place(answer, hash.where);
+        }
+}
+
 } // namespace
 
 Result<Answer> ask_horizon(ProbeBench& bench) {
@@ -173,11 +196,13 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
                                                                    : Verdict::note,
                   found + (lost ? "; " + lost->sentence : "") + steps, shown.state, shown.floats};
     const char* const effect = noticeable ? "the picture breaks up" : "the picture changes a little";
-    answer.effect = good == 0 ? fmt::format("{} through the rounding of floats, from the start", effect)
+    answer.effect = good == 0 ? std::string("the picture depends on the rounding of floats, from the start")
                               : fmt::format("{} within {}: floats have too few digits for iTime", effect,
                                             duration_in_words(shown.seconds));
-    if (lost)
+    if (lost) {
         add_place(answer, lost->where);
+        add_hash_around(bench, lost->where, answer);
+    }
     return answer;
 }
 
@@ -242,14 +267,35 @@ Result<Answer> ask_time_discontinuity(ProbeBench& bench) {
     return answer;
 }
 
+namespace {
+
+/// Returns whether a pass has a function of that name that main does not reach, and none has one that it
+/// does.
+bool is_never_called(const std::vector<PassText>& texts, const std::string& function) {
+    bool unreached = false;
+    for (const PassText& pass : texts) {
+        if (!pass.facts.function(function))
+            continue;
+        if (glsl::functions_of_main(*pass.text, pass.facts).contains(function))
+            return false;
+        unreached = true;
+    }
+    return unreached;
+}
+
+} // namespace
+
 Result<Answer> ask_hashes(ProbeBench& bench) {
     const auto hashes = bench.hashes();
     if (!hashes)
         return Answer{Verdict::not_applicable,
                       "the scene cannot be promoted to double: " + to_string(hashes.error())};
+    const auto texts = read_texts(bench, true);
     std::vector<std::string> sines, products; // Common is part of every pass, so list each once
     Answer answer{Verdict::note};
     for (const glsl::KeptHash& hash : *hashes) {
+        if (texts && is_never_called(*texts, hash.function))
+            continue;
         const std::string said = fmt::format("{}:{}{}", hash.where.file, hash.where.line,
                                              hash.function.empty() ? "" : " " + hash.function);
         const bool product = hash.kind == glsl::HashKind::product && !hash.function.empty();
@@ -383,6 +429,21 @@ Result<Swept> swept(ProbeBench& bench, const Sweep& sweep) {
     return found;
 }
 
+/// Returns whether a jump shows in a picture four times as wide, too. In a narrow strip one cell of a coarse
+/// pattern is a large part of the picture.
+Result<bool> jumps_in_wider(ProbeBench& bench, const Sweep& sweep, int step) {
+    const glm::ivec2 wider = sweep.extent.width < sweep.extent.height ? glm::ivec2(4, 1) : glm::ivec2(1, 4);
+    const Extent extent{sweep.extent.width * wider.x, sweep.extent.height * wider.y};
+    std::vector<image::Image> pictures;
+    for (int pixel = step - 1; pixel <= step + 2; ++pixel) {
+        const auto mouse = render::Mouse::clicked(sweep.pixel(pixel) * wider, false);
+        pictures.push_back(TRY(bench.picture(with_mouse(mouse, plain_state(extent)))));
+    }
+    const double jump = psnr_of(pictures[1], pictures[2]);
+    const double beside = std::min(psnr_of(pictures[0], pictures[1]), psnr_of(pictures[2], pictures[3]));
+    return jump < k_least_jump && beside - jump > k_turn;
+}
+
 /// Returns the answer if the sweep shows a fault.
 Result<std::optional<Answer>> fault(ProbeBench& bench, const Sweep& sweep, const Swept& found) {
     const auto show = [&](Verdict verdict, int pixel, std::string sentence) -> Result<std::optional<Answer>> {
@@ -401,7 +462,7 @@ Result<std::optional<Answer>> fault(ProbeBench& bench, const Sweep& sweep, const
                                     sweep.axis, *found.not_finite, sweep.length);
         return shown;
     }
-    if (found.jumps)
+    if (found.jumps && TRY(jumps_in_wider(bench, sweep, found.step)))
         return show(Verdict::warn, found.step + 1,
                     fmt::format("the picture jumps where the mouse goes from {} = {} to {} of {}: PSNR "
                                 "{:.1f} dB, while 90 % of such steps have {:.1f} dB or more",
@@ -446,13 +507,17 @@ Result<Answer> ask_mouse_edge(ProbeBench& bench) {
         }
         const double edge = image::compare(pictures[0], pictures[1])->psnr;
         const double next = std::min(image::compare(pictures[1], pictures[2])->psnr, k_alike);
-        if (next - edge > k_turn)
-            return Answer{
+        if (next - edge > k_turn) {
+            Answer answer{
                 Verdict::warn,
                 fmt::format("a click in {0} 0 shows another view than in {0} 1: PSNR {1:.1f} dB, from {0} 1 "
                             "to 2 {2:.1f} dB",
                             name, edge, next),
                 clicked(first), pictures[0]};
+            if (!image::compare(TRY(bench.picture(plain_state())), pictures[0])->equal())
+                answer.effect = "the picture jumps when the mouse comes to the first column or row";
+            return answer;
+        }
     }
     const auto untouched = bench.picture(plain_state());
     const auto corner = bench.picture(clicked({1, 1}));

@@ -81,12 +81,15 @@ std::optional<Answer> overflow(const std::vector<std::pair<std::string, Growth>>
         }
     if (!worst)
         return std::nullopt;
-    return Answer{
+    Answer answer{
         Verdict::warn,
         fmt::format("{} grows by the same factor again and again: its largest number is {:.2g} at frame "
                     "{}, and at about frame {:.0f} ({:.0f} s) it overflows",
                     worst->first, worst->second.largest(), last.frame, first, first / last.fps),
         last};
+    answer.effect = fmt::format("{} grows from frame to frame and overflows at about {:.0f} s", worst->first,
+                                first / last.fps);
+    return answer;
 }
 
 } // namespace

@@ -49,7 +49,7 @@ public:
     bool asked() const { return asked_; }
 
     /// Returns the answer, with the largest difference first; `sound` is its text if none is visible.
-    Answer answer(const std::string& sound) {
+    Answer answer(const std::string& sound, bool of_sines = false) {
         std::ranges::stable_sort(seen_, std::greater(), &Seen::gap);
         std::vector<std::string> visible, hardly;
         for (const Seen& seen : seen_)
@@ -62,11 +62,44 @@ public:
                       "the picture changes visibly with " + listed(visible), k_state, std::move(picture_)};
         if (!devices)
             answer.effect = "the picture changes a little with other roundings";
+        else
+            add_lossy_line(answer, of_sines);
         answer.where->pass = pass_ == bench_.scene().image_index() ? "" : bench_.scene().passes[pass_].name;
         return answer;
     }
 
 private:
+    /// Adds the line at which the pixel that is furthest from double loses its digits; `of_sines`: only if a
+    /// sine is in that line. Leaves scenes with hashes alone: `hashes` names those.
+    void add_lossy_line(Answer& answer, bool of_sines) {
+        const auto hashes = bench_.hashes();
+        if (!hashes || !hashes->empty())
+            return;
+        auto plain = bench_.picture(k_state);
+        if (!plain)
+            return;
+        if (const auto lost = where_digits_are_lost(bench_, {10, k_state, *std::move(plain), 0});
+            lost && (!of_sines || has_sine(lost->where))) {
+            answer.sentence += "; " + lost->sentence;
+            add_place(answer, lost->where);
+        }
+    }
+
+    static bool is_same_line(const SourceLocation& a, const SourceLocation& b) {
+        return a.file == b.file && a.line == b.line;
+    }
+    bool has_sine(const SourceLocation& line) const {
+        const auto texts = read_texts(bench_, true);
+        return texts && std::ranges::any_of(*texts, [&](const PassText& pass) {
+                   for (size_t i = 0; i < pass.text->words().size(); ++i)
+                       if (const std::string_view word = pass.text->word(i);
+                           (word == "sin" || word == "cos" || word == "tan") &&
+                           is_same_line(pass.text->spelled(i), line))
+                           return true;
+                   return false;
+               });
+    }
+
     Result<void> compare(size_t pass, const glsl::Variation& varied, std::span<const Mode> modes) {
         const auto preview = TRY(bench_.preview(k_state, pass));
         auto stand_in = TRY(StandIn::link(preview, varied.text, "a variation of the text"));
@@ -136,7 +169,7 @@ Result<Answer> ask_sine(ProbeBench& bench) {
         return Answer{Verdict::not_applicable, to_string(done.error())};
     if (!probe.asked())
         return Answer{Verdict::not_applicable, "the scene has no sine"};
-    return probe.answer("no visible difference with other GPUs' sines");
+    return probe.answer("no visible difference with other GPUs' sines", true);
 }
 
 Result<Answer> ask_rounding(ProbeBench& bench) {

@@ -203,8 +203,12 @@ bool is_set_by_updates_only(const glsl::ParsedText& text, const glsl::Unassigned
     if (each.why != glsl::Unassigned::Why::on_some_way)
         return false;
     const std::string_view name = text.word_of(each.what);
+    const glsl::SyntaxTree& tree = text.tree();
+    const glsl::NodeId scope = tree.around(each.what, glsl::NodeKind::block);
+    if (scope == glsl::k_no_node)
+        return false;
     bool updated = false;
-    for (size_t i = 0; i + 1 < text.words().size(); ++i)
+    for (size_t i = tree[each.what].begin; i + 1 < tree[scope].end; ++i)
         if (text.word(i) == name) {
             if (text.word(i + 1) == "=")
                 return false;

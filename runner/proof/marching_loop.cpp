@@ -46,9 +46,10 @@ public:
 
     std::optional<MarchingLoop> find() const {
         std::optional<MarchingLoop> fixed;
+        const std::vector<ExitTest> tests = nearness_first();
         for (const std::vector<Step>& group : groups())
             for (const bool at_update : {false, true})
-                for (const ExitTest& test : tests_) {
+                for (const ExitTest& test : tests) {
                     auto loop = march(group, at_update, test);
                     if (loop && loop->kind == MarchingLoop::Kind::sphere_tracing)
                         return loop;
@@ -95,6 +96,14 @@ private:
     LoopBlocks loop() const { return {function_, block_of_, header_, back_slot_}; }
 
     // -- Exit tests
+
+    /// Returns the tests, those of a value above a number that the loop does not change after the others: in
+    /// `if (d > 10.0) return sky; if (d < 0.01) break;` the first one ends rays that are far from everything.
+    std::vector<ExitTest> nearness_first() const {
+        std::vector<ExitTest> tests = tests_;
+        std::ranges::stable_partition(tests, [this](const ExitTest& test) { return inside_[test.smaller]; });
+        return tests;
+    }
 
     void read_tests() {
         for (uint32_t block = header_; block < function_.blocks.size(); ++block) {

@@ -74,6 +74,30 @@ class CheckMarch(ProgramTest):
             self.assertTrue(entries[probe]["found"].endswith(": see turns"), entries[probe]["found"])
         self.assertEqual(self.entries(filled(SKY, TURNS=9, SCALE="1.0"), "budget")["budget"]["verdict"], "warn")
 
+    def test_rays_that_run_out_name_the_line_of_the_march(self):
+        text = filled(SKY, TURNS=9, SCALE="1.0")
+        scene = self.write("march.glsl", text)
+        result = self.run_program("check", str(scene), "--json", "--budget", "900", "--probe", "budget")
+        line = 1 + text[:text.index("1e-3")].count("\n")
+        self.assertEqual([finding["places"] for finding in json.loads(result.stdout)["findings"]],
+                         [[{"file": str(scene), "line": line}]])
+
+    def test_a_march_with_an_exit_far_from_everything_is_silent(self):
+        text = EYE + """    vec3 ro = vec3(0.0, 0.0, -4.0), rd = normalize(vec3(uv, 1.5));
+    float t = 0.0;
+    c = vec4(0.0);
+    for (int i = 0; i < 100; ++i) {
+        float d = length(ro + t * rd) - 0.5;
+        if (d > 10.0) return;
+        if (d <= 0.01) break;
+        t += d * 0.9;
+    }
+    c = vec4(exp(-0.1 * t));
+}
+"""
+        for probe, entry in self.entries(text, "first_hit", "turns").items():
+            self.assertEqual(entry["verdict"], "pass", entry["found"])
+
     def test_steps_that_are_too_long_are_to_be_shorter(self):
         # They go to and fro through the surface, or past the ball and out of the scene.
         found = self.entries(filled(SKY, TURNS=64, SCALE="2.2").replace(") - 1.0)", ") - 2.0)"), "turns")

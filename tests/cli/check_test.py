@@ -397,6 +397,14 @@ class Check(ProgramTest):
                          "read without a value (0 on ShaderToy's site and here, undefined elsewhere): "
                          f"sum ({scene}:4, on some path); all paths through the functions that run were checked, whatever the conditions")
 
+    def test_a_sum_without_a_value_is_told_from_another_function_s_variable_of_that_name(self):
+        scene = self.write("sums.glsl", "float other() {\n    float sum = 2.0;\n    sum = sum * 2.0;\n    return sum; }\n"
+                                        "void mainImage(out vec4 c, in vec2 p) {\n    float sum;\n"
+                                        "    for (int i = 0; i < 3; ++i)\n        sum += 0.1;\n    c = vec4(sum * other());\n}\n")
+        entry = self.verdicts(scene, "--probe", "unassigned")["unassigned"]
+        self.assertEqual(entry["verdict"], "warn", entry["found"])
+        self.assertIn(f"sum ({scene}:8, on some path)", entry["found"])
+
     def test_structs_branches_outs_and_returns_without_a_value_are_named(self):
         scene = self.write("ways.glsl", "struct I { float d; }; struct S { I i; vec3 n; };\n"
                                         "S surface() { S s; s.i.d = 1.0;\n    return s; }\n"

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <bit>
+
 namespace tidemark::ir::marching_loop_test {
 
 using Kind = MarchingLoop::Kind;
@@ -233,6 +235,19 @@ TEST(MarchingLoop, tells_where_the_ray_ends_and_in_which_line_it_is_tested) {
     ASSERT_EQ(loops.size(), 1u);
     EXPECT_NE(loops[0].far, k_no_value);
     EXPECT_EQ(loops[0].line, 9);
+}
+
+TEST(MarchingLoop, hits_where_it_is_near_not_where_it_is_far_from_everything) {
+    const std::string march =
+        "for (int i = 0; i < 99; ++i) { float d = map(ro + rd * t);\nif (d > 10.0) { t = 99.0; break; }\n"
+        "if (d <= 0.01) break;\nt += d * 0.9; }";
+    const Function function = marcher("length(p) - 1.0", march);
+    const auto loops = find_marching_loops(function);
+    ASSERT_EQ(loops.size(), 1u);
+    EXPECT_TRUE(loops[0].stops_before);
+    const Instruction& threshold = function.instructions[loops[0].threshold];
+    ASSERT_EQ(threshold.op, Op::constant);
+    EXPECT_EQ(std::bit_cast<float>(threshold.immediate), 0.01f);
 }
 
 TEST(MarchingLoop, is_not_what_only_adds_up) {
