@@ -385,8 +385,10 @@ Result<void> make_folders(const CapturePlan& plan) {
     const bool several = folder_of(frames.front()) != folder_of(frames.back());
     for (const int frame : several ? std::span(frames) : std::span(frames).first(1))
         if (const std::filesystem::path folder = folder_of(frame);
-            !folder.empty() && !std::filesystem::exists(folder, ignored))
+            !folder.empty() && !std::filesystem::exists(folder, ignored)) {
+            TRY(plan.output.of_frame(frame).check_links());
             TRY(make_folder(OutputPath::typed(folder)));
+        }
     return {};
 }
 

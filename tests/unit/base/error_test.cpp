@@ -54,7 +54,8 @@ TEST(NearestName, forgives_slips) {
     EXPECT_EQ(nearest_name("waveheight", names), "wave_height");
     EXPECT_EQ(nearest_name("--siez", {"--set", "--size"}), "--size"); // two swapped letters are one mistake
     EXPECT_EQ(nearest_name("WAVE_speed", names), "");                 // four of ten letters differ
-    EXPECT_EQ(nearest_name("fgo", names), "");                        // two of three
+    EXPECT_EQ(nearest_name("fgo", names), "fog");                     // two swapped letters are one mistake
+    EXPECT_EQ(nearest_name("gof", names), "");                        // two of three letters differ
     EXPECT_EQ(nearest_name("fo", names), "fog");
     EXPECT_EQ(nearest_name("fogg", names), "fog");
 }
