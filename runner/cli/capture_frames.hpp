@@ -37,7 +37,7 @@ struct TimePart {
 };
 
 /// Returns the part that the options select. Fails (ErrorCode::usage) if its end is not after its beginning,
-/// or if only --from is given and there is no default length.
+/// or if it is missing and there is no default length.
 Result<TimePart> part_of(const TimeSpan& span, std::optional<double> default_length = {});
 
 /// Returns the frames of a part, without the one at its end, as --frames accepts them: `60-89` for 2 s to 3 s

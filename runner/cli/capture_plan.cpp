@@ -184,8 +184,7 @@ Result<void> check_sheet(const CapturePlan& plan) {
     return {};
 }
 
-/// Returns the frame options with the frames that --from, --to and --duration select. A sheet takes its
-/// moments from the time itself.
+/// Returns the options with the frames of --from, --to and --duration, which a sheet reads itself.
 Result<FrameOptions> with_time(const CaptureOptions& options, FrameOptions frames) {
     if (!options.time.given() || !options.sheet.empty())
         return frames;
@@ -381,8 +380,7 @@ Result<void> make_folders(const CapturePlan& plan) {
     const auto folder_of = [&](int frame) { return plan.output.of_frame(frame).path().parent_path(); };
     const std::vector<int>& frames = plan.frames.frames;
     std::error_code ignored;
-    // A frame number in the name of a folder makes one for each frame.
-    const bool several = folder_of(frames.front()) != folder_of(frames.back());
+    const bool several = folder_of(frames.front()) != folder_of(frames.back()); // a number in its name
     for (const int frame : several ? std::span(frames) : std::span(frames).first(1))
         if (const std::filesystem::path folder = folder_of(frame);
             !folder.empty() && !std::filesystem::exists(folder, ignored)) {
