@@ -19,6 +19,7 @@
 #include "host/supervision.hpp"
 #include "media/picture_check.hpp"
 #include "media/sound_file.hpp"
+#include "media/video_output.hpp"
 #include "render/gl_context.hpp"
 #include "render/renderer.hpp"
 #include "scene/load_scene.hpp"
@@ -152,11 +153,12 @@ std::optional<SavedState> find_state(const CapturePlan& plan) {
 
 void say_what_was_written(const FrameRecords& records, const CapturePlan& plan) {
     if (plan.output.video() && plan.shard)
-        say(fmt::format("wrote {} frames of {} as segments; `tidemark gather` joins them", records.count(),
-                        plan.output.pattern().string()));
+        say(fmt::format("wrote {} of {} as segments; `tidemark gather` joins them",
+                        counted_frames(records.count()), plan.output.pattern().string()));
     else if (plan.output.video())
         say(fmt::format(
-            "wrote {}: {} frames{}", plan.output.pattern().string(), plan.kept.size() + records.count(),
+            "wrote {}: {}{}", plan.output.pattern().string(),
+            counted_frames(plan.kept.size() + records.count()),
             plan.pace.fps == plan.frames.state.fps ? "" : fmt::format(", {:.4g} a second", plan.pace.fps)));
     else if (plan.sheet)
         say(fmt::format("wrote {}: {} moments, frames {} to {}", records.first().file, records.count(),
@@ -201,7 +203,7 @@ void keep_what_is_there(CapturePlan& plan) {
     const KeptFrames kept = leave_out_kept(plan);
     for (const std::string& line : kept.said)
         say(line);
-    say(fmt::format("kept {} of {} frames", kept.frames.size(), all));
+    say(fmt::format("kept {} of {}", kept.frames.size(), counted_frames(all)));
     plan.kept = kept.frames;
 }
 
@@ -217,8 +219,8 @@ void tidy_up(const CapturePlan& plan) {
 
 std::string interruption(const CapturePlan& plan, Capture& run) {
     const std::string words = words_on_resuming(plan, run.whole_frames());
-    return fmt::format("interrupted after {} of {} frames{}{}", plan.kept.size() + run.records().count(),
-                       plan.kept.size() + plan.frames.frames.size(),
+    return fmt::format("interrupted after {} of {}{}{}", plan.kept.size() + run.records().count(),
+                       counted_frames(plan.kept.size() + plan.frames.frames.size()),
                        plan.output.video() ? "; no video was written"
                        : plan.sheet        ? "; no sheet was written"
                                            : "",
@@ -251,6 +253,21 @@ Result<bool> draw(Capture& run, const CapturePlan& plan, Interrupt& interrupt) {
     });
 }
 
+/// Prints a warning if the video's sides are odd, so that H.264 and HEVC cannot halve the resolution of its
+/// colours.
+void warn_odd_sides(const CapturePlan& plan) {
+    const Extent size = plan.written;
+    if (!plan.output.video() || !image::odd_sides_keep_colours(plan.output.pattern(), plan.codec) ||
+        (size.width % 2 == 0 && size.height % 2 == 0))
+        return;
+    Rectangle area = plan.crop.value_or(Rectangle{0, 0, size});
+    area.extent = {size.width & ~1, size.height & ~1};
+    say(fmt::format("warning: {}x{} is an odd size: the video stores colours at full resolution (4:4:4), "
+                    "which many players refuse; give --pad even{}",
+                    size.width, size.height,
+                    area.extent.pixels() > 0 ? " or --crop " + to_string(area) : std::string()));
+}
+
 Result<void> report(Capture& run, const CapturePlan& plan, bool complete) {
     if (plan.options.json)
         TRY(put(dump(run.report(), 2) + "\n"));
@@ -261,8 +278,8 @@ Result<void> report(Capture& run, const CapturePlan& plan, bool complete) {
     const bool written = complete || !(plan.output.video() || plan.sheet);
     if (written && !plan.options.json && !plan.output.standard_output())
         say_what_was_written(run.records(), plan);
-    if (complete && plan.options.loop)
-        say(run.loop().words());
+    if (complete && plan.options.loop && run.loop().closed())
+        say(run.loop().words(plan.frames.frames));
     if (!complete)
         say(interruption(plan, run));
     return {};
@@ -276,6 +293,7 @@ Result<int> capture_frames(CapturePlan plan) {
     const auto context = TRY(platform::HeadlessContext::create(plan.options.device));
     plan.identity.set_device(gl::query_capabilities());
     say_what_is_unlike(plan);
+    warn_odd_sides(plan);
     const std::optional<StagedFile> sound = draw_sound_of_video(plan, interrupt);
     const std::optional<SavedState> state = take_up(plan);
     if (plan.frames.frames.empty() && (plan.to_picture_files() || plan.shard) && !plan.options.json) {
@@ -290,6 +308,8 @@ Result<int> capture_frames(CapturePlan plan) {
     if (complete)
         tidy_up(plan);
     TRY(report(run, plan, complete));
+    if (complete && plan.options.loop && run.loop().closed() && !run.loop().seamless())
+        return exit_code(ErrorCode::check_failed);
     return complete ? 0 : Interrupt::k_exit_code;
 }
 
@@ -383,6 +403,11 @@ void add_capture_options(Command command, CaptureOptions& options) {
         .add_option("--crop", options.crop,
                     "Writes that part alone: left, bottom, width and height in pixels from the bottom left")
         .type_name("X,Y,W,H");
+    command
+        .add_option("--pad", options.pad,
+                    "Repeats the last column and row of a video where needed, so that both sides are even")
+        .type_name("even")
+        .check(one_of({"even"}));
     command.add_flag(
         "--layers", options.layers,
         "Writes all passes into one .exr, each as a part with the pass's name; a cube as six parts");
@@ -393,8 +418,17 @@ void add_capture_options(Command command, CaptureOptions& options) {
         .type_name("SECONDS")
         .check(number<double>("a number of seconds"));
     command
-        .add_option("--duration", options.duration,
-                    "Length of a .wav [60], or of the time that --sheet covers [10]")
+        .add_option(
+            "--from", options.time.from,
+            "Start of the time to capture, instead of --frames: the frame nearest to it is the first [0]")
+        .type_name("SECONDS")
+        .check(number<double>("a number of seconds"));
+    command.add_option("--to", options.time.to, "End of that time; the frame at it is left out")
+        .type_name("SECONDS")
+        .check(number<double>("a number of seconds"));
+    command
+        .add_option("--duration", options.time.duration,
+                    "Length of that time, instead of --to [a .wav: 60, a --sheet: 10]")
         .type_name("SECONDS")
         .check(number<double>("a number of seconds"));
     const Option plain =
@@ -439,7 +473,9 @@ void add_capture_options(Command command, CaptureOptions& options) {
         .type_name("K/N|slurm");
     command
         .add_flag("--loop", options.loop,
-                  "Tests whether the sequence loops: compares the frame after the last with the first")
+                  "Tests whether the sequence loops: compares the frame after the last with the first; exit "
+                  "code 1 if "
+                  "it does not")
         .excludes(resume)
         .excludes("--shard");
     command

@@ -27,6 +27,23 @@ void find(FrameRecords::Found& found, size_t pixels, const FrameRecord& record) 
         found.first = record;
 }
 
+/// Returns the picture with its right column and its bottom row repeated up to that size, which is at most
+/// one larger.
+image::Image padded(const image::Image& picture, Extent size) {
+    image::Image all(size, picture.channels, picture.type);
+    const size_t row = picture.row_bytes();
+    const size_t pixel = size_t(picture.channels) * image::size_of(picture.type);
+    const int below = size.height - picture.extent.height; // row 0 is the bottom row
+    for (int y = 0; y < size.height; ++y) {
+        const std::byte* const from = picture.bytes.data() + size_t(std::max(0, y - below)) * row;
+        std::byte* const to = all.bytes.data() + size_t(y) * all.row_bytes();
+        std::copy_n(from, row, to);
+        if (all.row_bytes() > row)
+            std::copy_n(from + row - pixel, pixel, to + row);
+    }
+    return all;
+}
+
 constexpr size_t k_block_bytes = 1 << 18; ///< fits a processor's cache while it is filled and written
 
 /// One picture of a pass that is not shown.
@@ -103,14 +120,17 @@ Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precisi
     const auto count = 2 * size_t(std::llround(duration * render::k_sample_rate));
     const auto first = int(std::llround(start * render::k_sample_rate));
     const auto block = 2 * size_t(render::SoundRenderer::block_samples());
+    const int lead = first % render::SoundRenderer::block_samples(); // only whole blocks can be drawn
+    const size_t drawn_count = 2 * size_t(lead) + count;
     std::vector<int16_t> samples;
-    Progress progress("blocks of sound", (count + block - 1) / block);
-    while (samples.size() < count && !interrupt.requested()) {
-        const std::vector<int16_t> drawn = renderer.draw(first + int(samples.size() / 2));
+    Progress progress("blocks of sound", (drawn_count + block - 1) / block);
+    while (samples.size() < drawn_count && !interrupt.requested()) {
+        const std::vector<int16_t> drawn = renderer.draw(first - lead + int(samples.size() / 2));
         samples.insert(samples.end(), drawn.begin(), drawn.end());
         progress.advance();
     }
-    samples.resize(count);
+    samples.resize(drawn_count);
+    samples.erase(samples.begin(), samples.begin() + 2 * std::ptrdiff_t(lead));
     return samples;
 }
 
@@ -261,6 +281,9 @@ WrittenFrame Delivery::prepare(DrawnFrame drawn) const {
             record.no_coverage += image::pixels_of_no_coverage(picture);
         else if (plan_.depth == image::SampleDepth::u8)
             picture = image::in_bytes(std::move(picture));
+    if (plan_.padded)
+        for (image::Image& picture : pictures)
+            picture = padded(picture, plan_.written);
     return frame;
 }
 
@@ -423,7 +446,8 @@ std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const Int
 Result<int> capture_sound(const SoundPlan& plan) {
     const Interrupt interrupt;
     const auto context = TRY(platform::HeadlessContext::create(plan.device));
-    const auto samples = TRY(draw_sound(plan.scene, plan.precision, 0, plan.duration, interrupt));
+    const auto samples =
+        TRY(draw_sound(plan.scene, plan.precision, plan.part.begin, plan.part.length, interrupt));
     if (interrupt.requested())
         return Interrupt::k_exit_code;
     TRY(sound::write_wav(plan.output, int(render::k_sample_rate), samples));

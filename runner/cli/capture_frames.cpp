@@ -4,6 +4,7 @@
 #include "base/extent.hpp"
 #include "host/json.hpp"
 #include "host/scene_report.hpp"
+#include "render/frame_state.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -30,6 +31,7 @@ constexpr int k_gap = 8; ///< pixels
 constexpr uint8_t k_grey = 0x20;
 constexpr size_t k_most_cells = 1000;
 constexpr int k_most_shards = 1'000'000;
+constexpr int k_most_frames_of_time = 10'000'000; ///< as many as --frames may name
 
 /// Returns an opaque grey picture.
 image::Image blank(Extent extent, image::SampleType type) {
@@ -76,10 +78,44 @@ std::vector<int> evenly(const std::vector<int>& frames, size_t count) {
     return chosen;
 }
 
-std::vector<int> beginnings(double seconds, double fps, size_t count) {
+std::string counted_frames(size_t count) {
+    return fmt::format("{} frame{}", count, count == 1 ? "" : "s");
+}
+
+Result<TimePart> part_of(const TimeSpan& span, std::optional<double> default_length) {
+    const auto refuse = [](std::string_view why) { return fail(ErrorCode::usage, std::string(why)); };
+    const double begin = span.from.value_or(0);
+    if (!(begin >= 0) || !std::isfinite(begin))
+        return refuse("--from: give a number of seconds from 0 up");
+    if (span.to && span.duration)
+        return refuse("give --to or --duration, not both");
+    if (span.to && !(*span.to > begin && std::isfinite(*span.to)))
+        return refuse(fmt::format("--to {}: give a time after the beginning at {} s", *span.to, begin));
+    if (span.duration && !(*span.duration > 0 && std::isfinite(*span.duration)))
+        return refuse(fmt::format("--duration {}: give a number of seconds above 0", *span.duration));
+    if (span.to)
+        return TimePart{begin, *span.to - begin};
+    if (!span.duration && !default_length)
+        return refuse(fmt::format("--from {}: also give --to or --duration", begin));
+    return TimePart{begin, span.duration ? *span.duration : *default_length};
+}
+
+Result<std::string> frames_in(const TimePart& part, double fps) {
+    const double first = std::round(part.begin * fps);
+    const double last = std::max(first, std::round((part.begin + part.length) * fps) - 1);
+    if (last > render::k_last_frame || last - first >= double(k_most_frames_of_time))
+        return fail(
+            ErrorCode::usage,
+            fmt::format("{} s from {} s on at {} frames per second are too many frames: at most {}, up "
+                        "to frame {}",
+                        part.length, part.begin, fps, k_most_frames_of_time, render::k_last_frame));
+    return fmt::format("{}-{}", int(first), int(last));
+}
+
+std::vector<int> beginnings(const TimePart& part, double fps, size_t count) {
     std::vector<int> frames;
     for (size_t i = 0; i < count; ++i)
-        frames.push_back(int(std::floor(seconds * fps * double(i) / double(count))));
+        frames.push_back(int(std::floor(part.begin * fps + part.length * fps * double(i) / double(count))));
     return frames;
 }
 

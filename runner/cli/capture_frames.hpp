@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,8 +18,34 @@ namespace tidemark::cli {
 /// Returns `count` of the frames, evenly spread, including the first and the last; at most all of them.
 std::vector<int> evenly(const std::vector<int>& frames, size_t count);
 
-/// Returns the frames at which `count` equal parts of a duration begin, from frame 0 on.
-std::vector<int> beginnings(double seconds, double fps, size_t count);
+/// Returns `1 frame`, `2 frames`.
+std::string counted_frames(size_t count);
+
+/// The time that a capture covers, in seconds, as --from, --to and --duration give it.
+struct TimeSpan {
+    std::optional<double> from{};
+    std::optional<double> to{};
+    std::optional<double> duration{};
+
+    bool given() const { return from || to || duration; }
+};
+
+/// A part of the scene's time, in seconds.
+struct TimePart {
+    double begin = 0;
+    double length = 0;
+};
+
+/// Returns the part that the options select. Fails (ErrorCode::usage) if its end is not after its beginning,
+/// or if it is missing and there is no default length.
+Result<TimePart> part_of(const TimeSpan& span, std::optional<double> default_length = {});
+
+/// Returns the frames of a part, without the one at its end, as --frames accepts them: `60-89` for 2 s to 3 s
+/// at 30 frames a second. Its ends are rounded to frames; it has at least one.
+Result<std::string> frames_in(const TimePart& part, double fps);
+
+/// Returns the frames at which `count` equal parts of that part begin.
+std::vector<int> beginnings(const TimePart& part, double fps, size_t count);
 
 // The frame rate of a video, and how long each frame is shown.
 

@@ -15,6 +15,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <unordered_set>
 
 namespace tidemark::cli {
@@ -150,19 +152,19 @@ Result<std::vector<int>> frames_of_sheet(const CaptureOptions& options, const Fr
     const auto refuse = refusal("--sheet");
     if (options.frames.frame || options.frames.time)
         return refuse("--frame and --time name one moment: give --frames or --duration");
-    if (options.frames.frames && options.duration)
+    if (options.frames.frames && options.time.given())
         return refuse("give either --frames or --duration");
     if (options.frames.frames)
         return asked.frames.size() >= grid.cells()
                    ? Result<std::vector<int>>(evenly(asked.frames, grid.cells()))
                    : refuse(fmt::format("{}x{} cells need {} frames, but --frames names {}", grid.columns,
                                         grid.rows, grid.cells(), asked.frames.size()));
-    const double seconds = options.duration.value_or(k_seconds_of_sheet);
-    const double frames = seconds * asked.state.fps;
-    if (!(frames >= double(grid.cells())) || frames > render::k_last_frame)
-        return refuse(fmt::format("{} s at {} frames per second cannot give {} moments", seconds,
+    const TimePart part = TRY(part_of(options.time, k_seconds_of_sheet));
+    const double frames = part.length * asked.state.fps;
+    if (!(frames >= double(grid.cells())) || frames + part.begin * asked.state.fps > render::k_last_frame)
+        return refuse(fmt::format("{} s at {} frames per second cannot give {} moments", part.length,
                                   asked.state.fps, grid.cells()));
-    return beginnings(seconds, asked.state.fps, grid.cells());
+    return beginnings(part, asked.state.fps, grid.cells());
 }
 
 /// Rejects outputs that do not fit a sheet.
@@ -179,6 +181,53 @@ Result<void> check_sheet(const CapturePlan& plan) {
     if (std::max(extent.width, extent.height) > image::k_largest_side || bytes > image::k_largest_picture)
         return refuse(fmt::format("the sheet would have {}x{} pixels: give a smaller --size, or fewer cells",
                                   extent.width, extent.height));
+    return {};
+}
+
+/// Returns the options with the frames of --from, --to and --duration, which a sheet reads itself.
+Result<FrameOptions> with_time(const CaptureOptions& options, FrameOptions frames) {
+    if (!options.time.given() || !options.sheet.empty())
+        return frames;
+    if (frames.frame || frames.frames || frames.time)
+        return fail(ErrorCode::usage,
+                    fmt::format("{}: --from, --to and --duration select the frames already; "
+                                "give only one of them",
+                                frames.frame    ? "--frame"
+                                : frames.frames ? "--frames"
+                                                : "--time"));
+    const FrameSequence base = options.like_frames.value_or(FrameSequence());
+    const auto typed = frames.numbers.find("--fps");
+    const double fps =
+        typed != frames.numbers.end() ? typed->second : base.lead_in_fps.value_or(base.state.fps);
+    if (!(fps > 0) || !std::isfinite(fps))
+        return frames; // `resolve` refuses it
+    const TimePart part = TRY(part_of(options.time));
+    frames.frames = TRY(frames_in(part, fps));
+    return frames;
+}
+
+/// Fails if a video is asked for without its frames, which would be a video of one frame.
+Result<void> check_frames_of_video(const CapturePlan& plan, const CaptureOptions& options) {
+    const FrameOptions& frames = options.frames;
+    if (!plan.output.video() || options.time.given() || frames.frame || frames.frames || frames.time)
+        return {};
+    return fail(ErrorCode::usage,
+                fmt::format("-o {}: give the length of the video, as in --duration 5, --from 2 --to 4.5 or "
+                            "--frames 0-299",
+                            plan.output.pattern().string()));
+}
+
+/// Sets the size of the written pictures after --pad.
+Result<void> pad(const std::string& text, CapturePlan& plan) {
+    if (text.empty())
+        return {};
+    if (!plan.output.video())
+        return fail(ErrorCode::usage,
+                    "--pad: is for videos only; pictures and raw frames may have odd sides");
+    const Extent even{plan.written.width + plan.written.width % 2,
+                      plan.written.height + plan.written.height % 2};
+    plan.padded = even != plan.written;
+    plan.written = even;
     return {};
 }
 
@@ -267,7 +316,7 @@ Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options
     if (std::max(extent.width, extent.height) > render::k_largest_tiled_side)
         return fail(ErrorCode::usage, fmt::format("--size {}x{}: a side has at most {} pixels", extent.width,
                                                   extent.height, render::k_largest_tiled_side));
-    return {};
+    return check_frames_of_video(plan, options);
 }
 
 /// Returns the pass that a command shows; null if the scene has none of that name.
@@ -282,8 +331,10 @@ const scene::Pass* shown_pass(const scene::Scene& scene, const std::string& name
 Result<CapturePlan> plan_of_options(const CaptureOptions& options, const scene::Scene* files) {
     CapturePlan plan;
     plan.options = options;
-    plan.frames = TRY(resolve(files && !options.like_frames ? sized(options.frames, *files) : options.frames,
-                              options.like_frames.value_or(FrameSequence())));
+    FrameOptions frames = TRY(with_time(options, options.frames));
+    if (files && !options.like_frames)
+        frames = sized(std::move(frames), *files);
+    plan.frames = TRY(resolve(frames, options.like_frames.value_or(FrameSequence())));
     plan.states = states_of(plan.frames);
     const scene::Pass* const shown = files ? shown_pass(*files, plan.frames.state.pass) : nullptr;
     plan.cube = shown && shown->kind == scene::PassKind::cubemap;
@@ -307,6 +358,7 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options, const scene::
     const Extent drawn = plan.cube ? image::k_panorama : plan.frames.state.extent;
     plan.crop = TRY(parse_crop(options, plan, drawn));
     plan.written = plan.crop ? plan.crop->extent : drawn;
+    TRY(pad(options.pad, plan));
     const bool bytes = plan.depth == SampleDepth::u8 && !plan.exposure.several() && !plan.keeps_alpha();
     plan.drawing = {
         .extent = plan.frames.state.extent,
@@ -323,6 +375,21 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options, const scene::
     return check_output(plan, options).map([&] { return std::move(plan); });
 }
 
+/// Makes the folders of the output that do not exist.
+Result<void> make_folders(const CapturePlan& plan) {
+    const auto folder_of = [&](int frame) { return plan.output.of_frame(frame).path().parent_path(); };
+    const std::vector<int>& frames = plan.frames.frames;
+    std::error_code ignored;
+    const bool several = folder_of(frames.front()) != folder_of(frames.back()); // a number in its name
+    for (const int frame : several ? std::span(frames) : std::span(frames).first(1))
+        if (const std::filesystem::path folder = folder_of(frame);
+            !folder.empty() && !std::filesystem::exists(folder, ignored)) {
+            TRY(plan.output.of_frame(frame).check_links());
+            TRY(make_folder(OutputPath::typed(folder)));
+        }
+    return {};
+}
+
 /// Refuses to overwrite a file that is read, also for a late frame of a sequence, before the first frame is
 /// drawn.
 Result<void> spare_what_is_read(const CaptureOptions& options, CapturePlan& plan) {
@@ -332,6 +399,7 @@ Result<void> spare_what_is_read(const CaptureOptions& options, CapturePlan& plan
     if (plan.output.standard_output())
         return {};
     plan.output.spare(read);
+    TRY(make_folders(plan));
     TRY(check_writable(plan.output.of_frame(plan.frames.frames.front())));
     for (const std::filesystem::path& file : read)
         if (const auto frame = frame_of(file, plan.output);
@@ -504,15 +572,19 @@ bool wants_sound(const CaptureOptions& options) {
 Result<SoundPlan> plan_sound(const CaptureOptions& options) {
     if (options.resume)
         return fail(ErrorCode::usage, "--resume: a sound cannot be resumed");
-    const double duration = options.duration.value_or(k_seconds_of_sound);
-    if (!(duration > 0) || duration > k_longest_sound)
+    if (!options.time.to && options.time.duration.value_or(1) <= 0)
         return fail(ErrorCode::usage, fmt::format("--duration {}: give more than 0 and at most {} seconds",
-                                                  duration, k_longest_sound));
+                                                  *options.time.duration, k_longest_sound));
+    const TimePart part = TRY(part_of(options.time, k_seconds_of_sound));
+    if (part.length > k_longest_sound)
+        return fail(ErrorCode::usage, fmt::format("--duration {}: give more than 0 and at most {} seconds",
+                                                  part.length, k_longest_sound));
     auto scene = TRY(load(options.scene));
     OutputPath output = OutputPath::typed(*options.output).sparing(files_read(scene));
+    if (const auto folder = output.path().parent_path(); !folder.empty())
+        TRY(make_folder(OutputPath::typed(folder)));
     TRY(check_writable(output));
-    return SoundPlan{std::move(scene), std::move(output), options.device, precision_of(options.scene),
-                     duration};
+    return SoundPlan{std::move(scene), std::move(output), options.device, precision_of(options.scene), part};
 }
 
 Result<Trial> compile(const CapturePlan& plan, Interrupt& interrupt) {

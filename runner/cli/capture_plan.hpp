@@ -38,7 +38,8 @@ struct CaptureOptions {
     platform::DeviceChoice device{};
     std::optional<double> timeout;
     std::string sheet;
-    std::optional<double> duration; ///< seconds
+    TimeSpan time{};
+    std::string pad; ///< "even", or empty
     bool plain = false;
     std::optional<double> allowed_difference;
     std::optional<int> tile;
@@ -73,6 +74,7 @@ struct CapturePlan {
         false; ///< the shown pass is a cube, drawn as a panorama or, with {} in the name, as six faces
     std::optional<Rectangle> crop{}; ///< the part of a drawn picture that is written; nothing: all of it
     Extent written{};                ///< size of a written picture, except for six faces
+    bool padded = false;             ///< `written` has a column or a row more than what is drawn
     image::SampleDepth depth = image::SampleDepth::u8;
     image::Transfer transfer = image::Transfer::srgb; ///< of the files
     image::Alpha alpha = image::Alpha::where_needed;  ///< of Image; where_needed: alpha is 1
@@ -120,7 +122,7 @@ struct SoundPlan {
     OutputPath output;
     platform::DeviceChoice device;
     glsl::Precision precision = glsl::Precision::single;
-    double duration = 60; ///< seconds
+    TimePart part{0, 60};
 };
 
 /// Returns true if the output is a .wav file.

@@ -53,6 +53,8 @@ Json drawing_facts(const CapturePlan& plan) {
         facts.push_back(Json::array({"layers", int(*plan.layers)}));
     if (plan.crop)
         facts.push_back(Json::array({"crop", to_string(*plan.crop)}));
+    if (plan.padded)
+        facts.push_back(Json::array({"pad", plan.options.pad}));
     return facts;
 }
 

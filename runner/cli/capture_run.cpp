@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -35,6 +36,9 @@ image::Image stacked(std::span<const image::Image> pictures) {
         all.bytes.insert(all.bytes.end(), picture->bytes.begin(), picture->bytes.end());
     return all;
 }
+
+/// The change of a PSNR when differences are halved.
+constexpr double k_half_in_decibels = 6.0;
 
 /// Freed blocks up to this size stay in the process: a 4K frame of bytes.
 constexpr int k_kept_bytes = 32 << 20;
@@ -89,19 +93,46 @@ void LoopCheck::see(std::span<const image::Image> pictures) {
 }
 
 void LoopCheck::see(const image::Image& picture) {
-    if (++seen_ == 1) {
-        first_ = picture;
+    if (closed_) {
+        beyond_ = image::compare(first_, picture)->psnr;
         return;
     }
-    closing_ = image::compare(first_, picture)->psnr;
+    before_ = std::exchange(last_, picture);
+    if (++seen_ == 1)
+        first_ = picture;
     if (seen_ == 2)
-        step_ = closing_;
+        step_ = image::compare(first_, picture)->psnr;
 }
 
-std::string LoopCheck::words() const {
-    return fmt::format(
-        "loop: {}; the frame after the last matches the first with {:.1f} dB (the second: {:.1f} dB)",
-        closing_ >= step_ ? "seamless" : "jumps at the start", closing_, step_);
+void LoopCheck::close() {
+    closed_ = true;
+    closing_ = image::compare(first_, last_)->psnr;
+    end_ = image::compare(first_, before_)->psnr;
+    step_ = std::min(step_, image::compare(before_, last_)->psnr);
+}
+
+/// Returns true if a frame differs from the first by less than half a step, or not at all.
+bool LoopCheck::is_near(double psnr) const {
+    return std::isinf(psnr) || psnr >= step_ + k_half_in_decibels;
+}
+
+bool LoopCheck::may_lack_a_frame() const {
+    return !seamless() && closing_ >= step_ - k_half_in_decibels;
+}
+
+std::string LoopCheck::words(const std::vector<int>& frames) const {
+    const std::string numbers =
+        fmt::format("the frame after the last matches the first with {:.1f} dB (a step inside of the loop: "
+                    "{:.1f} dB)",
+                    closing_, step_);
+    if (seamless())
+        return "loop: seamless; " + numbers;
+    if (is_near(end_))
+        return fmt::format("loop: fails; frame {} repeats the first: leave it out; {}", frames.back(),
+                           numbers);
+    if (beyond_ && is_near(*beyond_))
+        return fmt::format("loop: fails; frame {} is missing at the end; {}", frame_behind(frames), numbers);
+    return "loop: fails; it jumps at the start; " + numbers;
 }
 
 std::string Capture::cut_loops_warning() {
@@ -272,9 +303,18 @@ WrittenFrame Capture::finish(DrawnFrame drawn) {
     return frame;
 }
 
-/// Draws the frame after the last one for the comparison; it is not written.
+/// Draws the frame after the last one for the comparison, and one more if the sequence may lack a frame; they
+/// are not written.
 Result<bool> Capture::close_loop(const Interrupt& interrupt) {
-    return TRY(draw(frame_behind(plan_.frames.frames), interrupt)).has_value();
+    std::vector<int> frames = plan_.frames.frames;
+    frames.push_back(frame_behind(frames));
+    if (!TRY(draw(frames.back(), interrupt)))
+        return false;
+    loop_.close();
+    const int beyond = frame_behind(frames);
+    if (!loop_.may_lack_a_frame() || beyond < 0 || beyond > render::k_last_frame)
+        return true;
+    return TRY(draw(beyond, interrupt)).has_value();
 }
 
 Result<Capture::Outcome> Capture::make(int frame, const Interrupt& interrupt) {
@@ -414,7 +454,8 @@ nlohmann::ordered_json Capture::report() const {
     if (plan_.options.resume)
         report["kept"] = plan_.kept;
     if (plan_.options.loop)
-        report["loop"] = {{"closing_psnr", loop_.closing()}, {"step_psnr", loop_.step()}};
+        report["loop"] = {
+            {"seamless", loop_.seamless()}, {"closing_psnr", loop_.closing()}, {"step_psnr", loop_.step()}};
     report["frames"] = nlohmann::ordered_json::array();
     for (const FrameRecord& record : records().list()) {
         const render::FrameState state = plan_.states(record.frame);

@@ -59,25 +59,43 @@ private:
     Watchdog::Clock::time_point last_taken_;
 };
 
-// Checks whether a sequence is a seamless loop: compares the frame after the last with the first, and for
-// scale the second with the first.
+// Checks whether a sequence is a seamless loop: the frame after the last must equal the first, or at least be
+// much nearer to it than two successive frames inside of the loop are to each other.
 
 class LoopCheck {
 public:
-    /// Adds a frame, one picture or six; call it for each one in order, and for the frame after the last.
+    /// Adds a frame, one picture or six; call it for each one in order, and for the frame after the last. A
+    /// frame after `close` only serves the message.
     void see(std::span<const image::Image> pictures);
+    /// Ends the sequence with the frame that was added last, the one after its end.
+    void close();
 
-    /// PSNR in dB of the latest frame against the first, and of the second against the first.
+    bool closed() const { return closed_; }
+
+    // After `close`:
+
+    bool seamless() const { return is_near(closing_); }
+    /// Returns true if the frame after the last is still about one step away from the first, so that the
+    /// sequence may lack a frame.
+    bool may_lack_a_frame() const;
+    /// PSNR in dB of the frame after the last against the first.
     double closing() const { return closing_; }
+    /// PSNR in dB of a step inside of the loop: from the first frame to the second, or from the last to the
+    /// one after it, whichever is larger.
     double step() const { return step_; }
-    std::string words() const;
+    /// Returns the verdict, for a sequence of these frames.
+    std::string words(const std::vector<int>& frames) const;
 
 private:
     void see(const image::Image& picture);
+    bool is_near(double psnr) const;
 
-    image::Image first_;
+    image::Image first_, before_, last_;
     size_t seen_ = 0;
+    bool closed_ = false;
     double step_ = 0, closing_ = 0;
+    double end_ = 0;                 ///< PSNR of the sequence's last frame against the first
+    std::optional<double> beyond_{}; ///< the same of the frame after the closing one
 };
 
 class Capture {

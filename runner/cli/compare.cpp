@@ -121,6 +121,13 @@ std::vector<std::string> failures(const CompareOptions& options, const Pair& pai
         const double value = metric.of(metrics);
         if (!limit)
             continue;
+        if (metric.key == std::string_view("ssim") && std::isnan(value) && !no_number) {
+            if (metrics.samples.largest != 0) // equal pictures have an SSIM of 1, whatever their size
+                lines.push_back(fmt::format("{}SSIM needs pictures of at least {} pixels a side: use "
+                                            "--min-psnr or --max-rmse instead of {}",
+                                            pair.label(), image::k_ssim_window, metric.option));
+            continue;
+        }
         const bool within = metric.more_is_better ? value >= *limit : value <= *limit;
         if (within && !no_number)
             continue;

@@ -263,7 +263,7 @@ Result<void> make_video(const CapturePlan& pictures, const GatherOptions& option
         TRY(video->push(for_video(picture)));
     }
     TRY(video->finish(sound ? sound->path() : fs::path()));
-    say(fmt::format("wrote {}: {} frames", name, plan.frames.frames.size()));
+    say(fmt::format("wrote {}: {}", name, counted_frames(plan.frames.frames.size())));
     return {};
 }
 
@@ -278,7 +278,7 @@ Result<void> join_video(const GatherOptions& options, const CapturePlan& plan, I
                         *options.video, name));
     const auto sound = draw_sound_of_video(plan, interrupt);
     TRY(join(plan, sound ? sound->path() : fs::path()));
-    say(fmt::format("wrote {}: {} frames", name, plan.frames.frames.size()));
+    say(fmt::format("wrote {}: {}", name, counted_frames(plan.frames.frames.size())));
     StagedFile::remove_abandoned(segment_file(plan.output, 0), StagedFile::Machines::all);
     return {};
 }
@@ -299,8 +299,8 @@ Result<int> gather(const GatherOptions& options) {
     const Gathered found = gathered(plan, note.count);
     if (!found.wrong.empty())
         return report(found.wrong);
-    say(fmt::format("{} frames: all complete, with one fingerprint, drawn by {}", plan.frames.frames.size(),
-                    found.devices.begin()->first));
+    say(fmt::format("{}: all complete, with one fingerprint, drawn by {}",
+                    counted_frames(plan.frames.frames.size()), found.devices.begin()->first));
     if (plan.output.video())
         TRY(join_video(options, plan, interrupt));
     else if (options.samples > 0)

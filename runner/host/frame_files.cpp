@@ -48,7 +48,8 @@ Result<OutputName> OutputName::parse(std::string_view pattern, size_t frame_coun
     name.six_faces_ = pattern.find(k_face) != std::string_view::npos;
     for (size_t i = 0; i < pattern.size(); ++i) {
         std::string& part = name.numbered_ ? name.after_ : name.before_;
-        if (pattern[i] != '%' && pattern[i] != '#') {
+        const bool several = pattern.substr(i).starts_with("##");
+        if (pattern[i] != '%' && !several) { // a single # is a character of the name
             part += pattern[i];
             continue;
         }
@@ -59,7 +60,7 @@ Result<OutputName> OutputName::parse(std::string_view pattern, size_t frame_coun
         if (name.numbered_)
             return refuse("it has two frame numbers; one is enough");
         name.numbered_ = true;
-        if (pattern[i] == '#') {
+        if (several) {
             for (; i + 1 < pattern.size() && pattern[i + 1] == '#'; ++i)
                 ++name.digits_;
             ++name.digits_;
@@ -123,7 +124,7 @@ std::string name_after_scene(const fs::path& scene, std::string_view ending) {
         named = named.parent_path();
     if (named.empty() || named == "." || named.filename() == "..")
         named = fs::weakly_canonical(scene, ignored);
-    std::string stem = named.stem().string();
+    std::string stem = named == "-" ? "stdin" : named.stem().string(); // a scene from standard input
     if (stem.size() + ending.size() > k_longest) {
         size_t length = k_longest - ending.size();
         // Inside a UTF-8 character.
@@ -160,7 +161,9 @@ Result<Sequence> find_sequence(std::string_view name) {
     std::error_code ignored;
     if (name.find_first_of("%#") == std::string_view::npos || fs::exists(name, ignored))
         return Sequence{{std::nullopt, fs::path(name)}};
-    const auto pattern = TRY(OutputName::parse(name, 2, ""));
+    const auto pattern = TRY(OutputName::parse(name, 1, ""));
+    if (!pattern.numbered())
+        return fail(ErrorCode::load, fmt::format("there is no file '{}'", name));
     const fs::path folder = pattern.pattern().parent_path();
     Sequence found;
     for (fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, ignored), end;

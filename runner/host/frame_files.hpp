@@ -26,9 +26,10 @@ inline constexpr std::array<std::string_view, 6> k_face_names{"px", "nx", "py", 
 
 class OutputName {
 public:
-    /// Parses `pattern`, which holds at most one frame number: `%d`, `%04d`, or a run of `#` (one digit
-    /// each); `%%` is a percent sign. Fails (ErrorCode::usage) on an unknown file format or form of number,
-    /// and on several frames with one name. `option` precedes the pattern in the error.
+    /// Parses `pattern`, which holds at most one frame number: `%d`, `%04d`, or two or more `#` (one
+    /// digit each); `%%` is a percent sign, and a single `#` is a character. Fails (ErrorCode::usage) on an
+    /// unknown file format or form of number, and on several frames with one name. `option` precedes the
+    /// pattern in the error.
     static Result<OutputName> parse(std::string_view pattern, size_t frame_count,
                                     std::string_view option = "-o ");
 
@@ -41,6 +42,8 @@ public:
     OutputPath of_face(int frame, size_t face) const;
     /// True for `-`: raw frames on standard output.
     bool standard_output() const { return standard_output_; }
+    /// True if the name of a picture has a frame number.
+    bool numbered() const { return numbered_; }
     /// True if all frames go into one file.
     bool video() const { return video_; }
     /// True if a picture's name contains `{}`: each face of a cube is one file.

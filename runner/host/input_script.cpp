@@ -164,11 +164,39 @@ bool take_button(std::string_view& line, Button& button) {
     return true;
 }
 
+/// Names of keys that a recording may have instead of their codes: as JavaScript's KeyboardEvent.key, in
+/// lower case.
+constexpr std::pair<std::string_view, int> k_key_names[] = {
+    {"backspace", 8}, {"tab", 9},        {"enter", 13},      {"shift", 16},   {"control", 17},
+    {"ctrl", 17},     {"alt", 18},       {"capslock", 20},   {"escape", 27},  {"esc", 27},
+    {"space", 32},    {"pageup", 33},    {"pagedown", 34},   {"end", 35},     {"home", 36},
+    {"left", 37},     {"arrowleft", 37}, {"up", 38},         {"arrowup", 38}, {"right", 39},
+    {"down", 40},     {"insert", 45},    {"arrowright", 39}, {"delete", 46},  {"arrowdown", 40}};
+
+/// Returns the code of a key from its name, in upper or lower case: a letter, one of `k_key_names`, or F1 to
+/// F24.
+std::optional<int> key_of_name(std::string_view name) {
+    const std::string lower = lower_case(std::string(name));
+    if (lower.size() == 1 && lower[0] >= 'a' && lower[0] <= 'z')
+        return lower[0] - 'a' + platform::js_key_code(platform::Key::a);
+    const auto* const known =
+        std::ranges::find(k_key_names, std::string_view(lower), &std::pair<std::string_view, int>::first);
+    if (known != std::end(k_key_names))
+        return known->second;
+    const auto function =
+        lower.starts_with('f') ? number_from<int>(std::string_view(lower).substr(1)) : std::nullopt;
+    return function && *function >= 1 && *function <= 24
+               ? std::optional(platform::js_key_code(platform::Key::f1) + *function - 1)
+               : std::nullopt;
+}
+
+/// Takes a key's code or name.
 bool take_key(std::string_view& line, platform::Key& key) {
-    int code = 0;
-    if (!take_number(line, code, 1, 255))
+    std::string_view word = take_word(line);
+    const auto code = number_from<int>(word) ? number_from<int>(word) : key_of_name(word);
+    if (!code || *code < 1 || *code > 255)
         return false;
-    key = platform::Key(code);
+    key = platform::Key(*code);
     return true;
 }
 
@@ -218,12 +246,12 @@ constexpr Kind k_kinds[] = {
              return take_number(line, event.up, -k_farthest_pixel, k_farthest_pixel);
          });
      }},
-    {"keydown", "keydown CODE (1 to 255)",
+    {"keydown", "keydown KEY (a name as in a, space, left or F1, or a code from 1 to 255)",
      [](std::string_view& line) {
          return event_if<platform::KeyPressed>(
              [&](platform::KeyPressed& event) { return take_key(line, event.key); });
      }},
-    {"keyup", "keyup CODE (1 to 255)",
+    {"keyup", "keyup KEY (a name as in a, space, left or F1, or a code from 1 to 255)",
      [](std::string_view& line) {
          return event_if<platform::KeyReleased>(
              [&](platform::KeyReleased& event) { return take_key(line, event.key); });

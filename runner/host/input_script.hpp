@@ -88,11 +88,11 @@ struct TimedEvent {
 /// Events in ascending order of frames.
 using InputScript = std::vector<TimedEvent>;
 
-/// Parses one event a line; positions in pixels from the bottom left, JavaScript's key codes; `#` begins a
-/// comment:
+/// Parses one event a line; positions in pixels from the bottom left; a key is JavaScript's key code or a
+/// name (`a`, `space`, `left`, `F1`); `#` begins a comment:
 ///
-///     FRAME press left|middle|right X Y       FRAME move X Y       FRAME keydown CODE
-///     FRAME release left|middle|right         FRAME wheel UP       FRAME keyup CODE
+///     FRAME press left|middle|right X Y       FRAME move X Y       FRAME keydown KEY
+///     FRAME release left|middle|right         FRAME wheel UP       FRAME keyup KEY
 ///     FRAME camera reset                      FRAME set NAME=VALUE
 ///
 /// Errors (ErrorCode::load) have their place in `file`.

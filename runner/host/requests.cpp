@@ -1,12 +1,14 @@
 #include "host/requests.hpp"
 
 #include "base/encoding.hpp"
+#include "base/file.hpp"
 #include "host/console.hpp"
 #include "host/diagnostics.hpp"
 #include "host/forked.hpp"
 #include "shader/definitions.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +41,27 @@ bool take_range(std::string_view& text, std::vector<int>& frames) {
     for (int i = 0; i <= steps; ++i)
         frames.push_back(first + direction * i * step);
     return true;
+}
+
+/// The frame rates of television, which are written rounded: 1000/1001 of a whole number.
+constexpr std::pair<std::string_view, int> k_rounded_rates[] = {
+    {"23.976", 24}, {"29.97", 30}, {"47.952", 48}, {"59.94", 60}, {"119.88", 120}};
+
+/// Parses a frame rate: a number, or a fraction as in 24000/1001. 23.976, 29.97 and the like are read as the
+/// fractions that they round.
+std::optional<double> parse_rate(std::string_view text) {
+    for (const auto& [rounded, whole] : k_rounded_rates)
+        if (text == rounded)
+            return whole * 1000.0 / 1001;
+    const std::vector<double> parts = numbers_from<double>(text, '/');
+    if (parts.size() == 2 && parts[0] > 0 && parts[1] > 0)
+        return parts[0] / parts[1];
+    return number_from<double>(text);
+}
+
+/// Parses a number of `render::k_frame_fields`.
+std::optional<double> parse_number(std::string_view option, std::string_view text) {
+    return option == "--fps" ? parse_rate(text) : number_from<double>(text);
 }
 
 /// Formats a value as its option accepts it.
@@ -112,6 +135,21 @@ std::vector<Diagnostic> answered(const scene::Scene& scene, const SceneRequest& 
                                  [&](const Diagnostic& warning) { return warning.where == knob.where; });
     }
     return warnings;
+}
+
+/// Reads the text of the scene if its path is `-`, standard input. It counts as a file of the current folder.
+/// Returns what is wrong.
+std::string read_scene_of_input(SceneRequest& request, const std::string& path) {
+    if (path != "-")
+        return {};
+    auto text = read_all(STDIN_FILENO, k_largest_text);
+    if (!text)
+        return fmt::format("cannot read standard input: {}", system_reason(text.error()));
+    if (text->find('\0') != std::string::npos)
+        return "standard input has binary data, not shader text";
+    std::error_code ignored;
+    request.files.unsaved[std::filesystem::weakly_canonical(path, ignored)] = *std::move(text);
+    return {};
 }
 
 template <class T>
@@ -346,9 +384,12 @@ Result<glm::ivec2> parse_pixel(std::string_view text, Extent extent) {
 
 void add_scene_options(Command command, SceneRequest& request) {
     command
-        .add_option("SCENE", request.path,
-                    "A .glsl or .frag file with mainImage, a scene folder, or ShaderToy's .json")
+        .add_option(
+            "SCENE", request.path,
+            "A .glsl or .frag file with mainImage, a scene folder, ShaderToy's .json, or - for a text "
+            "from standard input")
         .required()
+        .check([&request](const std::string& path) { return read_scene_of_input(request, path); })
         .each(place_diagnostics);
     command.add_option("--set", request.sets, "Value of a knob (#iUniform)")
         .type_name("NAME=VALUE")
@@ -406,11 +447,16 @@ void add_number_options(Command command, FrameOptions& options, std::string_view
             .add_option(
                 std::string(field.option),
                 [&options, key = field.option](const std::string& text) {
-                    options.numbers[key] = number_from<double>(text).value_or(0);
+                    options.numbers[key] = parse_number(key, text).value_or(0);
                 },
                 std::string(field.meaning))
             .type_name(std::string(field.placeholder))
-            .check(number<double>("a number"))
+            .check([key = field.option](const std::string& text) {
+                return parse_number(key, text)
+                           ? std::string()
+                           : fmt::format("give a number{}, not '{}'",
+                                         key == "--fps" ? " or a fraction as in 24000/1001" : "", text);
+            })
             .default_str(fmt::format("{}", render::FrameState().*field.member));
     });
 }

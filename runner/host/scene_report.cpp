@@ -170,7 +170,12 @@ std::string describe(const scene::Scene& scene, const scene::Channel& channel) {
     if (const size_t* pass = source_pass(channel.input))
         return scene.passes[*pass].name;
     const auto files = input_files(channel.input);
-    return files.empty() ? std::string(traits_of(channel.input).name) : files.front().string();
+    if (files.empty())
+        return std::string(traits_of(channel.input).name);
+    std::string names;
+    for (const std::filesystem::path& file : files) // a cube may have six
+        names += (names.empty() ? "" : ", ") + file.string();
+    return names;
 }
 
 bool may_feed_back(const scene::Scene& scene) {

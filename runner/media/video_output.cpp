@@ -313,7 +313,7 @@ Words words_for_segment(const StagedFile& staged, const VideoEncoding& encoding,
     Words input{"-f",         "rawvideo",
                 "-pix_fmt",   layout_of(encoding, format.alpha),
                 "-s",         fmt::format("{}x{}", format.extent.width, format.extent.height),
-                "-framerate", fmt::format("{}", format.fps)};
+                "-framerate", rate_word(format.fps)};
     if (encoding.ten_bits)
         input = joined(input, colour_words());
     return joined(ffmpeg_words(), input, Words{"-i", "pipe:0"}, encoding.segment(format, encoder),
@@ -402,6 +402,19 @@ std::vector<std::string_view> codecs_of(const fs::path& path) {
 bool has_ten_bits(const fs::path& path, std::string_view codec) {
     const VideoEncoding* const encoding = encoding_of(path, codec);
     return encoding && encoding->ten_bits;
+}
+
+bool odd_sides_keep_colours(const fs::path& path, std::string_view codec) {
+    const VideoEncoding* const encoding = encoding_of(path, codec);
+    return encoding && (encoding->codec == "h264" || encoding->codec == "hevc");
+}
+
+std::string rate_word(double fps) {
+    constexpr double k_nearly = 1e-9;
+    const double whole = std::round(fps * 1001);
+    const bool is_fraction = std::abs(fps * 1001 - whole) < k_nearly * whole;
+    return is_fraction && std::round(fps) != fps && whole < 1e9 ? fmt::format("{:.0f}/1001", whole)
+                                                                : fmt::format("{}", fps);
 }
 
 bool video_holds_alpha(const fs::path& path, std::string_view codec, Alpha alpha) {

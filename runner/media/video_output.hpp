@@ -34,8 +34,16 @@ bool has_ten_bits(const std::filesystem::path& path, std::string_view codec);
 /// VP9 straight, .mov in both.
 bool video_holds_alpha(const std::filesystem::path& path, std::string_view codec, Alpha alpha);
 
+/// Returns whether a video of that name and codec (empty: the default) has colours at full resolution (4:4:4)
+/// if a side is odd.
+bool odd_sides_keep_colours(const std::filesystem::path& path, std::string_view codec);
+
 /// Returns the file extension of the segments of a video of that name: `.mp4`, or `.mov`.
 std::string_view segment_extension(const std::filesystem::path& video);
+
+/// Returns a frame rate as ffmpeg reads it: the exact fraction for 1000/1001 of a whole number, as in
+/// 24000/1001, otherwise the number.
+std::string rate_word(double fps);
 
 struct VideoFormat {
     Extent extent;

@@ -13,7 +13,9 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 #include <variant>
+#include <vector>
 
 namespace tidemark::cli {
 namespace {
@@ -44,6 +46,30 @@ Result<std::vector<std::string>> write_knobs(const std::vector<scene::Knob>& kno
     for (const auto& [file, turned] : by_file)
         lines.push_back(TRY(write_into(file, turned)));
     return lines;
+}
+
+/// Returns true if a program of the scene reads the orbit camera.
+bool uses_camera(const render::Renderer& renderer) {
+    const SceneFacts facts = facts_of(renderer);
+    std::vector<std::string> read = facts.uniforms;
+    for (const auto& [name, ours] : facts.other_names)
+        read.push_back(ours);
+    return std::ranges::any_of(read, [](const std::string& name) {
+        return name == "iCamera" || name == "iOrbit" || name == "iOrbitPan" || name == "iViewMatrix";
+    });
+}
+
+/// Returns the number with six significant digits.
+double rounded(double number) {
+    return number_from<double>(fmt::format("{:.6g}", number)).value_or(number);
+}
+
+render::OrbitCamera rounded(const render::OrbitCamera& camera) {
+    const glm::dvec3& target = camera.target;
+    return {rounded(camera.azimuth),
+            rounded(camera.elevation),
+            rounded(camera.distance),
+            {rounded(target.x), rounded(target.y), rounded(target.z)}};
 }
 
 } // namespace
@@ -262,8 +288,8 @@ void Viewer::save_picture() {
     say(saved ? fmt::format("saving {}", *saved) : to_string(saved.error()));
 }
 
-/// Copies the capture command. Leaves out the rate of the window's clock, and the date unless the user gave
-/// one.
+/// Copies the capture command, with rounded numbers of the camera if the scene uses it. Leaves out the rate
+/// of the window's clock, and the date unless the user gave one.
 void Viewer::copy_moment() {
     if (!has_frame())
         return;
@@ -271,6 +297,12 @@ void Viewer::copy_moment() {
     render::FrameState& state = copied.sequence.state;
     state.fps = settings_.frames.state.fps;
     state.date = settings_.frames.state.date;
+    if (stage_ && uses_camera(stage_->renderer())) {
+        state.camera = rounded(state.camera);
+    } else {
+        state.camera = {};
+        state.initial_camera.reset();
+    }
     const std::string command = capture_command(copied);
     screen_->set_clipboard(command);
     say("copied: " + command);

@@ -56,7 +56,7 @@ class Video(ProgramTest):
     def test_codecs(self):
         for codec, names in (("hevc", ("a.mp4", "a.mkv")), ("av1", ("a.mp4", "a.mkv", "a.webm"))):
             if self.lacks(codec):
-                done = self.run_program("capture", "a.glsl", *SIZE, "--codec", codec, "-o", "a.mp4")
+                done = self.run_program("capture", "a.glsl", *SIZE, "--frame", "0", "--codec", codec, "-o", "a.mp4")
                 self.assertEqual(done.returncode, 4)
                 self.assertIn(f"--codec {codec}: this ffmpeg lacks the encoder ", done.stderr)
                 continue
@@ -117,9 +117,33 @@ class Video(ProgramTest):
         self.succeed("capture", "a.glsl", *SIZE, "--frame", "3", "-o", "one.png")
         self.assertIn("RMSE 0,", self.succeed("compare", "one.webp", "one.png").stdout.decode())
 
+    def test_rates_of_television_are_exact(self):
+        for typed, exact in (("24000/1001", "24000/1001"), ("23.976", "24000/1001"), ("29.97", "30000/1001"),
+                             ("59.94", "60000/1001"), ("25/2", "25/2")):
+            for name in ("a.mp4", "a.mov"):
+                self.succeed("capture", "a.glsl", *SIZE, "--fps", typed, "--frames", "0-9", "--state-every", "3", "-o", name)
+                self.assertEqual(self.facts(name)["video"]["r_frame_rate"], exact, typed)
+        self.succeed("capture", "a.glsl", *SIZE, "--fps", "59.94", "--frames", "0-18x2", "-o", "a.mp4")
+        self.assertEqual(self.facts("a.mp4")["video"]["r_frame_rate"], "30000/1001")
+
+    def test_padded_to_even_sides(self):
+        self.succeed("capture", "a.glsl", "--size", "33x17", "--frame", "0", "-o", "one.mov")
+        done = self.succeed("capture", "a.glsl", "--size", "33x17", "--frame", "0", "--pad", "even", "-o", "even.mov")
+        self.assertNotIn("warning", done.stderr)
+        odd, even = (self.decoded(name, "-pix_fmt", "rgb24", "-f", "rawvideo") for name in ("one.mov", "even.mov"))
+        self.assertEqual((len(odd), len(even)), (33 * 17 * 3, 34 * 18 * 3))
+        for x, y in ((0, 0), (33, 0), (33, 17), (0, 17), (16, 8)):  # from the top left; the rest repeats its neighbour
+            at, of = 3 * (y * 34 + x), 3 * (min(y, 16) * 33 + min(x, 32))
+            for got, wanted in zip(even[at:at + 3], odd[of:of + 3]):
+                self.assertLessEqual(abs(got - wanted), 3, (x, y))
+        done = self.succeed("capture", "a.glsl", "--size", "33x17", "--frame", "0", "--pad", "even", "-o", "even.mp4")
+        self.assertEqual(done.stderr, "wrote even.mp4: 1 frame\n")
+        self.assertEqual(self.facts("even.mp4")["video"]["pix_fmt"], "yuv420p")
+
     def test_odd_sizes(self):
         for name in ("odd.mp4", "odd.webm", "odd.mov", "odd.gif"):
-            self.succeed("capture", "a.glsl", "--size", "33x17", "--fps", "10", "--frames", "0-2", "-o", name)
+            done = self.succeed("capture", "a.glsl", "--size", "33x17", "--fps", "10", "--frames", "0-2", "-o", name)
+            self.assertEqual("many players refuse; give --pad even or --crop 0,0,32,16" in done.stderr, name == "odd.mp4")
             video = self.facts(name)["video"]
             self.assertEqual((video["width"], video["height"]), (33, 17))
 
@@ -225,7 +249,8 @@ class Video(ProgramTest):
     def test_broken_sound_pass_leaves_a_silent_video(self):
         self.write("s/image.glsl", SCENE)
         self.write("s/sound.glsl", "vec2 mainSound(int samp, float t) { return nothing; }")
-        done = self.succeed("capture", "s", *SIZE, "-o", "s.mp4")
+        done = self.succeed("capture", "s", *SIZE, "--frame", "0", "-o", "s.mp4")
+        self.assertEqual(done.stderr.splitlines()[-1], "wrote s.mp4: 1 frame")
         self.assertRegex(done.stderr, r"\Athe video is silent: tidemark: error: 's' does not compile\n"
                                       r"s/sound\.glsl:1(:44)?: error: ")
         self.assertEqual(set(self.facts("s.mp4")), {"video"})
@@ -234,7 +259,8 @@ class Video(ProgramTest):
         def refused(words: str, code: int = 2, env=None, *options: str) -> None:
             self.expect_error(["capture", "a.glsl", *SIZE, *options], code, words, env=env)
 
-        refused("'a.mp4': there is no program 'ffmpeg'", 4, environment(PATH=str(self.folder)), "-o", "a.mp4")
+        refused("'a.mp4': there is no program 'ffmpeg'", 4, environment(PATH=str(self.folder)), "-o", "a.mp4",
+                "--frame", "0")
         refused("--fps 60: a GIF has at most 50 frames per second", 2, None, "-o", "a.gif")
         refused("--depth: ", 2, None, "-o",
                 "a.mp4", "--depth", "16")
@@ -242,7 +268,10 @@ class Video(ProgramTest):
         refused("--codec av1: give an .mp4, an .mkv or a .webm", 2, None, "-o", "a.png", "--codec", "av1")
         refused("--codec hevc: a .webm holds vp9, av1", 2, None, "-o", "a.webm", "--codec", "hevc")
         refused("-o : ", 2, None, "-o", "")
-        refused("'no/a.webm': No such file or directory", 4, None, "-o", "no/a.webm")
+        refused("'a.glsl/b': Not a directory", 4, None, "-o", "a.glsl/b/a.webm", "--frame", "0")
+        for name in ("a.mp4", "a.webp"):
+            refused(f"-o {name}: give the length of the video, as in --duration 5, ", 2, None, "-o", name)
+        refused("--pad: is for videos only", 2, None, "-o", "a.png", "--pad", "even")
 
     def has_written(self) -> bool:
         for path in self.folder.iterdir():

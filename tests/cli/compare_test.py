@@ -121,6 +121,15 @@ class Pictures(Compare):
                 if note:
                     self.assertIn("; " + note, self.succeed("compare", a, b, "-o", "d.png").stdout.decode())
 
+    def test_ssim_of_small_pictures(self):
+        self.picture("a.png", 100, (8, 20)), self.picture("b.png", 101, (8, 20))
+        self.succeed("compare", "a.png", "a.png", "--min-ssim", "1")
+        done = self.run_program("compare", "a.png", "b.png", "--min-ssim", "0.1")
+        self.assertEqual((done.returncode, done.stderr), (1, "SSIM needs pictures of at least 11 pixels a side: use --min-psnr or "
+                                                             "--max-rmse instead of --min-ssim\n"))
+        # A tolerance does not make pictures equal.
+        self.compared("a.png", "b.png", "--min-ssim", "0.1", "--tolerance", "0.5", code=1)
+
     def test_difference_picture(self):
         self.picture("a.png", 100), self.picture("b.png", 110)
         self.succeed("compare", "a.png", "b.png", "-o", "d.png")

@@ -88,6 +88,17 @@ class Scene(ProgramTest):
             "sea.glsl", "  file      sea.glsl", "  file      lib.glsl", "  pass      Image", "  iChannel1 noise",
             "  knob      float height = 0.5 in { 0, 2 }", "  knob      color3 tint = vec3(1, 0.5, 0)"])
 
+    def test_names_all_six_files_of_a_cube(self):
+        for face in ("px", "nx", "py", "ny", "pz", "nz"):
+            self.write(f"sky_{face}.png", png.encode(2, 2, 3, [bytes(6)] * 2))
+        self.write("sky.glsl", '#iChannel0 "sky_{}.png"\n#iChannel0::Type "CubeMap"\n'
+                               "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, vec3(p, 1.0)); }\n")
+        files = "sky_px.png, sky_nx.png, sky_py.png, sky_ny.png, sky_pz.png, sky_nz.png"
+        for options in ((), ("--device", "none")):
+            facts = json.loads(self.succeed("inspect", "sky.glsl", "--json", *options).stdout)
+            self.assertEqual(facts["passes"][0]["channels"], {"iChannel0": files})
+            self.assertIn(f"  iChannel0 {files}\n", self.succeed("inspect", "sky.glsl", *options).stdout.decode())
+
     def test_names_what_can_be_defined(self):
         (self.folder / "project").mkdir()
         self.write("project/common.glsl", "#define PI 3.14\nconst int STEPS = \t 64; // many\n#define SQUARE(x) ((x)*(x))\n")

@@ -139,6 +139,17 @@ class Looking(Page):
         address = self.service.address.partition("?")[0]
         self.assertEqual([asked for asked in self.browser.requests if not asked.startswith((address, "data:"))], [])
 
+    def test_breaks_no_rule_of_its_own(self):
+        """The address of its icon included, which a browser with a window loads."""
+        self.open()
+        refused = self.browser.evaluate("""new Promise(done => {
+            document.addEventListener("securitypolicyviolation", () => done(true));
+            const icon = new Image();
+            icon.onload = icon.onerror = () => setTimeout(() => done(false), 100);
+            icon.src = document.querySelector("link[rel=icon]").href;
+        })""")
+        self.assertEqual((refused, self.browser.complaints), (False, []))
+
     def test_fits_the_window(self):
         """Nothing is wider than the page, and the picture is as it was drawn."""
         self.open()

@@ -53,8 +53,20 @@ class Moments(OverlayTest):
             self.assertIn(word, command)
         camera = re.search(r"--camera ([^ ]*)", command).group(1)
         self.assertEqual(len(camera.split(",")), 6)
+        for number in camera.split(","):
+            self.assertEqual(float(number), float(f"{float(number):.6g}"), "six digits are enough")
         self.succeed(*shlex.split(command)[1:], "-o", "again.png")
         self.assertEqual(probe.read(png.read(self.folder / "again.png"), VALUES), probe.read(saved, VALUES))
+
+    def test_the_command_of_a_scene_without_a_camera_has_none(self):
+        self.write("flat.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(iMouse.xy / iResolution.xy, 0.0, 1.0); }\n")
+        view = self.open("flat.glsl", "--size", "640x360")
+        view.drag((450, 150), (420, 170))
+        view.drag((450, 150), (480, 130), 2)
+        view.key("c")
+        command = view.wait_for_words("^copied: (tidemark capture flat.glsl .*)$").group(1)
+        self.assertIn("--mouse ", command)
+        self.assertNotIn("--camera", command)
 
     def test_with_a_recording(self):
         self.write("count.glsl", COUNT)

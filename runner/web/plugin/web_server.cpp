@@ -56,7 +56,7 @@ void shut_in(http::response<http::string_body>& response) {
     response.set(http::field::cache_control, "no-store");
     response.set("Content-Security-Policy",
                  "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; "
-                 "img-src blob:; connect-src 'self'; frame-ancestors 'none'; base-uri 'none'; "
+                 "img-src blob: data:; connect-src 'self'; frame-ancestors 'none'; base-uri 'none'; "
                  "form-action 'none'");
     response.set("Referrer-Policy", "no-referrer");
     response.set("X-Content-Type-Options", "nosniff");

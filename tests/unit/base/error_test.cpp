@@ -52,8 +52,10 @@ TEST(NearestName, forgives_slips) {
     const std::vector<std::string> names{"wave_height", "wave_speed", "fog"};
     EXPECT_EQ(nearest_name("wave_hieght", names), "wave_height");
     EXPECT_EQ(nearest_name("waveheight", names), "wave_height");
-    EXPECT_EQ(nearest_name("WAVE_speed", names), ""); // four of ten letters differ
-    EXPECT_EQ(nearest_name("fgo", names), "");        // two of three
+    EXPECT_EQ(nearest_name("--siez", {"--set", "--size"}), "--size"); // two swapped letters are one mistake
+    EXPECT_EQ(nearest_name("WAVE_speed", names), "");                 // four of ten letters differ
+    EXPECT_EQ(nearest_name("fgo", names), "fog");                     // two swapped letters are one mistake
+    EXPECT_EQ(nearest_name("gof", names), "");                        // two of three letters differ
     EXPECT_EQ(nearest_name("fo", names), "fog");
     EXPECT_EQ(nearest_name("fogg", names), "fog");
 }

@@ -42,6 +42,17 @@ TEST(InputScript, takes_comments_blanks_and_other_line_ends) {
     EXPECT_EQ(parse_input_script("", "take.txt"), InputScript{});
 }
 
+TEST(InputScript, keys_have_names) {
+    const auto named = parse_input_script("0 keydown a\n0 keyup Z\n1 keydown Space\n1 keyup ArrowLeft\n"
+                                          "2 keydown f1\n2 keyup F24\n",
+                                          "take.txt");
+    ASSERT_TRUE(named) << to_string(named.error());
+    EXPECT_EQ(to_string(*named),
+              "0 keydown 65\n0 keyup 90\n1 keydown 32\n1 keyup 37\n2 keydown 112\n2 keyup 135\n");
+    EXPECT_NE(refusal("1 keydown f25"), "");
+    EXPECT_NE(refusal("1 keydown spacebar"), "");
+}
+
 TEST(InputScript, says_what_is_wrong_and_where) {
     const std::string number = "a line must begin with a frame number, as in `12 move 100 50`";
     EXPECT_EQ(refusal("press left 1 2"), "take.txt:1: error: " + number);
@@ -60,9 +71,11 @@ TEST(InputScript, says_what_is_wrong_and_where) {
                                                         "give a number, up to four as in 1,2,3, #rrggbb or "
                                                         "default");
     EXPECT_EQ(refusal("1 press west 1 2"), "take.txt:1: error: give it as `1 press left|middle|right X Y`");
-    EXPECT_EQ(refusal("1 keydown 0"), "take.txt:1: error: give it as `1 keydown CODE (1 to 255)`");
+    EXPECT_EQ(refusal("1 keydown 0"), "take.txt:1: error: give it as `1 keydown KEY (a name as in "
+                                      "a, space, left or F1, or a code from 1 to 255)`");
     EXPECT_EQ(refusal("1 camera"), "take.txt:1: error: give it as `1 camera reset`");
-    EXPECT_EQ(refusal("1 keyup 256"), "take.txt:1: error: give it as `1 keyup CODE (1 to 255)`");
+    EXPECT_EQ(refusal("1 keyup 256"), "take.txt:1: error: give it as `1 keyup KEY (a name as in a, "
+                                      "space, left or F1, or a code from 1 to 255)`");
     EXPECT_EQ(refusal("7 wheel 1\n6 wheel 1"),
               "take.txt:2: error: frame 6 follows frame 7: frames must be in ascending order");
 }

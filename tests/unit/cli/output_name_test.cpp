@@ -87,13 +87,20 @@ TEST(OutputName, links_are_followed_only_where_they_were_typed) {
     EXPECT_FALSE(OutputName::parse(root + "/out/sky_{}.png", 1)->of_face(0, 0).place());
     EXPECT_TRUE(OutputName::parse(root + "/out/sky_{}.png", 1)->of_face(0, 1).place());
     std::filesystem::create_directory_symlink(elsewhere.path(), folder / "out7");
-    EXPECT_FALSE(goes("/out#/b.png"));
+    EXPECT_FALSE(goes("/out%d/b.png"));
 }
 
 TEST(OutputName, numbers_as_hashes) {
     EXPECT_EQ(name_of("a.####.png", 7, 2), "a.0007.png");
-    EXPECT_EQ(name_of("a#.exr", 7), "a7.exr");
-    EXPECT_EQ(name_of("#/a.png", 12), "12/a.png");
+    EXPECT_EQ(name_of("a##.exr", 7), "a07.exr");
+    EXPECT_EQ(name_of("##/a.png", 12), "12/a.png");
+}
+
+TEST(OutputName, a_single_hash_is_a_character) {
+    EXPECT_EQ(name_of("take#2.png", 7), "take#2.png");
+    EXPECT_EQ(name_of("take#2_###.png", 7, 2), "take#2_007.png");
+    EXPECT_EQ(name_of("#.png", 7, 2),
+              "-o #.png: 2 frames need a frame number in the name, as in wave.%04d.png");
 }
 
 TEST(OutputName, percent_signs) {
@@ -109,7 +116,7 @@ TEST(OutputName, standard_output) {
 }
 
 TEST(OutputName, two_numbers) {
-    for (const std::string pattern : {"%d/%d.png", "##.#.png", "%d#.png", "#%04d.png"})
+    for (const std::string pattern : {"%d/%d.png", "##.##.png", "%d##.png", "##%04d.png"})
         EXPECT_EQ(name_of(pattern, 1), "-o " + pattern + ": it has two frame numbers; one is enough");
 }
 
