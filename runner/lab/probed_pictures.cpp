@@ -243,9 +243,11 @@ std::string situation(const FrameState& state) {
     return words;
 }
 
-/// Returns whether all that is not finite is +Inf and shows as the pixels around it do: fully bright.
+/// Returns whether all that is not finite are some +Inf that show as the pixels around them do: fully bright.
 bool shows_as_around(const image::Image& picture, const image::FiniteCensus& census) {
-    if (census.nan > 0 || census.negative_infinity > 0)
+    constexpr size_t k_some = 100; // of so many samples one
+    if (census.nan > 0 || census.negative_infinity > 0 ||
+        k_some * census.positive_infinity > picture.samples())
         return false;
     const auto channels = size_t(picture.channels);
     const auto at = [&](int x, int y, size_t channel) {
