@@ -145,11 +145,11 @@ class Report(CheckTest):
         code, printed = self.interrupted(text)
         self.assertEqual(code, 130)
         self.assertRegex(printed, r"\Afail  .*\n      slow\.glsl:3, found by times\n")
-        self.assertRegex(printed, r"(?m)^cut   mouse_edge, .*  not run: interrupted$")
+        self.assertRegex(printed, r"(?m)^cut   .*, mediump  not run: interrupted$")
         code, printed = self.interrupted(text, "--json")
         self.assertEqual(code, 130)
         verdicts = {probe["probe"]: probe["verdict"] for probe in json.loads(printed)["probes"]}
-        self.assertEqual((verdicts["times"], verdicts["mouse_edge"]), ("fail", "cut"))
+        self.assertEqual((verdicts["times"], verdicts["mediump"]), ("fail", "cut"))
 
     def test_control_c_before_anything_is_found(self):
         code, printed = self.interrupted(SLOW.replace("iMouse.x > 0.0", "iTime >= 0.0"))
