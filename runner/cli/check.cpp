@@ -208,13 +208,14 @@ void add_check(Command app, Action& chosen) {
             fail_for_missing("SCENE");
         chosen = [options]() -> Result<int> {
             Interrupt interrupt;
+            if (!options->list && !options->portable && !options->traced && !options->mended)
+                return check_probes(options->probes, interrupt);
             const Interrupt::Immediate at_once(interrupt); // answers printed so far remain
             return options->list ? list_probes()
                    : options->portable
                        ? check_portable(options->probes.scene, options->probes.device, options->probes.json)
                    : options->traced ? trace(*options)
-                   : options->mended ? check_fix(fix_options(*options))
-                                     : check_probes(options->probes);
+                                     : check_fix(fix_options(*options));
         };
     });
 }

@@ -11,6 +11,8 @@
 
 namespace tidemark::cli {
 
+class Interrupt;
+
 struct ProbesRequest {
     SceneRequest scene;
     std::vector<std::string> probes; ///< --probe; empty: all
@@ -27,8 +29,9 @@ Result<lab::Promises> promises_of(const SceneRequest& request, const scene::Scen
 /// Prints a description of each probe.
 Result<int> list_probes();
 
-/// Returns exit code 1 if a probe fails.
-Result<int> check_probes(const ProbesRequest& request);
+/// Returns exit code 1 if a probe fails. After an interrupt it prints what was found so far, and returns
+/// Interrupt::k_exit_code.
+Result<int> check_probes(const ProbesRequest& request, Interrupt& interrupt);
 
 // `tidemark check --fix SCENE`: fixes for findings of the probes (lab/fix), as differences of the scene's
 // files.

@@ -11,6 +11,7 @@
 #include "host/gl_context.hpp"
 #include "host/json.hpp"
 #include "host/requests.hpp"
+#include "host/supervision.hpp"
 #include "lab/probe_bench.hpp"
 #include "media/picture_file.hpp"
 #include "render/gl_context.hpp"
@@ -26,8 +27,10 @@
 #include <chrono>
 #include <cstdlib>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace tidemark::cli {
 
@@ -99,6 +102,7 @@ constexpr double k_share_of_trace = 0.9;
 
 constexpr const char* k_not_asked = "not run: --budget is used up";
 constexpr const char* k_not_finished = "not finished: --budget is used up";
+constexpr const char* k_interrupted = "not run: interrupted";
 
 std::string probe_names() {
     std::string names;
@@ -190,14 +194,15 @@ Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, co
 using Take = std::function<Result<void>(ProbeResult)>;
 
 /// Runs all probes in order. If the driver hangs or crashes, that is the result of the probe that was
-/// running.
+/// running. After an interrupt the remaining probes are cut.
 Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
                         const lab::Promises& promises, Probes probes, Clock::time_point start,
-                        const Take& take) {
+                        const Interrupt& interrupt, const Take& take) {
     while (!probes.empty()) {
         const double left = request.budget - seconds_since(start);
-        if (left <= 0) {
-            if (auto taken = take({probes.front(), {Verdict::cut, k_not_asked}}); !taken)
+        if (left <= 0 || interrupt.requested()) {
+            const char* why = interrupt.requested() ? k_interrupted : k_not_asked;
+            if (auto taken = take({probes.front(), {Verdict::cut, why}}); !taken)
                 return taken;
             probes = probes.subspan(1);
             continue;
@@ -212,7 +217,7 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
                 if (auto done = ask_all(request, scene, promises, probes, start, tell); !done)
                     tell(dump(to_json(done.error())));
             },
-            {left},
+            {.seconds = left, .unwanted = [&] { return interrupt.requested(); }},
             [&](std::string_view line) {
                 const Json json = parse_json(line);
                 if (auto error = error_of(json))
@@ -239,7 +244,7 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
         if (probes.empty())
             break;
         const bool ended_by_itself = !run->timed_out && run->crash.empty() && probes.size() < before;
-        if (ended_by_itself) // the driver was reset: the remaining probes get a new context
+        if (ended_by_itself || run->unwanted) // after a reset of the driver the rest gets a new context
             continue;
         ProbeResult last{probes.front(), {Verdict::cut, k_not_finished}};
         if (!run->crash.empty())
@@ -252,10 +257,11 @@ Result<void> answer_all(const ProbesRequest& request, const scene::Scene& scene,
 }
 
 /// Finds the origin of a NaN or infinity that a probe found.
-void trace(const ProbesRequest& request, const scene::Scene& scene, ProbeResult& asked, double seconds) {
+void trace(const ProbesRequest& request, const scene::Scene& scene, const Interrupt& interrupt,
+           ProbeResult& asked, double seconds) {
     const render::FrameState& where = *asked.answer.where;
     const auto set = lab::in_state(scene, where);
-    TraceJob job{request.device, {}};
+    TraceJob job{request.device, {}, [&] { return interrupt.requested(); }};
     job.request.states = [&](int frame) { return where.at_frame(frame); };
     job.request.frame = where.frame;
     job.request.start = lab::first_frame_of(where);
@@ -293,7 +299,8 @@ Result<int> list_probes() {
     return put(text).map([] { return 0; });
 }
 
-Result<int> check_probes(const ProbesRequest& request) {
+Result<int> check_probes(const ProbesRequest& request, Interrupt& interrupt) {
+    std::optional<Interrupt::Immediate> at_once(std::in_place, interrupt); // nothing is found yet
     const auto probes = TRY(chosen_probes(request.probes));
     if (!(request.budget > 0))
         return fail(ErrorCode::usage, "--budget: give a number of seconds above 0");
@@ -309,14 +316,16 @@ Result<int> check_probes(const ProbesRequest& request) {
     const bool shown = request.json || ::isatty(STDERR_FILENO) == 1;
     Progress progress("probes", shown ? probes.size() : 0, {.limit = request.budget});
     std::vector<ProbeResult> all;
-    const auto done =
-        answer_all(request, scene, promises, probes, start, [&](ProbeResult asked) -> Result<void> {
-            if (asked.answer.non_finite)
-                trace(request, scene, asked, k_share_of_trace * (request.budget - seconds_since(start)));
-            all.push_back(std::move(asked));
-            progress.advance();
-            return {};
-        });
+    at_once.reset(); // from here on an interrupt ends the probes, and what they found is printed
+    const auto take = [&](ProbeResult asked) -> Result<void> {
+        if (asked.answer.non_finite)
+            trace(request, scene, interrupt, asked,
+                  k_share_of_trace * (request.budget - seconds_since(start)));
+        all.push_back(std::move(asked));
+        progress.advance();
+        return {};
+    };
+    const auto done = answer_all(request, scene, promises, probes, start, interrupt, take);
     if (!done)
         return fail(done.error());
     progress.step_aside();
@@ -329,7 +338,7 @@ Result<int> check_probes(const ProbesRequest& request) {
     const std::string text = request.json                 ? report(request, all)
                              : findings_are_diagnostics() ? ""
                                                           : printed(request, all, seconds_since(start));
-    return put(text).map([&all] { return exit_code(all); });
+    return put(text).map([&] { return interrupt.requested() ? Interrupt::k_exit_code : exit_code(all); });
 }
 
 } // namespace tidemark::cli

@@ -219,7 +219,7 @@ Result<TraceFound> trace_apart(const scene::Scene& scene, const TraceJob& job, d
             else
                 tell(dump(*found ? message_of(**found) : Json{{"finite", true}}));
         },
-        {seconds}, [&](std::string_view text) { heard.hear(text); });
+        {.seconds = seconds, .unwanted = job.unwanted}, [&](std::string_view text) { heard.hear(text); });
     if (!run)
         return fail(run.error());
     const Json& line = heard.line;
@@ -227,7 +227,9 @@ Result<TraceFound> trace_apart(const scene::Scene& scene, const TraceJob& job, d
         return fail(*std::move(error));
     TraceFound result;
     result.found = line.contains("trace");
-    result.ended = run->timed_out ? fmt::format("stopped after {:.3g} s", seconds) : run->crash;
+    result.ended = run->timed_out  ? fmt::format("stopped after {:.3g} s", seconds)
+                   : run->unwanted ? "interrupted"
+                                   : run->crash;
     if (run->timed_out && heard.frame >= 0)
         result.ended +=
             fmt::format(" at frame {} of {}: a scene with feedback must be drawn frame by frame from {}",

@@ -13,6 +13,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,6 +34,7 @@ std::optional<SourceLocation> origin_in(const nlohmann::ordered_json& trace);
 struct TraceJob {
     platform::DeviceChoice device{};
     lab::TraceRequest request;
+    std::function<bool()> unwanted{}; ///< called some twenty times a second: returns true to end the trace
 };
 
 /// The best result reported before the end.

@@ -1,6 +1,7 @@
 #include "lab/probed_pictures.hpp"
 
 #include "base/error.hpp"
+#include "base/extent.hpp"
 #include "base/measurement.hpp"
 #include "lab/pixel_trace.hpp"
 #include "media/comparison.hpp"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace tidemark::lab {
@@ -36,6 +38,59 @@ bool is_number(const image::Image& image, size_t pixel) {
     return std::ranges::all_of(samples, [](float sample) { return std::isfinite(sample); });
 }
 
+/// A picture as a screen shows it: every sample from 0 to 1, NaN as 0.
+class Shown {
+public:
+    explicit Shown(const image::Image& image) : image_(image), channels_(size_t(image.channels)) {}
+
+    double at(int x, int y, size_t channel) const {
+        const size_t pixel = size_t(y) * size_t(image_.extent.width) + size_t(x);
+        const float sample = image_.f32()[pixel * channels_ + channel];
+        return std::isnan(sample) ? 0 : std::clamp(double(sample), 0.0, 1.0);
+    }
+
+    /// Returns the mean of one channel over a part of the picture.
+    double mean(const Rectangle& part, size_t channel) const {
+        double sum = 0;
+        for (int y = part.y; y < part.y + part.extent.height; ++y)
+            for (int x = part.x; x < part.x + part.extent.width; ++x)
+                sum += at(x, y, channel);
+        return sum / double(part.extent.pixels());
+    }
+
+    /// Returns the mean square of the differences between neighbours.
+    double detail() const {
+        double squares = 0;
+        for (int y = 0; y + 1 < image_.extent.height; ++y)
+            for (int x = 0; x + 1 < image_.extent.width; ++x)
+                for (size_t channel = 0; channel < channels_; ++channel) {
+                    const double here = at(x, y, channel);
+                    squares +=
+                        std::pow(at(x + 1, y, channel) - here, 2) + std::pow(at(x, y + 1, channel) - here, 2);
+                }
+        return squares / double(image_.samples());
+    }
+
+private:
+    const image::Image& image_;
+    size_t channels_;
+};
+
+/// Returns how many times more detail one picture has than the other; less than a step of 8 bits counts as
+/// none.
+double ratio_of_detail(const image::Image& left, const image::Image& right) {
+    constexpr double k_none = 2 * k_visible_gap * k_visible_gap;
+    const double a = Shown(left).detail() + k_none, b = Shown(right).detail() + k_none;
+    return std::max(a, b) / std::min(a, b);
+}
+
+bool means_differ(const image::Image& left, const image::Image& right, const Rectangle& part, double most) {
+    for (size_t channel = 0; channel < size_t(left.channels); ++channel)
+        if (std::abs(Shown(left).mean(part, channel) - Shown(right).mean(part, channel)) > most)
+            return true;
+    return false;
+}
+
 std::string decibels(double mean_square) {
     return mean_square == 0 ? "the same" : fmt::format("{:.1f} dB", -10 * std::log10(mean_square));
 }
@@ -50,6 +105,29 @@ double visibly_different_percent(const image::Image& left, const image::Image& r
     const std::vector<double> largest = largest_differences(left, right);
     const auto visible = std::ranges::count_if(largest, [](double gap) { return gap > k_visible_gap; });
     return 100 * double(visible) / double(largest.size());
+}
+
+bool looks_different(const image::Image& left, const image::Image& right) {
+    constexpr int k_block = 4;
+    constexpr double k_most_blocks = 0.05, k_other_detail = 1.3;
+    size_t blocks = 0, different = 0;
+    for (int y = 0; y < left.extent.height; y += k_block)
+        for (int x = 0; x < left.extent.width; x += k_block) {
+            const Extent size{std::min(k_block, left.extent.width - x),
+                              std::min(k_block, left.extent.height - y)};
+            ++blocks;
+            different += means_differ(left, right, {x, y, size}, k_noticeable_gap);
+        }
+    return double(different) > k_most_blocks * double(blocks) ||
+           ratio_of_detail(left, right) > k_other_detail;
+}
+
+bool breaks_up(const image::Image& floats, const image::Image& doubles, bool from_the_start) {
+    constexpr double k_same_brightness = 0.02, k_same_detail = 2; // noise of few spots varies as much
+    const bool alike = !means_differ(floats, doubles, {0, 0, floats.extent}, k_same_brightness) &&
+                       ratio_of_detail(floats, doubles) < k_same_detail;
+    return p99_difference(floats, doubles) > k_noticeable_gap && looks_different(floats, doubles) &&
+           !(from_the_start && alike);
 }
 
 std::string alikeness(const image::Image& before, const image::Image& after) {
@@ -165,6 +243,26 @@ std::string situation(const FrameState& state) {
     return words;
 }
 
+/// Returns whether all that is not finite are some +Inf that show as the pixels around them do: fully bright.
+bool shows_as_around(const image::Image& picture, const image::FiniteCensus& census) {
+    constexpr size_t k_some = 100; // of so many samples one
+    if (census.nan > 0 || census.negative_infinity > 0 ||
+        k_some * census.positive_infinity > picture.samples())
+        return false;
+    const auto channels = size_t(picture.channels);
+    const auto at = [&](int x, int y, size_t channel) {
+        return picture.f32()[(size_t(y) * size_t(picture.extent.width) + size_t(x)) * channels + channel];
+    };
+    for (int y = 0; y < picture.extent.height; ++y)
+        for (int x = 0; x < picture.extent.width; ++x)
+            for (size_t channel = 0; channel < channels; ++channel)
+                for (const auto& [i, k] : {std::pair(x - 1, y), {x + 1, y}, {x, y - 1}, {x, y + 1}})
+                    if (std::isinf(at(x, y, channel)) && i >= 0 && k >= 0 && i < picture.extent.width &&
+                        k < picture.extent.height && at(i, k, channel) < 1)
+                        return false;
+    return true;
+}
+
 } // namespace
 
 std::optional<Answer> not_finite(const ProbeBench& bench, const FrameState& state,
@@ -183,6 +281,10 @@ std::optional<Answer> not_finite(const ProbeBench& bench, const FrameState& stat
         answer.where->pass = image ? "" : pass.pass;
         answer.effect = fmt::format("some pixels {}are NaN or infinite{}",
                                     image ? "" : fmt::format("of {} ", pass.pass), situation(state));
+        if (image && shows_as_around(pass.picture, census)) {
+            answer.verdict = Verdict::note;
+            answer.effect = "some pixels are infinite, and show as bright as those around them";
+        }
         return answer;
     }
     return std::nullopt;

@@ -24,6 +24,16 @@ double p99_difference(const image::Image& left, const image::Image& right);
 /// Returns the percentage of the pixels that differ by more than k_visible_gap, counted in the same way.
 double visibly_different_percent(const image::Image& left, const image::Image& right);
 
+/// Returns whether a viewer would see two pictures of floats, of one size, as different: more than 5 % of
+/// their blocks of 4x4 pixels differ in their mean by more than k_noticeable_gap, or one has much more
+/// detail.
+bool looks_different(const image::Image& left, const image::Image& right);
+
+/// Returns whether a viewer would see what rounding does to the picture in float, beside that in double. With
+/// `from_the_start` iTime is small, and other random details do not count: as bright, and with as much
+/// detail.
+bool breaks_up(const image::Image& floats, const image::Image& doubles, bool from_the_start);
+
 /// Returns the PSNR, such as `35.1 dB`, of two float pictures of one size. If pixels hold a NaN or an
 /// infinity in only one picture, or different ones in both, the text counts them and gives the PSNR of the
 /// other pixels.

@@ -123,18 +123,27 @@ Result<bool> starts_again(ProbeBench& bench, double moment) {
     return moves;
 }
 
-/// Returns the first mismatch from `first` on that is more than barely visible, up to the promised time; if
-/// there is none, `first`.
-Result<Mismatch> noticeable_mismatch(ProbeBench& bench, const Mismatch& first) {
-    Mismatch shown = first;
-    while (shown.difference <= k_noticeable_gap && 10 * shown.seconds <= bench.promises().time_horizon) {
-        shown.seconds *= 10;
-        shown.state = state_at_float(shown.seconds);
-        shown.floats = TRY(bench.picture(shown.state));
-        const auto truth = TRY(bench.picture(shown.state, glsl::Precision::promoted));
-        shown.difference = p99_difference(shown.floats, truth);
+/// The mismatch to show, and whether a viewer would see it.
+struct ShownMismatch {
+    Mismatch mismatch;
+    bool seen = false;
+};
+
+/// Returns the first mismatch from `first` on that a viewer would see, up to the promised time; if there is
+/// none, `first`. If the pictures differ without a large iTime, a viewer does not see other random details.
+Result<ShownMismatch> mismatch_to_show(ProbeBench& bench, const Mismatch& first, bool from_the_start) {
+    Mismatch next = first;
+    for (;;) {
+        const auto truth = TRY(bench.picture(next.state, glsl::Precision::promoted));
+        next.difference = p99_difference(next.floats, truth);
+        if (breaks_up(next.floats, truth, from_the_start))
+            return ShownMismatch{std::move(next), true};
+        if (10 * next.seconds > bench.promises().time_horizon)
+            return ShownMismatch{first};
+        next.seconds *= 10;
+        next.state = state_at_float(next.seconds);
+        next.floats = TRY(bench.picture(next.state));
     }
-    return shown.difference > k_noticeable_gap ? shown : first;
 }
 
 /// Adds the place of the hash whose function the line is in, so that both are one finding.
@@ -188,17 +197,17 @@ Result<Answer> ask_horizon(ProbeBench& bench) {
                           good, first.seconds, first.difference);
     if (kept)
         return Answer{Verdict::pass, found + steps, first.state, first.floats};
-    const Mismatch shown = TRY(noticeable_mismatch(bench, first));
+    const auto [shown, noticeable] = TRY(mismatch_to_show(bench, first, good == 0));
     const auto lost = where_digits_are_lost(bench, shown);
-    const bool noticeable = shown.difference > k_noticeable_gap;
     Answer answer{bench.promises().stated.contains("time_horizon") ? Verdict::fail
                   : noticeable                                     ? Verdict::warn
                                                                    : Verdict::note,
                   found + (lost ? "; " + lost->sentence : "") + steps, shown.state, shown.floats};
     const char* const effect = noticeable ? "the picture breaks up" : "the picture changes a little";
-    answer.effect = good == 0 ? std::string("the picture depends on the rounding of floats, from the start")
-                              : fmt::format("{} within {}: floats have too few digits for iTime", effect,
-                                            duration_in_words(shown.seconds));
+    answer.effect = shown.seconds <= 1
+                        ? std::string("the picture depends on the rounding of floats, from the start")
+                        : fmt::format("{} within {}: floats have too few digits for iTime", effect,
+                                      duration_in_words(shown.seconds));
     if (lost) {
         add_place(answer, lost->where);
         add_hash_around(bench, lost->where, answer);

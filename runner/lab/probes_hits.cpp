@@ -1,6 +1,7 @@
 // Checks the hits of rays for steps that were too long and for step budgets that run out.
 
 #include "base/error.hpp"
+#include "lab/probed_pictures.hpp"
 #include "lab/probed_rays.hpp"
 #include "lab/probes.hpp"
 #include "lab/scene_numbers.hpp"
@@ -190,6 +191,14 @@ Answer without_doubles(const Error& error) {
     return {Verdict::not_applicable, "cannot be drawn in double: " + to_string(error)};
 }
 
+/// Returns whether a viewer would see that rays hit other places in float. Scenes that cannot be drawn in
+/// double count as well.
+Result<bool> shows_in_picture(ProbeBench& bench, const FrameState& state, bool from_the_start) {
+    const auto floats = TRY(bench.picture(state));
+    const auto doubles = bench.picture(state, glsl::Precision::promoted);
+    return !doubles || breaks_up(floats, *doubles, from_the_start);
+}
+
 } // namespace
 
 Result<Answer> ask_rays(ProbeBench& bench) {
@@ -207,9 +216,10 @@ Result<Answer> ask_rays(ProbeBench& bench) {
         }
         const bool kept = good >= bench.promises().time_horizon;
         return Answer{
-            kept                                                           ? Verdict::pass
-            : good > 0 && bench.promises().stated.contains("time_horizon") ? Verdict::fail
-                                                                           : Verdict::warn,
+            kept                                                                     ? Verdict::pass
+            : good > 0 && bench.promises().stated.contains("time_horizon")           ? Verdict::fail
+            : bench.has_main_hit() || TRY(shows_in_picture(bench, state, good == 0)) ? Verdict::warn
+                                                                                     : Verdict::note,
             fmt::format(
                 "{}; at {:g} s {:.3g} % of the rays hit something else in float, by more than a pixel",
                 good == 0 ? std::string("float and double never agree")

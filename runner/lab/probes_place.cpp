@@ -299,8 +299,11 @@ Result<Answer> ask_far(ProbeBench& bench) {
         const auto before = bench.hits(view);
         far->move(view, 1.001 * far->distance);
         const auto after = bench.hits(view);
-        if (!before || !after)
-            return fail(!before ? before.error() : after.error());
+        if (!before)
+            return fail(before.error());
+        if (!after) // for example a whole number, which cannot move by a thousandth
+            return Answer{Verdict::not_applicable,
+                          "the limit of the march cannot be moved: " + to_string(after.error())};
         const double last = far->distance * (1 - 1e-6);
         const double flickers = percent(*before, [&](size_t i) {
             const double one = before->distance[i], other = after->distance[i];

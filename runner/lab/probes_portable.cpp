@@ -54,8 +54,8 @@ public:
         std::vector<std::string> visible, hardly;
         for (const Seen& seen : seen_)
             (seen.gap > k_visible_gap ? visible : hardly).push_back(seen.sentence);
-        const bool devices = std::ranges::any_of(
-            seen_, [](const Seen& seen) { return seen.of_devices && seen.gap > k_noticeable_gap; });
+        const bool devices =
+            std::ranges::any_of(seen_, [](const Seen& seen) { return seen.of_devices && seen.noticeable; });
         if (visible.empty())
             return {Verdict::pass, sound + ": " + (hardly.empty() ? "the same picture" : listed(hardly))};
         Answer answer{devices ? Verdict::warn : Verdict::note,
@@ -134,7 +134,8 @@ private:
         std::string said = fmt::format("{}: {}", mode.name, alikeness(plain, other));
         if (gap > k_visible_gap)
             said += fmt::format(", 1 % of the pixels by {:.2g} or more", gap);
-        seen_.push_back({std::move(said), gap, mode.of_devices});
+        const bool noticeable = gap > k_noticeable_gap && looks_different(plain, other);
+        seen_.push_back({std::move(said), gap, mode.of_devices, noticeable});
         if (gap <= std::max(worst_, k_visible_gap))
             return;
         worst_ = gap;
@@ -149,6 +150,7 @@ private:
         std::string sentence;
         double gap;
         bool of_devices;
+        bool noticeable; ///< a viewer would see it
     };
     std::vector<Seen> seen_;
     double worst_ = 0;

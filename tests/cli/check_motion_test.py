@@ -25,6 +25,20 @@ class CheckMotion(ProgramTest):
         entry = self.entry("c = vec4(uv, 0.5 + 0.5 * sin(0.01 * iTime), 1.0);", "horizon")
         self.assertEqual((entry["verdict"], entry["found"]), ("pass", "float and double agree up to 1e6 s"))
 
+    def test_other_random_details_are_no_picture_that_breaks_up(self):
+        entry = self.entry("float x = fract(0.37 * uv.x + 0.61 * uv.y); for (int i = 0; i < 60; i++) x = 3.99 * x * (1.0 - x);"
+                           " c = vec4(x);", "horizon")
+        self.assertEqual(entry["verdict"], "note", entry["found"])
+        self.assertRegex(entry["found"], "^float and double differ already at 1 s")
+        entry = self.entry("c = vec4(fract((floor(p.x) + 5.0e6) * 1.7));", "horizon")  # steps of a half remain
+        self.assertEqual(entry["verdict"], "warn", entry["found"])
+
+    def test_an_infinite_pixel_among_bright_ones_is_not_seen(self):
+        for line, verdict in (("c = vec4(0.2 / length(uv - 0.5));", "note"), ("c = vec4(0.002 / length(uv - 0.5));", "fail")):
+            entry = self.entry(line, "sizes")
+            self.assertEqual(entry["verdict"], verdict, entry["found"])
+            self.assertRegex(entry["found"], r"^\+Inf in 1 of")
+
     def test_a_mouse_that_moves_the_picture_unevenly_is_no_jump(self):
         noise = "fract(sin(dot(floor(%s), vec2(12.9, 78.2))) * 43758.5)"
         for line in ("c = vec4(uv.x < iMouse.x / iResolution.x ? 1.0 : 0.0);",        # a divided picture

@@ -127,19 +127,34 @@ class Report(CheckTest):
         self.assertNotIn("reproduction", entry)
         self.assertEqual([file.name for file in (self.folder / "pictures").iterdir()], ["index.html"])
 
-    def test_control_c_is_130(self):
-        self.write("slow.glsl", SLOW)
-        for options in ([], ["--json"]):
-            with self.subTest(options):
-                running = subprocess.Popen([PROGRAM, "check", "slow.glsl", *options], cwd=self.folder,
-                                           env=environment(), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-                self.addCleanup(running.kill)
-                self.addCleanup(running.stdout.close)
-                with self.assertRaises(subprocess.TimeoutExpired):
-                    running.wait(2)
-                running.send_signal(signal.SIGTERM if options else signal.SIGINT)
-                self.assertEqual(running.wait(TIME_LIMIT), 130)
-                self.assertEqual(running.stdout.read(), b"")
+    def interrupted(self, text: str, *options: str) -> tuple[int, str]:
+        """Interrupts a check after 4 s; returns its exit code and what it printed."""
+        self.write("slow.glsl", text)
+        running = subprocess.Popen([PROGRAM, "check", "slow.glsl", *options], cwd=self.folder,
+                                   env=environment(), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.addCleanup(running.kill)
+        self.addCleanup(running.stdout.close)
+        with self.assertRaises(subprocess.TimeoutExpired):
+            running.wait(4)
+        running.send_signal(signal.SIGTERM if options else signal.SIGINT)
+        printed, _ = running.communicate(timeout=TIME_LIMIT)
+        return running.returncode, printed
+
+    def test_control_c_prints_what_was_found_and_is_130(self):
+        text = SLOW.replace("    if (", "    if (p.x < 30.0) c = sqrt(vec4(p.x - 30.0));\n    if (")
+        code, printed = self.interrupted(text)
+        self.assertEqual(code, 130)
+        self.assertRegex(printed, r"\Afail  .*\n      slow\.glsl:3, found by times\n")
+        self.assertRegex(printed, r"(?m)^cut   .*, mediump  not run: interrupted$")
+        code, printed = self.interrupted(text, "--json")
+        self.assertEqual(code, 130)
+        verdicts = {probe["probe"]: probe["verdict"] for probe in json.loads(printed)["probes"]}
+        self.assertEqual((verdicts["times"], verdicts["mediump"]), ("fail", "cut"))
+
+    def test_control_c_before_anything_is_found(self):
+        code, printed = self.interrupted(SLOW.replace("iMouse.x > 0.0", "iTime >= 0.0"))
+        self.assertEqual(code, 130)
+        self.assertRegex(printed, r"\Acut   times, .*  not run: interrupted\n")
 
     def test_unfinished_probe_is_no_success(self):
         result = self.check(SLOW, "--budget", "2")
