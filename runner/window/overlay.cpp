@@ -224,12 +224,14 @@ std::string changed_words(const Edits& before, const Edits& after) {
 void History::follow(Edits now, double time, bool held) {
     constexpr double k_pause_seconds = 0.5;
     constexpr size_t k_most_steps = 500;
-    const bool same_step = (held && held_) || time - changed_at_ < k_pause_seconds;
     if (!current_ || now == *current_) {
         held_ = held_ && held;
         current_ = std::move(now);
         return;
     }
+    std::string changed = changed_words(*current_, now);
+    const bool quick = !held && !held_ && time - changed_at_ < k_pause_seconds && changed == changed_;
+    const bool same_step = (held && held_) || quick;
     if (!same_step || before_.empty())
         before_.push_back(*std::move(current_));
     if (before_.size() > k_most_steps)
@@ -237,6 +239,7 @@ void History::follow(Edits now, double time, bool held) {
     undone_.clear();
     current_ = std::move(now);
     changed_at_ = time;
+    changed_ = std::move(changed);
     held_ = held;
 }
 

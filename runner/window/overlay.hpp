@@ -87,8 +87,8 @@ std::string changed_words(const Edits& before, const Edits& after);
 
 class History {
 public:
-    /// Call it after each change by the user. Changes within half a second of each other, or while a mouse
-    /// button is `held`, are one step.
+    /// Call it after each change by the user. Changes while a mouse button is `held` are one step, and so are
+    /// changes of the same values within half a second of each other.
     void follow(Edits now, double time, bool held);
     /// Takes the current edits without a step, for changes that the user did not make.
     void adopt(Edits now) { current_ = std::move(now); }
@@ -104,6 +104,7 @@ private:
     std::vector<Edits> before_;
     std::vector<Edits> undone_;
     double changed_at_ = -std::numeric_limits<double>::infinity();
+    std::string changed_; ///< names of what the last step changed
     bool held_ = false;
 };
 

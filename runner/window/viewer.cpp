@@ -327,6 +327,7 @@ bool Viewer::close_innermost() {
         screen_->toggle_full_screen();
     else
         return false;
+    escaped_at_ = -std::numeric_limits<double>::infinity();
     overlay_.mark_changed();
     return true;
 }

@@ -365,7 +365,7 @@ void Viewer::follow_edits(double now) {
         history_.follow(edits(), now, !buttons_.empty());
 }
 
-/// Goes to the edits of another step, which `done` describes; none: there is no such step.
+/// Restores the edits of another step; none: reports that there is none. `done` is the verb for the message.
 void Viewer::go_to(const std::optional<Edits>& wanted, const char* done) {
     if (recorder_.mode() != Recorder::Mode::live)
         return tell("undo", "undo is off while recording or replaying");

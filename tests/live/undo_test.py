@@ -1,4 +1,4 @@
-"""Keys that take back: Esc closes the innermost thing, Ctrl+Z undoes; and what the window says about itself."""
+"""Esc, undo and redo, messages, a paused start, the range of the time bar."""
 import time
 
 from support import probe

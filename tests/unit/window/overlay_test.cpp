@@ -256,6 +256,21 @@ TEST(History, quick_changes_are_one_step) {
     EXPECT_EQ(history.undo(), Edits{});
 }
 
+TEST(History, two_drags_are_two_steps_however_quick) {
+    History history;
+    history.adopt({});
+    history.follow(edits_with(1), 10, true);
+    history.follow(edits_with(1), 10.1, false); // released
+    history.follow(edits_with(2), 10.2, true);
+    Edits moved = edits_with(2);
+    moved.camera.distance = 3;
+    history.follow(edits_with(2), 10.3, false);
+    history.follow(moved, 10.4, false);
+    EXPECT_EQ(history.undo(), edits_with(2));
+    EXPECT_EQ(history.undo(), edits_with(1));
+    EXPECT_EQ(history.undo(), Edits{});
+}
+
 TEST(History, a_reload_is_no_step) {
     History history;
     history.adopt({});
