@@ -137,6 +137,7 @@ public:
     }
 
     void toggle_full_screen() override {}
+    bool is_full_screen() const override { return false; }
     std::optional<platform::WindowPlace> place() const override { return std::nullopt; }
     std::shared_ptr<void> when_lost(std::function<void(std::string_view what)>) override { return nullptr; }
 

@@ -79,6 +79,7 @@ struct ViewOptions : ViewerOptions {
     std::optional<RenderScale> scale;
     std::optional<double> adaptive;
     bool plain = false;
+    bool paused = false;
     bool fresh = false;
     WindowOptions window;
     LiveInputRequest inputs;
@@ -113,6 +114,12 @@ std::optional<Remembered> controllers_before(const ViewOptions& options) {
     return Remembered{.controllers = std::move(state->controllers)};
 }
 
+/// Returns false if TIDEMARK_MESSAGES=off hides the short messages over the picture.
+bool shows_messages() {
+    const char* const wish = std::getenv("TIDEMARK_MESSAGES");
+    return !wish || std::string_view(wish) != "off";
+}
+
 Result<int> view(const ViewOptions& options) {
     const FrameOptions typed = sized(options.frames, options.scene);
     auto frames = TRY(resolve(typed));
@@ -128,6 +135,8 @@ Result<int> view(const ViewOptions& options) {
     settings.scale = first_scale(options, left);
     settings.adaptive = options.adaptive;
     settings.plain = options.plain;
+    settings.paused = options.paused;
+    settings.messages = shows_messages();
     settings.remembers = remembers;
     settings.left = std::move(left);
     if (options.inputs.any())
@@ -190,6 +199,7 @@ void add_view(Command app, Action& chosen) {
     add_viewer_options(command, *options);
     add_scale_options(command, *options);
     add_window_options(command, options->window);
+    command.add_flag("--paused", options->paused, "Opens the window paused");
     command.add_flag("--plain", options->plain, "Turns off background optimisation");
     command.add_flag("--fresh", options->fresh, "Ignores the remembered state of the scene's last window");
     add_live_options(command, options->inputs);

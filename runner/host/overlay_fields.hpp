@@ -38,7 +38,8 @@ std::string text_of(const DefinitionField& field);
 
 struct ErrorField {
     Diagnostic diagnostic;
-    std::string line{}; ///< the author's source line; empty: not known
+    std::string line{};   ///< the author's source line; empty: not known
+    bool summary = false; ///< it only sums up the others
 };
 
 /// A part of a line that contains the place of an error.
@@ -171,9 +172,18 @@ struct TimeField {
     std::optional<double> loop_from{};
     std::optional<double> loop_to{};
     std::optional<Stepping> stepping{};
+    double bar_end = 10;   ///< seconds at the bar's right end
+    bool bar_held = false; ///< the bar is pressed, so its end must not move
+    double frame_rate = 0; ///< frames a second; 0: not known
 };
 
-/// Returns the end of the bar, in seconds: 10, doubled until the time and the loop's end fit.
+/// Returns the end of a bar, in seconds: 10, doubled until the time and the loop's end fit.
 double bar_end(const TimeField& time);
+
+/// A short message over the picture.
+struct MessageField {
+    std::string text;
+    double opacity = 1; ///< below 1 while it fades
+};
 
 } // namespace tidemark::live

@@ -37,11 +37,13 @@ struct Model {
 
     std::optional<MagnifierField> magnifier{};
     std::string clock{}; ///< progress of a slow frame; empty: none is being drawn
+    std::vector<MessageField> messages{};
 
     /// The open panels.
-    using Panels = std::array<bool, 5>;
+    using Panels = std::array<bool, 6>;
     Panels panels() const {
-        return {controls, !errors.empty(), !help.empty(), magnifier.has_value(), !clock.empty()};
+        return {controls,       !errors.empty(),  !help.empty(), magnifier.has_value(),
+                !clock.empty(), !messages.empty()};
     }
 };
 
@@ -111,6 +113,12 @@ struct Restart {};
 struct Seek {
     double seconds = 0;
 };
+/// The bar of time is pressed, or released.
+struct HoldBar {
+    bool held = true;
+};
+/// Doubles the range of the bar of time.
+struct GrowBar {};
 /// Cancels a seek and stays at the frame that was reached.
 struct GiveUpSeek {};
 struct SetSpeed {
@@ -125,7 +133,7 @@ struct SetLoop {
 using Command =
     std::variant<TurnKnob, ResetKnob, ResetKnobs, LearnController, ForgetController, CopyKnobs, WriteKnobs,
                  OpenEditor, Define, Undefine, ShowPicture, LookAtPicture, KeepView, GoToView, ForgetView,
-                 TogglePause, SetPlaying, Restart, Seek, GiveUpSeek, SetSpeed, SetLoop>;
+                 TogglePause, SetPlaying, Restart, Seek, HoldBar, GrowBar, GiveUpSeek, SetSpeed, SetLoop>;
 using Commands = std::vector<Command>;
 
 // Decides whether an event belongs to the panels or to the scene. A press and its release have the same

@@ -26,6 +26,8 @@ constexpr double k_breath_seconds = 0.05;
 constexpr double k_progress_seconds = 0.25;
 /// Progress is not shown before this time.
 constexpr double k_short_seconds = 0.3;
+/// After longer frames, progress is shown from the beginning until a frame takes less than this.
+constexpr double k_quick_seconds = 0.15;
 
 } // namespace
 
@@ -105,7 +107,13 @@ std::optional<FramePump::Made> FramePump::begin(FrameMaker& maker, const render:
         return std::nullopt;
     }
     frame.drawn = drew_ = maker.draw(inputs, timers);
+    remember_duration(0);
     return frame;
+}
+
+/// Decides between rate and progress in the title; between the two limits the choice stays.
+void FramePump::remember_duration(double seconds) {
+    shows_progress_ = seconds > (shows_progress_ ? k_quick_seconds : k_short_seconds);
 }
 
 Result<std::optional<FramePump::Made>> FramePump::advance() {
@@ -125,6 +133,7 @@ Result<std::optional<FramePump::Made>> FramePump::advance() {
             seconds += pass.seconds;
         pace_.took(made.frame.state.extent, Way::in_parts, seconds);
         slow_ = clock_() - made.frame.begun > k_long_seconds;
+        remember_duration(clock_() - made.frame.begun);
     }
     return std::move(made.frame);
 }
@@ -158,7 +167,7 @@ void FramePump::forget_scene() {
 
 void FramePump::begin_scene() {
     resume();
-    slow_ = false;
+    slow_ = shows_progress_ = false;
     wanted_ = true;
 }
 
@@ -276,7 +285,7 @@ std::string FramePump::progress(double now, bool has_frame) const {
                    ? fmt::format("cancelled, waiting for the driver: {:.0f} s", now - work()->begun)
                    : "";
     const double seconds = now - making_->frame.begun;
-    if (seconds < k_short_seconds && has_frame)
+    if (seconds < k_short_seconds && has_frame && !shows_progress_)
         return "";
     return fmt::format("drawing {:.1f} s, {:.0f} %{}", seconds, 100 * making_->parts->share(),
                        seconds > k_long_seconds ? ", Esc cancels" : "");

@@ -212,6 +212,8 @@ public:
     /// Returns whether the progress on show is out of date.
     bool progress_due(double now) const;
     void progress_shown(double now) { progress_shown_at_ = now; }
+    /// Returns whether frames take so long that each shows its progress.
+    bool frames_show_progress() const { return shows_progress_; }
     /// Returns how far the frame that is to be cancelled is, or how long frames take.
     std::string share_text(double now) const;
     /// Returns a part that takes too long, once for each frame. An endless loop cannot be distinguished from
@@ -235,6 +237,7 @@ private:
         std::unique_ptr<FrameParts> parts{}; ///< of a slow frame; null: no frame is half drawn
     };
     bool draw_seek_frame(const render::FrameInputs& inputs, double until);
+    void remember_duration(double seconds);
     void draw_whole(FrameMaker& maker, const render::FrameInputs& inputs);
     std::optional<DriverWork> work() const;
     bool waits_for_reload(const Around& around, double now) const;
@@ -250,11 +253,12 @@ private:
     bool parts_fail_ = false;          ///< there is not enough memory for them
     bool wanted_ = true;               ///< the picture is out of date
     double next_draw_ = 0;
-    double listened_at_;      ///< when events were last handled
-    double held_seconds_ = 0; ///< time before that without handling events
-    bool blocked_ = false;    ///< handling the events that came in that time
-    bool drew_ = false;       ///< a frame was drawn whole since then
-    bool slow_ = false;       ///< the last drawn frame blocked the window, or took as long
+    double listened_at_;          ///< when events were last handled
+    double held_seconds_ = 0;     ///< time before that without handling events
+    bool blocked_ = false;        ///< handling the events that came in that time
+    bool drew_ = false;           ///< a frame was drawn whole since then
+    bool slow_ = false;           ///< the last drawn frame blocked the window, or took as long
+    bool shows_progress_ = false; ///< the last frames took long enough to show their progress
     double stopped_at_ = 0;
     double progress_shown_at_ = 0;
 };

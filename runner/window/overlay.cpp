@@ -10,6 +10,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -55,7 +56,7 @@ std::vector<live::ErrorField> fields_of(const Error& error) {
                     }));
     if (!error.message.empty())
         fields.insert(first == fields.end() ? fields.begin() : fields.end(),
-                      {{{}, Severity::error, error.message}});
+                      {{{}, Severity::error, error.message}, "", first != fields.end()});
     return fields;
 }
 
@@ -159,6 +160,107 @@ bool ErrorBoard::show(const Error* error) {
     return true;
 }
 
+void Messages::tell(std::string_view topic, std::string text, double now, double seconds) {
+    if (!on_)
+        return;
+    end(topic);
+    entries_.push_back({std::string(topic), std::move(text), now + seconds});
+    due_ = now;
+}
+
+void Messages::retell(std::string_view topic, const std::string& text) {
+    const auto entry = std::ranges::find(entries_, topic, &Entry::topic);
+    if (entry == entries_.end() || std::exchange(entry->text, text) == text)
+        return;
+    due_ = -std::numeric_limits<double>::infinity();
+}
+
+void Messages::end(std::string_view topic) {
+    if (std::erase_if(entries_, [&](const Entry& entry) { return entry.topic == topic; }) > 0)
+        due_ = -std::numeric_limits<double>::infinity();
+}
+
+bool Messages::take_due(double now) {
+    const bool due = now >= due_;
+    if (due) // until they are shown
+        due_ = std::numeric_limits<double>::infinity();
+    return due;
+}
+
+std::vector<live::MessageField> Messages::fields(double now) {
+    constexpr double k_fading_seconds = 0.5;
+    constexpr double k_step_seconds = 1 / 20.0;
+    std::erase_if(entries_, [&](const Entry& entry) { return entry.until <= now; });
+    std::vector<live::MessageField> fields;
+    due_ = std::numeric_limits<double>::infinity();
+    for (const Entry& entry : entries_) {
+        const double left = entry.until - now;
+        fields.push_back({entry.text, std::min(1.0, left / k_fading_seconds)});
+        due_ = std::min(
+            due_, std::min(entry.until, std::max(entry.until - k_fading_seconds, now + k_step_seconds)));
+    }
+    return fields;
+}
+
+std::string changed_words(const Edits& before, const Edits& after) {
+    std::vector<std::string> words;
+    const auto add_knobs = [&](const Edits& edits, const Edits& others) {
+        for (const scene::KnobSetting& knob : edits.knobs)
+            if (std::ranges::find(others.knobs, knob) == others.knobs.end() &&
+                std::ranges::find(words, knob.name) == words.end())
+                words.push_back(knob.name);
+    };
+    add_knobs(after, before);
+    add_knobs(before, after);
+    if (before.camera != after.camera)
+        words.emplace_back("camera");
+    if (before.defines != after.defines)
+        words.emplace_back("definitions");
+    if (before.views != after.views)
+        words.emplace_back("views");
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+void History::follow(Edits now, double time, bool held) {
+    constexpr double k_pause_seconds = 0.5;
+    constexpr size_t k_most_steps = 500;
+    if (!current_ || now == *current_) {
+        held_ = held_ && held;
+        current_ = std::move(now);
+        return;
+    }
+    std::string changed = changed_words(*current_, now);
+    const bool quick = !held && !held_ && time - changed_at_ < k_pause_seconds && changed == changed_;
+    const bool same_step = (held && held_) || quick;
+    if (!same_step || before_.empty())
+        before_.push_back(*std::move(current_));
+    if (before_.size() > k_most_steps)
+        before_.erase(before_.begin());
+    undone_.clear();
+    current_ = std::move(now);
+    changed_at_ = time;
+    changed_ = std::move(changed);
+    held_ = held;
+}
+
+std::optional<Edits> History::undo() {
+    return go(before_, undone_);
+}
+
+std::optional<Edits> History::redo() {
+    return go(undone_, before_);
+}
+
+std::optional<Edits> History::go(std::vector<Edits>& from, std::vector<Edits>& to) {
+    if (from.empty() || !current_)
+        return std::nullopt;
+    to.push_back(std::exchange(*current_, std::move(from.back())));
+    from.pop_back();
+    changed_at_ = -std::numeric_limits<double>::infinity(); // a change after this is a step of its own
+    held_ = false;
+    return current_;
+}
+
 std::vector<live::KnobField> knob_fields(const scene::Scene& scene,
                                          const std::vector<scene::KnobSetting>& turned) {
     std::vector<live::KnobField> fields;
@@ -201,25 +303,34 @@ void Overlay::forget_scene() {
 }
 
 std::string Overlay::keep(Moment view) {
-    views_.push_back(std::move(view));
-    mark_changed();
-    return label_of(views_.back());
+    auto views = std::make_shared<std::vector<Moment>>(*views_);
+    views->push_back(std::move(view));
+    std::string label = label_of(views->back());
+    set_views(std::move(views));
+    return label;
 }
 
 void Overlay::forget_view(size_t index) {
-    if (index < views_.size())
-        views_.erase(views_.begin() + std::ptrdiff_t(index));
+    if (index >= views_->size())
+        return;
+    auto views = std::make_shared<std::vector<Moment>>(*views_);
+    views->erase(views->begin() + std::ptrdiff_t(index));
+    set_views(std::move(views));
+}
+
+void Overlay::set_views(std::shared_ptr<const std::vector<Moment>> views) {
+    views_ = std::move(views);
     mark_changed();
 }
 
 void Overlay::restore(bool controls_open, std::vector<Moment> views, std::vector<live::Binding> controllers) {
     controls_open_ = controls_open;
-    views_ = std::move(views);
+    views_ = std::make_shared<std::vector<Moment>>(std::move(views));
     controllers_ = live::ControllerMap(std::move(controllers));
 }
 
 live::Model Overlay::model(const scene::Scene* scene, const SceneRequest& request,
-                           const std::vector<scene::KnobSetting>& turned, bool midi) {
+                           const std::vector<scene::KnobSetting>& turned, bool midi, double now) {
     changed_ = false;
     live::Model model{.controls = controls_open_ && scene,
                       .errors = errors_.fields().empty() ? origin_.fields() : errors_.fields()};
@@ -230,9 +341,10 @@ live::Model Overlay::model(const scene::Scene* scene, const SceneRequest& reques
         model.knobs = knob_fields(*scene, turned);
         if (midi)
             add_controllers(model.knobs, controllers_);
-        for (const Moment& view : views_)
+        for (const Moment& view : *views_)
             model.views.push_back(label_of(view));
     }
+    model.messages = messages_.fields(now);
     if (help_open_) {
         for (const KeyRow& row : key_rows())
             model.help.push_back({std::string(row.keys), std::string(row.meaning)});

@@ -8,6 +8,8 @@
 #include "scene/scene.hpp"
 #include "window/midi.hpp"
 
+#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,6 +37,76 @@ std::vector<std::string> editor_words(std::string_view editor, const SourceLocat
 
 /// Opens $VISUAL, else $EDITOR. Fails (ErrorCode::usage) if neither is set or it does not start.
 Result<void> open_editor(const SourceLocation& where);
+
+// Short messages over the picture. Each belongs to a topic, whose earlier message it replaces, and fades.
+
+class Messages {
+public:
+    static constexpr double k_seconds = 3;
+
+    /// Shows no messages from now on.
+    void turn_off() { on_ = false; }
+    /// Shows a text for that long; infinity: until `end`.
+    void tell(std::string_view topic, std::string text, double now, double seconds = k_seconds);
+    /// Changes the text of a topic that is still shown.
+    void retell(std::string_view topic, const std::string& text);
+    void end(std::string_view topic);
+
+    /// Returns whether they must be shown again at that time; the caller does so then.
+    bool take_due(double now);
+    /// Returns when `take_due` will return true; infinity: not by itself.
+    double due() const { return due_; }
+    /// Returns the messages to show, the oldest first.
+    std::vector<live::MessageField> fields(double now);
+
+private:
+    struct Entry {
+        std::string topic;
+        std::string text;
+        double until;
+    };
+    bool on_ = true;
+    std::vector<Entry> entries_;
+    double due_ = std::numeric_limits<double>::infinity();
+};
+
+// The user's changes, step by step, for undo and redo.
+
+/// All that Ctrl+Z brings back.
+struct Edits {
+    std::vector<scene::KnobSetting> knobs{}; ///< values that differ from the scene's
+    render::OrbitCamera camera{};
+    std::vector<std::string> defines{};
+    std::shared_ptr<const std::vector<Moment>> views{};
+
+    bool operator==(const Edits&) const = default;
+};
+
+/// Returns the names of what differs: `height, camera`.
+std::string changed_words(const Edits& before, const Edits& after);
+
+class History {
+public:
+    /// Call it after each change by the user. Changes while a mouse button is `held` are one step, and so are
+    /// changes of the same values within half a second of each other.
+    void follow(Edits now, double time, bool held);
+    /// Takes the current edits without a step, for changes that the user did not make.
+    void adopt(Edits now) { current_ = std::move(now); }
+    /// Return the edits of the step before, or of the step that was undone last; nothing without such a step.
+    std::optional<Edits> undo();
+    std::optional<Edits> redo();
+    const std::optional<Edits>& current() const { return current_; }
+
+private:
+    std::optional<Edits> go(std::vector<Edits>& from, std::vector<Edits>& to);
+
+    std::optional<Edits> current_; ///< none before the first call
+    std::vector<Edits> before_;
+    std::vector<Edits> undone_;
+    double changed_at_ = -std::numeric_limits<double>::infinity();
+    std::string changed_; ///< names of what the last step changed
+    bool held_ = false;
+};
 
 // The contents of the panels over the picture, apart from the picture and its time. The window carries out
 // the panels' commands.
@@ -71,7 +143,13 @@ public:
     /// Adds a view that the user keeps. Returns its label.
     std::string keep(Moment view);
     void forget_view(size_t index);
-    const std::vector<Moment>& views() const { return views_; }
+    const std::vector<Moment>& views() const { return *views_; }
+    /// The same, as a value that later changes do not touch.
+    std::shared_ptr<const std::vector<Moment>> kept_views() const { return views_; }
+    void set_views(std::shared_ptr<const std::vector<Moment>> views);
+
+    Messages& messages() { return messages_; }
+    const Messages& messages() const { return messages_; }
 
     /// Bindings of MIDI controllers, of this scene, also without a device.
     live::ControllerMap& controllers() { return controllers_; }
@@ -83,7 +161,7 @@ public:
     /// Returns the panels' contents, which are up to date from then on. `scene`: on show; null: none yet, and
     /// the controls stay closed. `turned`: values of its knobs. `midi`: there is a MIDI device.
     live::Model model(const scene::Scene* scene, const SceneRequest& request,
-                      const std::vector<scene::KnobSetting>& turned, bool midi);
+                      const std::vector<scene::KnobSetting>& turned, bool midi, double now = 0);
 
     /// Sets the window's title; returns whether it differs from the last one.
     bool change_title(const std::string& title);
@@ -94,20 +172,12 @@ private:
     bool changed_ = false;
     ErrorBoard errors_;
     ErrorBoard origin_;
-    std::vector<Moment> views_;
+    std::shared_ptr<const std::vector<Moment>> views_ = std::make_shared<std::vector<Moment>>();
+    Messages messages_;
     live::ControllerMap controllers_;
     std::optional<std::vector<live::DefinitionField>>
         definitions_; ///< of the scene on show; none: not read yet
     std::string title_;
 };
-
-// Opens the user's own editor at a place in a file. Uses no shell and does not wait for it.
-
-/// Returns the command that opens the editor ("code --wait": split at blanks) at that place. A terminal
-/// editor is opened in x-terminal-emulator.
-std::vector<std::string> editor_words(std::string_view editor, const SourceLocation& where);
-
-/// Opens $VISUAL, else $EDITOR. Fails (ErrorCode::usage) if neither is set or it does not start.
-Result<void> open_editor(const SourceLocation& where);
 
 } // namespace tidemark::cli

@@ -43,10 +43,23 @@ Result<std::string> Recorder::save(KeptPicture picture, const std::filesystem::p
                                    const std::vector<std::filesystem::path>& spared) {
     if (!writer_)
         writer_ = std::make_unique<FrameWriter>(1U);
-    std::string name = name_after_scene(scene, fmt::format("-{:05}.png", picture.frame));
+    std::string name = free_name(scene, picture.frame);
     if (!writer_->push({picture.frame, OutputPath(name).sparing(spared), std::move(picture.pixels),
                         std::move(picture.format)}))
         TRY(std::exchange(writer_, nullptr)->finish());
+    return name;
+}
+
+/// Returns a name that neither a file nor a picture still to be written has.
+std::string Recorder::free_name(const std::filesystem::path& scene, int frame) {
+    std::string name = name_after_scene(scene, fmt::format("-{:05}.png", frame));
+    const auto taken = [&] {
+        std::error_code ignored;
+        return saved_.contains(name) || exists(std::filesystem::symlink_status(name, ignored));
+    };
+    for (int number = 2; taken(); ++number)
+        name = name_after_scene(scene, fmt::format("-{:05}-{}.png", frame, number));
+    saved_.insert(name);
     return name;
 }
 

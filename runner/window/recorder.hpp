@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -46,8 +47,9 @@ public:
     std::function<void(render::FrameState& state)> filler() const;
     bool turns_knobs() const { return replay_ && cli::turns_knobs(replay_->script()); }
 
-    /// Starts to write a picture as SCENE-FRAME.png; returns its name. `spared`: files that it must not
-    /// replace. Fails where an earlier picture could not be written.
+    /// Starts to write a picture as SCENE-FRAME.png, or as SCENE-FRAME-2.png and so on where that exists;
+    /// returns its name. `spared`: files that it must not replace. Fails where an earlier picture could not
+    /// be written.
     Result<std::string> save(KeptPicture picture, const std::filesystem::path& scene,
                              const std::vector<std::filesystem::path>& spared);
     /// Requests to save the next frame.
@@ -59,10 +61,13 @@ public:
     Result<void> finish(const std::vector<std::filesystem::path>& spared);
 
 private:
+    std::string free_name(const std::filesystem::path& scene, int frame);
+
     Mode mode_;
     OutputPath file_;
     std::optional<Replay> replay_;        ///< none in Mode::live
     std::unique_ptr<FrameWriter> writer_; ///< created by the first saved picture
+    std::set<std::string> saved_;         ///< names of pictures, some of which are not written yet
     bool save_next_ = false;
 };
 

@@ -106,6 +106,7 @@ std::optional<Remembered> parse(const std::string& text, const fs::path& scene) 
         state.scale = RenderScale::named(json.value("scale", "")); // older files have none
         state.controls_open = json.at("controls").get<bool>();
         state.views = moments_of(json.at("views"));
+        state.paused = json.value("paused", false);
         state.controllers = bindings_of(json.value("controllers", Json::array()));
         return state;
     } catch (const Json::exception&) {
@@ -123,6 +124,7 @@ std::string text_of(const fs::path& scene, const Remembered& state) {
                      {"window", state.place ? json_of(*state.place) : Json::array()},
                      {"scale", state.scale ? Json(state.scale->name()) : Json("")},
                      {"controls", state.controls_open},
+                     {"paused", state.paused},
                      {"views", std::move(views)},
                      {"controllers", json_of(state.controllers)}},
                 2) +
@@ -166,7 +168,7 @@ std::string words_of(const Remembered& state) {
             words.push_back(fmt::format("{} = {}", knob.name, scene::to_string(knob.value)));
         if (shown.camera != render::OrbitCamera())
             words.push_back("camera " + to_string(shown.camera));
-        words.push_back(fmt::format("{:.3f} s", shown.seconds()));
+        words.push_back(fmt::format("{:.3f} s{}", shown.seconds(), state.paused ? ", paused" : ""));
     }
     if (state.scale && *state.scale != RenderScale())
         words.push_back("scale " + state.scale->name());

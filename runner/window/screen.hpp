@@ -74,6 +74,7 @@ public:
     virtual void set_title(const std::string& title) = 0;
     virtual void set_clipboard(const std::string& text) = 0;
     virtual void toggle_full_screen() = 0;
+    virtual bool is_full_screen() const = 0;
     virtual std::optional<platform::WindowPlace> place() const = 0;
 
     /// Registers `act`, which is called once, on any thread, if the screen is lost while the result lives.

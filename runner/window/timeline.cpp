@@ -34,6 +34,7 @@ void Timeline::restart(double now) {
     resumed_at_ = now;
     next_frame_ = 0;
     fresh_ = true;
+    fit_bar();
 }
 
 void Timeline::seek(double time, int frame, double now) {
@@ -78,7 +79,30 @@ live::TimeField Timeline::field(const render::FrameState& shown) const {
             .speed = speed_,
             .has_speed = !by_frames(),
             .loop_from = loop_.from,
-            .loop_to = loop_.to};
+            .loop_to = loop_.to,
+            .bar_end = bar_end(shown.seconds()),
+            .bar_held = bar_held_,
+            .frame_rate = paused_ ? 0 : frame_rate_};
+}
+
+double Timeline::bar_end(double shown) const {
+    if (bar_held_)
+        return shortest_bar_;
+    return std::max(shortest_bar_, live::bar_end({.seconds = shown, .loop_to = loop_.to}));
+}
+
+void Timeline::hold_bar(double shown) {
+    shortest_bar_ = bar_end(shown);
+    bar_held_ = true;
+}
+
+void Timeline::grow_bar(double shown) {
+    shortest_bar_ = std::min(2 * bar_end(shown), render::k_last_frame / fps_);
+}
+
+void Timeline::fit_bar() {
+    if (!bar_held_)
+        shortest_bar_ = 0;
 }
 
 void Timeline::set_speed(double speed, double now) {

@@ -69,9 +69,17 @@ public:
 
     /// Returns the time bar's contents for the frame on show.
     live::TimeField field(const render::FrameState& shown) const;
+    /// Keeps the bar's end, at `shown` seconds, until it is released.
+    void hold_bar(double shown);
+    void release_bar() { bar_held_ = false; }
+    /// Doubles the bar's range.
+    void grow_bar(double shown);
+    /// Makes the bar only as long as the next time needs, unless it is held.
+    void fit_bar();
 
 private:
     void measure_rate(double now);
+    double bar_end(double shown) const;
 
     double fps_;
     Source source_;
@@ -86,6 +94,8 @@ private:
     int window_frames_ = 0;
     double frame_rate_ = 60;
     live::SetLoop loop_;
+    double shortest_bar_ = 0; ///< the bar's end is not before this one
+    bool bar_held_ = false;
     std::optional<double> next_scene_at_{};
     std::optional<double> unwatched_since_{};
 };

@@ -18,8 +18,12 @@ namespace {
 
 using platform::Key;
 
+constexpr Key k_i{'I'}, k_q{'Q'}, k_v{'V'}, k_x{'X'}, k_y{'Y'};
+
 /// Largest age of the seconds in the title.
 constexpr double k_title_seconds = 0.25;
+/// Esc closes the window when it is pressed again within this time.
+constexpr double k_second_press_seconds = 1;
 /// Compiling is not mentioned before this time.
 constexpr double k_short_wait_seconds = 0.3;
 
@@ -50,6 +54,8 @@ Viewer::Viewer(Settings settings, std::unique_ptr<Screen> screen, LiveScene scen
       pump_(settings_.frames.state.fps), picture_(settings_.scale), overlay_(settings_.controls),
       recorder_(settings_.record, settings_.frames.input, settings_.frames.state.camera),
       controls_(settings_.frames.state.camera) {
+    if (!settings_.messages)
+        overlay_.messages().turn_off();
     if (settings_.adaptive)
         toggle_adaptive();
     if (settings_.left)
@@ -102,6 +108,8 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
         const double now = now_seconds();
         TRY(follow_scene(now));
         take_inputs();
+        follow_edits(now);
+        overlay_.mark_changed_if(overlay_.messages().take_due(now));
         settle_after_rest(now);
         take_origin();
         advance_seek();
@@ -143,20 +151,29 @@ void Viewer::listen() {
     pump_.end_round();
 }
 
-/// Handles events. While a part of a frame occupies the driver, only Esc and closing the window are handled
-/// at once; the others are kept.
+/// Handles events. While a part of a frame occupies the driver, only Esc, Ctrl+Q and closing the window are
+/// handled at once; the others are kept.
 void Viewer::handle_all(const std::vector<platform::InputEvent>& events) {
     std::vector<platform::InputEvent> happened = std::exchange(events_held_, {});
     happened.insert(happened.end(), events.begin(), events.end());
     const bool held = !happened.empty() && pump_.driver_busy();
+    bool control = keys_.control_down();
     for (const platform::InputEvent& event : happened) {
         const auto* key = std::get_if<platform::KeyPressed>(&event);
+        control |= key && key->key == Key::control;
         const bool leads_out =
             std::holds_alternative<platform::CloseRequested>(event) || (key && key->key == Key::escape);
+        if (held && control && key && key->key == k_q)
+            end_ = End::closed;
         if (held && !leads_out) {
             events_held_.push_back(event);
             continue;
         }
+        edited_ = true;
+        if (const auto* pressed = std::get_if<platform::ButtonPressed>(&event))
+            buttons_.insert(pressed->button);
+        else if (const auto* released = std::get_if<platform::ButtonReleased>(&event))
+            buttons_.erase(released->button);
         overlay_.mark_changed_if(picture_.follow(event));
         if (!screen_->take(event))
             std::visit([this](const auto& it) { handle(it); }, event);
@@ -168,8 +185,9 @@ void Viewer::handle_all(const std::vector<platform::InputEvent>& events) {
 void Viewer::handle(const platform::KeyPressed& event) {
     const auto owner = keys_.press(event, stage_ && reads_keyboard(stage_->renderer()));
     if (owner == WindowKeys::Owner::window && screen_->has(event.key))
-        obey(event.key, now_seconds());
-    else if (owner == WindowKeys::Owner::scene)
+        return keys_.control_down() ? obey_with_control(event.key, now_seconds())
+                                    : obey(event.key, now_seconds());
+    if (owner == WindowKeys::Owner::scene)
         control(event);
 }
 
@@ -200,6 +218,19 @@ void Viewer::control(const ControlEvent& event) {
     recorder_.note(timeline_.next_frame_number(), seen);
 }
 
+/// Obeys the shortcuts with Ctrl. Other keys mean the same as without it, for scenes that read the keyboard.
+void Viewer::obey_with_control(Key key, double now) {
+    follow_edits(now);
+    if (key == Key::z)
+        go_to(history_.undo(), "undone");
+    else if (key == k_y)
+        go_to(history_.redo(), "done again");
+    else if (key == k_q)
+        end_ = End::closed;
+    else
+        obey(key, now);
+}
+
 void Viewer::obey(Key key, double now) {
     const bool moves_time = key == Key::left || key == Key::right || key == Key::space || key == Key::home;
     const bool resizes =
@@ -210,6 +241,14 @@ void Viewer::obey(Key key, double now) {
     }
     if ((moves_time || resizes) && pump_.resume() && key == Key::space && !timeline_.paused())
         return;
+    if (key == k_x)
+        key = Key::z;
+    else if (key == k_i)
+        return tell("state", state_words(now));
+    else if (key == k_v && !timeline_.by_frames()) {
+        timeline_.set_speed(1, now);
+        tell("speed", "speed 1");
+    }
     switch (key) {
     case Key::left:
         timeline_.step(-1, now);
@@ -225,7 +264,11 @@ void Viewer::obey(Key key, double now) {
         forget_what_follows();
         break;
     case Key::r: return control(CameraReset{});
-    case Key::f: screen_->toggle_full_screen(); break;
+    case Key::f:
+        screen_->toggle_full_screen();
+        if (screen_->is_full_screen())
+            tell("full screen", "Full screen: F or Esc leaves it");
+        break;
     case Key::escape: escape(now); break;
     case Key::c: return copy_moment();
     case Key::k: return keep_moment();
@@ -252,7 +295,8 @@ void Viewer::obey(Key key, double now) {
     pump_.ask();
 }
 
-/// Cancels seeking, slow frames or compiling, whichever is in progress; else closes the window.
+/// Cancels seeking, slow frames or compiling, whichever is in progress; else closes the innermost of what is
+/// open. Closes the window at once while a driver that cannot be stopped blocks it.
 void Viewer::escape(double now) {
     if (pump_.seeking())
         return carry_out(live::GiveUpSeek{});
@@ -262,8 +306,48 @@ void Viewer::escape(double now) {
         stop_frames(now);
     else if (stage_ && compiles_for_long(now))
         scene_.give_up();
-    else
+    else if (pump_.driver_held(now))
         end_ = End::closed;
+    else if (!close_innermost())
+        close_on_second_press(now);
+}
+
+/// Closes help, the large picture, controls, magnifier or full screen; returns false if none is open.
+bool Viewer::close_innermost() {
+    const bool controls = overlay_.shows(Overlay::Panel::controls);
+    if (overlay_.shows(Overlay::Panel::help))
+        overlay_.toggle(Overlay::Panel::help);
+    else if (controls && picture_.large())
+        picture_.show_large(std::nullopt);
+    else if (controls)
+        toggle_controls();
+    else if (picture_.magnifies())
+        picture_.toggle_magnifier();
+    else if (screen_->is_full_screen())
+        screen_->toggle_full_screen();
+    else
+        return false;
+    escaped_at_ = -std::numeric_limits<double>::infinity();
+    overlay_.mark_changed();
+    return true;
+}
+
+void Viewer::close_on_second_press(double now) {
+    if (now - std::exchange(escaped_at_, now) <= k_second_press_seconds)
+        end_ = End::closed;
+    else
+        tell("quit", "Esc again, or Ctrl+Q, closes the window", k_second_press_seconds);
+}
+
+/// Shows a short message of a topic over the picture.
+void Viewer::tell(std::string_view topic, std::string text, double seconds) {
+    overlay_.messages().tell(topic, std::move(text), now_seconds(), seconds);
+}
+
+/// Shows the most important keys over the first picture.
+void Viewer::greet() {
+    tell("keys",
+         reads_keyboard(stage_->renderer()) ? "Ctrl+Tab: controls, F1: keys" : "Tab: controls, H: keys");
 }
 
 FramePump::Around Viewer::around() const {
@@ -278,7 +362,7 @@ double Viewer::seconds_to_sleep(double now) const {
     if (scene_.building_since() || pump_.ending())
         until = std::min(until, now + k_title_seconds);
     if (!pump_.driver_held(now))
-        until = std::min(until, finite_.due());
+        until = std::min({until, finite_.due(), overlay_.messages().due()});
     if (const auto wake = scene_.wake_at())
         until = std::min(until, *wake);
     return std::max(0.0, until - now);
@@ -308,8 +392,11 @@ Result<void> Viewer::follow_scene(double now) {
 /// Shows a new Stage from now on. An optimised one draws the same pictures, so everything else stays.
 Result<void> Viewer::show(Stage fresh, double now) {
     const bool first = !stage_;
-    if (first)
+    if (first) {
         timeline_.begin(now);
+        if (settings_.paused || (settings_.left && settings_.left->paused))
+            timeline_.toggle_pause(now);
+    }
     TRY(swap_in(std::move(fresh)));
     if (stage_->share()) {
         say(fmt::format("background optimisation: frames take {:.0f} % less time, same bytes",
@@ -319,6 +406,9 @@ Result<void> Viewer::show(Stage fresh, double now) {
     play_sound();
     overlay_.forget_scene();
     release_knobs();
+    history_.adopt(edits());
+    if (first)
+        greet();
     reloaded_ = scene_.take_times();
     settled_ = false;
     shown_.current = false;
@@ -426,9 +516,8 @@ bool Viewer::compiles_for_long(double now) const {
     return since && now - *since > k_short_wait_seconds;
 }
 
-/// Sets the title: the compile time while compiling, else the error if there is one, else the state with the
-/// frame rate, which changes twice a second at most.
-void Viewer::show_title(double now) {
+/// Returns the state with the frame rate, which changes twice a second at most.
+std::string Viewer::state_words(double now) const {
     std::string state =
         pump_.seeking() ? fmt::format("stepping to frame {}, Esc cancels", pump_.seek_progress().last)
         : pump_.flow() == FramePump::Flow::cancelled ? "cancelled, space continues"
@@ -443,6 +532,17 @@ void Viewer::show_title(double now) {
         state += ", frozen";
     if (finite_.found() > 0)
         state += fmt::format(", {} pixel{} not finite", finite_.found(), finite_.found() > 1 ? "s" : "");
+    return state;
+}
+
+/// Sets the title: the compile time while compiling, else the error if there is one, else the state. Between
+/// two slow frames it stays, so that it does not change between progress and frame rate.
+void Viewer::show_title(double now) {
+    const bool between = pump_.frames_show_progress() && !pump_.drawing() && pump_.moving(around());
+    if (between && stage_ && !scene_.failure() && !compiles_for_long(now))
+        return;
+    std::string state = state_words(now);
+    overlay_.messages().retell("state", state);
     if (compiles_for_long(now))
         state = fmt::format("compiling… {:.0f} s{}", now - *scene_.building_since(),
                             stage_ ? ", Esc cancels" : "");

@@ -18,8 +18,10 @@
 #include "window/timeline.hpp"
 #include "window/window_keys.hpp"
 
+#include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace tidemark::cli {
@@ -34,6 +36,7 @@ struct Remembered {
     bool controls_open = false;
     std::vector<Moment> views{};
     std::vector<live::Binding> controllers{}; ///< bindings of a MIDI device
+    bool paused = false;
 };
 
 /// Returns the saved state. Returns nothing where there is none, or where it cannot be used, which is
@@ -59,6 +62,8 @@ public:
         bool remembers = false;                      ///< saves its state for the next window
         bool controls = false;                       ///< open at the start
         bool sounds = true;                          ///< plays the Sound pass
+        bool paused = false;                         ///< at the start
+        bool messages = false;                       ///< shows short messages over the picture
         std::optional<Remembered> left = {};         ///< state of the last window
         std::optional<LiveInputRequest> inputs = {}; ///< excludes frames.input
         std::shared_ptr<Rehearsal> rehearsal = {};   ///< tries scenes that may be too much for the driver
@@ -112,9 +117,15 @@ private:
     void handle(const platform::FocusLost&) {}
     void control(const ControlEvent& event);
     void obey(platform::Key key, double now);
+    void obey_with_control(platform::Key key, double now);
     void escape(double now);
+    bool close_innermost();
+    void close_on_second_press(double now);
+    void tell(std::string_view topic, std::string text, double seconds = Messages::k_seconds);
+    void greet();
     double seconds_to_sleep(double now) const;
     FramePump::Around around() const;
+    std::string state_words(double now) const;
     void show_title(double now);
     Result<void> check_driver();
     Result<void> finish();
@@ -170,11 +181,14 @@ private:
     // The moment on show: viewer_commands.cpp
     Moment moment() const;
     KeptPicture read_picture() const;
-    bool has_frame() const;
+    bool has_frame();
     void save_picture();
     void copy_moment();
     void keep_moment();
     void take_up(const Remembered& left);
+    Edits edits() const;
+    void follow_edits(double now);
+    void go_to(const std::optional<Edits>& wanted, const char* done);
 
     // Commands of the panels and of live inputs: viewer_commands.cpp
     void carry_out_all(const live::Commands& commands);
@@ -199,7 +213,9 @@ private:
     void carry_out(const live::TogglePause&) { obey(platform::Key::space, now_seconds()); }
     void carry_out(const live::SetPlaying& command);
     void carry_out(const live::Restart&) { obey(platform::Key::home, now_seconds()); }
-    void carry_out(const live::Seek& command) { seek(command.seconds, now_seconds()); }
+    void carry_out(const live::Seek& command);
+    void carry_out(const live::HoldBar& command);
+    void carry_out(const live::GrowBar&) { timeline_.grow_bar(shown_.state.seconds()); }
     void carry_out(const live::GiveUpSeek&);
     void carry_out(const live::SetSpeed& command) { timeline_.set_speed(command.speed, now_seconds()); }
     void carry_out(const live::SetLoop& command) { timeline_.set_loop(command); }
@@ -216,6 +232,10 @@ private:
     Overlay overlay_;
     Recorder recorder_;
     Controls controls_;
+    History history_;
+    std::set<platform::Button> buttons_; ///< that are down
+    bool edited_ = false;                ///< the user may have changed something that can be undone
+    double escaped_at_ = -std::numeric_limits<double>::infinity(); ///< when Esc last had nothing to close
     WindowKeys keys_;
     Shown shown_;
     std::vector<platform::InputEvent> events_held_; ///< kept until the driver is free

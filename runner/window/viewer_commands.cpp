@@ -106,6 +106,15 @@ void Viewer::seek(double seconds, double now) {
     pump_.seek(*stage_, states, *frame - 1, seconds);
 }
 
+void Viewer::carry_out(const live::Seek& command) {
+    timeline_.fit_bar();
+    seek(command.seconds, now_seconds());
+}
+
+void Viewer::carry_out(const live::HoldBar& command) {
+    command.held ? timeline_.hold_bar(shown_.state.seconds()) : timeline_.release_bar();
+}
+
 /// Draws a few more frames of a seek, then the bar. At the end, time continues from there.
 void Viewer::advance_seek() {
     constexpr double k_seconds = 1 / 30.0;
@@ -142,6 +151,7 @@ void Viewer::go_round(double now) {
 // Commands
 
 void Viewer::carry_out_all(const live::Commands& commands) {
+    edited_ |= !commands.empty();
     for (const live::Command& command : commands)
         std::visit([this](const auto& wanted) { carry_out(wanted); }, command);
 }
@@ -163,8 +173,10 @@ void Viewer::take_inputs() {
 /// written while they may change.
 void Viewer::toggle_controls() {
     overlay_.toggle(Overlay::Panel::controls);
-    if (!overlay_.shows(Overlay::Panel::controls))
+    if (!overlay_.shows(Overlay::Panel::controls)) {
+        timeline_.release_bar();
         return picture_.hide_pictures();
+    }
     settled_ = false;
     scene_.stop_settling();
     if (stage_ && stage_->share() && !scene_.building_since())
@@ -271,9 +283,11 @@ KeptPicture Viewer::read_picture() const {
 }
 
 /// Returns whether a frame of the current text is on show; prints a line if not.
-bool Viewer::has_frame() const {
-    if (!shown_.current && !picture_.frozen())
+bool Viewer::has_frame() {
+    if (!shown_.current && !picture_.frozen()) {
         say("no frame is drawn yet");
+        tell("frame", "no frame is drawn yet");
+    }
     return shown_.current || picture_.frozen();
 }
 
@@ -281,11 +295,14 @@ void Viewer::save_picture() {
     const Frozen* frozen = picture_.frozen();
     if (!shown_.current && !frozen) {
         recorder_.save_next();
+        tell("saved", "no frame is drawn yet: the first one is saved");
         return say("no frame is drawn yet: the first one is saved");
     }
     const auto saved =
         recorder_.save(frozen ? frozen->picture : read_picture(), settings_.scene.path, scene_files());
-    say(saved ? fmt::format("saving {}", *saved) : to_string(saved.error()));
+    const std::string line = saved ? fmt::format("saving {}", *saved) : to_string(saved.error());
+    say(line);
+    tell("saved", line);
 }
 
 /// Copies the capture command, with rounded numbers of the camera if the scene uses it. Leaves out the rate
@@ -306,11 +323,16 @@ void Viewer::copy_moment() {
     const std::string command = capture_command(copied);
     screen_->set_clipboard(command);
     say("copied: " + command);
+    tell("copied", "copied the command that captures this moment");
 }
 
 void Viewer::keep_moment() {
-    if (has_frame())
-        say("kept: " + overlay_.keep(moment()));
+    if (!has_frame())
+        return;
+    const std::string line = "kept: " + overlay_.keep(moment());
+    edited_ = true;
+    say(line);
+    tell("kept", line + "; Tab lists the views");
 }
 
 /// Goes to a kept view as the time bar does; its definitions are compiled first.
@@ -351,9 +373,53 @@ void Viewer::take_up(const Remembered& left) {
 std::optional<Remembered> Viewer::state() const {
     if (!stage_)
         return settings_.left;
-    return Remembered{moment(),         screen_->place(),
-                      picture_.scale(), overlay_.shows(Overlay::Panel::controls),
-                      overlay_.views(), overlay_.controllers().bindings()};
+    return Remembered{moment(),          screen_->place(),
+                      picture_.scale(),  overlay_.shows(Overlay::Panel::controls),
+                      overlay_.views(),  overlay_.controllers().bindings(),
+                      timeline_.paused()};
+}
+
+// Undo and redo
+
+Edits Viewer::edits() const {
+    render::FrameState state;
+    controls_.fill(state);
+    Edits now{.camera = state.camera, .defines = scene_.request().defines, .views = overlay_.kept_views()};
+    if (stage_)
+        for (const scene::Knob& knob : stage_->renderer().scene().knobs)
+            if (const auto value = value_after(knob, state.knobs); value != knob.initial)
+                now.knobs.push_back(setting_of(knob, value));
+    return now;
+}
+
+void Viewer::follow_edits(double now) {
+    if (std::exchange(edited_, false) && stage_ && recorder_.mode() == Recorder::Mode::live)
+        history_.follow(edits(), now, !buttons_.empty());
+}
+
+/// Restores the edits of another step; none: reports that there is none. `done` is the verb for the message.
+void Viewer::go_to(const std::optional<Edits>& wanted, const char* done) {
+    if (recorder_.mode() != Recorder::Mode::live)
+        return tell("undo", "undo is off while recording or replaying");
+    if (!wanted || !stage_)
+        return tell("undo", fmt::format("nothing more to be {}", done));
+    const Edits before = edits();
+    render::FrameState state;
+    controls_.fill(state);
+    state.knobs = wanted->knobs;
+    state.camera = wanted->camera;
+    controls_.adopt(state);
+    release_knobs();
+    shown_.state.knobs.clear();
+    controls_.fill(shown_.state);
+    overlay_.set_views(wanted->views);
+    if (wanted->defines != before.defines)
+        scene_.hold(wanted->defines, view());
+    touched_at_ = now_seconds();
+    pump_.ask();
+    pump_.doubt(drawn_extent());
+    history_.adopt(edits());
+    tell("undo", fmt::format("{}: {}", done, changed_words(before, *wanted)));
 }
 
 } // namespace tidemark::cli

@@ -10,6 +10,12 @@
 #include <utility>
 
 namespace tidemark::cli {
+namespace {
+
+/// The topic of the message while a pixel is traced.
+constexpr std::string_view k_trace = "trace";
+
+} // namespace
 
 /// Sets the drawn size from window and scale. Returns whether it worked; else the old picture is stretched.
 bool Viewer::fit_drawing() {
@@ -171,7 +177,7 @@ void Viewer::stop_frames(double now) {
     pump_.stop(now);
     timeline_.rest();
     say(fmt::format("{}: frame cancelled, {}: press space to continue, - to draw smaller, or save a file of "
-                    "it; Esc again closes the window",
+                    "it; Esc twice closes the window",
                     settings_.scene.path.string(), drawn));
     if (pump_.driver_held(now))
         say("the driver cannot be stopped: its current work ends by itself");
@@ -207,7 +213,7 @@ live::Model Viewer::overlay_model() {
         controls_.fill(turned); // newer than the frame on show
     const render::Renderer* renderer = stage_ ? &stage_->renderer() : nullptr;
     live::Model model = overlay_.model(renderer ? &renderer->scene() : nullptr, scene_.request(),
-                                       turned.knobs, inputs_ && inputs_->has_midi());
+                                       turned.knobs, inputs_ && inputs_->has_midi(), now_seconds());
     if (picture_.magnifies() && renderer && !pump_.seeking() && !picture_.frozen())
         model.magnifier = picture_.magnifier(*renderer, inputs_of_shown(), screen_->extent());
     if (const double now = now_seconds(); pump_.draws_for_long(now)) {
@@ -247,8 +253,12 @@ const gl::Texture* Viewer::marked_picture() {
 
 void Viewer::toggle_marks() {
     picture_.toggle_marks();
-    if (picture_.shows_marks() && pump_.would_block(drawn_extent()))
+    const bool rest = picture_.shows_marks() && pump_.would_block(drawn_extent());
+    if (rest)
         say("marks are off while a frame takes more than a second");
+    tell("marks", rest                     ? "marks are off while a frame takes more than a second"
+                  : picture_.shows_marks() ? "marks: NaN magenta, infinity green, below zero blue"
+                                           : "marks are off");
     overlay_.mark_changed();
 }
 
@@ -256,12 +266,15 @@ void Viewer::toggle_freeze() {
     if (!has_frame())
         return;
     overlay_.mark_changed();
-    if (picture_.frozen())
+    if (picture_.frozen()) {
+        tell("frozen", "the picture moves again");
         return picture_.freeze(std::nullopt);
+    }
     auto target = gl::copy_in_bytes(stage_->renderer().target());
     if (!target)
         return say("the driver has no memory to freeze the picture");
     picture_.freeze(Frozen{*std::move(target), read_picture(), moment()});
+    tell("frozen", fmt::format("frozen at {:.3f} s; Z shows the current picture", shown_.state.seconds()));
 }
 
 /// Reports pixels that are not finite, once for each text: a window may show them as any colour.
@@ -289,6 +302,7 @@ void Viewer::trace_pixel() {
         return;
     if (overlay_.show_origin(nullptr) || search_) {
         search_.reset();
+        overlay_.messages().end(k_trace);
         return overlay_.mark_changed();
     }
     const Rectangle pixel = picture_.pixel(stage_->renderer().target().extent(), screen_->extent());
@@ -298,7 +312,9 @@ void Viewer::trace_pixel() {
     if (!started)
         return say(to_string(started.error()));
     search_ = *std::move(started);
-    say(fmt::format("tracing pixel {},{}; press Enter to cancel", pixel.x, pixel.y));
+    const std::string line = fmt::format("tracing pixel {},{}; press Enter to cancel", pixel.x, pixel.y);
+    say(line);
+    tell(k_trace, line, std::numeric_limits<double>::infinity());
 }
 
 void Viewer::take_origin() {
@@ -306,6 +322,7 @@ void Viewer::take_origin() {
     if (!printed)
         return;
     search_.reset();
+    overlay_.messages().end(k_trace);
     const Error error = origin_of(*printed);
     overlay_.show_origin(&error);
     say(to_string(error));

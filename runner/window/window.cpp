@@ -276,8 +276,7 @@ double Window::content_scale() const {
 }
 
 WindowPlace Window::place() const {
-    const bool full = glfwGetWindowMonitor(state_->window.get()) != nullptr;
-    const ScreenArea place = full ? state_->before_full_screen : place_of(state_->window.get());
+    const ScreenArea place = is_full_screen() ? state_->before_full_screen : place_of(state_->window.get());
     const Extent screen = state_->screen;
     const double pixels = screen.width > 0 ? double(state_->framebuffer.width) / screen.width : 1.0;
     const auto logical = [&](int length) {
@@ -298,6 +297,10 @@ void Window::set_title(const std::string& title) {
     // more than any title bar shows, less than X11's limit for one request
     constexpr size_t k_most_bytes = 1000;
     glfwSetWindowTitle(state_->window.get(), cut_text(printable_line(title), k_most_bytes).c_str());
+}
+
+bool Window::is_full_screen() const {
+    return glfwGetWindowMonitor(state_->window.get()) != nullptr;
 }
 
 void Window::toggle_full_screen() {

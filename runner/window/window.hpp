@@ -79,6 +79,7 @@ public:
     void set_title(const std::string& title);
     /// Fills the monitor that shows most of the window, or returns to the place before.
     void toggle_full_screen();
+    bool is_full_screen() const;
 
 private:
     struct State;

@@ -20,7 +20,7 @@ std::span<const KeyRow> key_rows();
 
 /// The text below the rows.
 inline constexpr std::string_view k_keys_of_scenes =
-    "A scene that reads the keyboard gets all keys but Esc and F1: hold Ctrl for the above.";
+    "A scene that reads the keyboard gets all keys but Esc and F1: hold Ctrl for the above, X for Z.";
 
 /// Returns the rows in two columns, for a terminal.
 std::string key_table();
@@ -36,6 +36,7 @@ public:
     /// `scene_reads`: the scene gets all keys but Esc, F1 and those with Ctrl.
     Owner press(const platform::KeyPressed& event, bool scene_reads);
     Owner release(const platform::KeyReleased& event);
+    bool control_down() const { return control_down_; }
 
 private:
     std::set<platform::Key> obeyed_; ///< keys that are down and were handled by the window

@@ -6,6 +6,7 @@
 #include "render/gl_textures.hpp"
 #include "window/window.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -22,6 +23,11 @@ Result<std::unique_ptr<Panels>> load_panels() {
     return table->create();
 }
 
+/// Returns whether all open panels are short messages: the last one of the list.
+bool only_messages(const Model::Panels& open) {
+    return std::none_of(open.begin(), open.end() - 1, [](bool panel) { return panel; });
+}
+
 } // namespace
 
 Result<void> PanelLayer::show(Model model, const Surface& surface) {
@@ -35,8 +41,11 @@ Result<void> PanelLayer::show(Model model, const Surface& surface) {
     if (!visible)
         return {};
     if (!panels_) {
+        auto loaded = load_panels();
+        if (!loaded && only_messages(open))
+            return {}; // nothing that the user has opened
         failed_ = true;
-        panels_ = TRY(load_panels());
+        panels_ = TRY(std::move(loaded));
         failed_ = false;
     }
     visible_ = true;

@@ -71,6 +71,7 @@ public:
     void set_title(const std::string& title) override { window_.set_title(title); }
     void set_clipboard(const std::string& text) override { window_.set_clipboard(text); }
     void toggle_full_screen() override { window_.toggle_full_screen(); }
+    bool is_full_screen() const override { return window_.is_full_screen(); }
     std::optional<platform::WindowPlace> place() const override { return window_.place(); }
     std::shared_ptr<void> when_lost(std::function<void(std::string_view what)> act) override;
 

@@ -53,7 +53,7 @@ def start_ups(programs, screens, folder):
 
 def start_up(program, screen, folder):
     view = open_view(program, screen, folder, "still.glsl")
-    view.key("Escape")
+    view.quit()
     _, _, usage = os.wait4(view.program.pid, 0)
     view.program.returncode = 0
     view.close()

@@ -36,7 +36,7 @@ class Compile(LiveTest):
         for mark in (2, 3):
             self.write("a.glsl", marked(mark))
             view.wait_until_told(VALUES, lambda told: told["mark"] == mark)
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
 
     def begin_to_compile(self, view: View, mark: int) -> None:
@@ -61,7 +61,7 @@ class Compile(LiveTest):
         view.wait_for_title(r" fps\Z")
         self.write("a.glsl", marked(3))
         view.wait_until_told(VALUES, lambda told: told["mark"] == 3)
-        view.key("Escape")  # the driver may still be at it
+        view.quit()  # the driver may still be at it
         self.assertEqual(view.wait_for_end(), 0)
 
     def test_a_new_save_takes_its_place(self):
@@ -78,7 +78,7 @@ class Compile(LiveTest):
         self.write("a.glsl", heavy(1))
         view = View(self.screen, self.folder, "a.glsl", *SIZE, first_title="compiling… ")
         self.addCleanup(view.close)
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
 
 

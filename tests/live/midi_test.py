@@ -42,7 +42,7 @@ class Midi(OverlayTest):
         view.wait_for_change(menu)
 
     def leave(self, view) -> None:
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
 
     def learned(self, *options):

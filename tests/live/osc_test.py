@@ -106,7 +106,7 @@ class Osc(LiveTest):
         client.send("/play", 0)
         view.wait_for_title(" - paused at ")
         picture = view.save()
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
         self.assertRegex((self.folder / "take.txt").read_text(), r"(?m)^\d+ set height=0\.1$")
         frame = int(picture.stem.split("-")[1])

@@ -68,7 +68,7 @@ class Output(LiveTest):
         wait_for(lambda: not self.screen.xdotool("search", "--onlyvisible", "--name", "tidemark output"), "its end")
         view.key("Right")
         view.wait_for_title(r" - paused at 0\.017 s$")
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
 
     def test_full_screen_on_a_monitor(self):
@@ -81,7 +81,7 @@ class Output(LiveTest):
         view.point(640, 400)
         # Pictures of 300x160 on 1280x800 are 682.7 high: 58 rows are black above, as many below.
         wait_for(lambda: [not any(row) for row in self.screen.rows(0, 0, 1280, 800)][50:66:14] == [True, False], "black")
-        view.key("Escape")  # keys are the first window's
+        view.quit()  # keys are the first window's
         self.assertEqual(view.wait_for_end(), 0)
 
     def test_there_is_no_such_monitor(self):

@@ -107,7 +107,7 @@ class Knobs(OverlayTest):
         view.drag_row(DEEP, 0.05, 0.15)
         view.click_row(SHIFT, 0.1)
         picture = view.save()
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
         script = (self.folder / "take.txt").read_text()
         self.assertGreater(len(re.findall(r"^\d+ set height=", script, re.MULTILINE)), 100)

@@ -103,7 +103,7 @@ class Time(OverlayTest):
         view.wait_until_told(CLOCK, lambda told: told["iFrame"] >= 6000)
         view.drag_row(1, 0.1, 0.4)
         view.click_bar(PAUSE)
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
         frames = [int(frame) for frame in re.findall(r"^(\d+) set level=", (self.folder / "take.txt").read_text(),
                                                      re.MULTILINE)]

@@ -32,7 +32,7 @@ class Reset(LiveTest):
         told = view.told(VALUES)
         self.assertGreaterEqual(told["time"], float(left.group(1)))
         self.assertEqual((told["height"], told["width"]), (1.5, 0.5))
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
 
     @not_sanitized

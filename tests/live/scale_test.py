@@ -92,7 +92,7 @@ class Scale(LiveTest):
         view.drag((50, 40), (120, 90))
         view.wait_until_told(MOUSE, lambda told: told["iMouse.x"] == 60 and told["iMouse.z"] < 0)
         saved = view.save()
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
         frame = saved.stem.split("-")[1]
         self.succeed("capture", "mouse.glsl", "--size", "250x130", "--input", "take.txt", "--frame", str(int(frame)),
@@ -105,7 +105,7 @@ class Scale(LiveTest):
         view = self.view("size.glsl", "--size", "400x200", **state)
         view.key("minus")
         view.wait_for_title(", scale 1/2$")
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
         view = self.view("size.glsl", **state)
         view.wait_for_words(r"^restored: .*scale 1/2; --fresh starts anew$")

@@ -75,7 +75,7 @@ class SlowFrame(LiveTest):
         view.wait_for_title(", Esc cancels")
         self.screen.xdotool("key", "Escape", "Escape", "Escape")
         view.wait_for_words(r"^a\.glsl: frame cancelled, after \d+\.\d s, \d+ % drawn: press space to continue, - to draw smaller, "
-                            r"or save a file of it; Esc again closes the window$")
+                            r"or save a file of it; Esc twice closes the window$")
         view.wait_for_title(r"\Aa - tidemark - cancelled, space continues\Z")
         view.key("minus")
         view.wait_for_title(r" - drawing .*, scale 1/2\Z")

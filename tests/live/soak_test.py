@@ -104,7 +104,7 @@ class Soak(LiveTest):
         if warm is not None:
             self.tell(view, EDITS)
             wait_for(lambda: self.held(view) == warm, f"{warm} instead of {self.held(view)}")
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
 
     def test_a_window_that_begins_with_nothing(self):

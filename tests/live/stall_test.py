@@ -46,7 +46,7 @@ class Stall(LiveTest):
         self.hold(view, 2, rounds)
         self.screen.xdotool("key", "Escape", "Escape", "Escape")
         view.wait_for_words(r"^a\.glsl: frame cancelled, (a frame takes \d+\.\d s|after \d+\.\d s, \d+ % drawn): press "
-                            r"space to continue, - to draw smaller, or save a file of it; Esc again closes the window$")
+                            r"space to continue, - to draw smaller, or save a file of it; Esc twice closes the window$")
         view.wait_for_title(r"\Aa - tidemark - cancelled, space continues\Z")
         self.write("a.glsl", marked(3))
         view.wait_until_told(VALUES, lambda told: told["mark"] == 3)

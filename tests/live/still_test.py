@@ -56,7 +56,7 @@ class Still(LiveTest):
         view.wait_for_title(r" \d+ fps\Z")
         self.write("a.glsl", STILL)
         view.wait_for_title(r" still\Z")
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
 
 

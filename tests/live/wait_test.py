@@ -102,7 +102,7 @@ class Wait(LiveTest):
 
     def test_it_can_be_closed(self):
         view = self.wait("a.glsl", r"\Awaiting: ")
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
 
     def test_options_that_are_wrong_end_it(self):

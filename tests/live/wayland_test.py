@@ -46,7 +46,7 @@ class Wayland(WaylandTest):
     def test_escape_ends_it(self):
         self.write("a.glsl", PATTERN)
         view = self.view("a.glsl", "--size", "200x100")
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
         self.assertEqual(view.stderr(), "")
 

@@ -53,7 +53,7 @@ class Place(LiveTest):
     def test_what_is_typed_wins_over_what_is_remembered(self):
         state = {"XDG_STATE_HOME": str(self.folder / "state")}
         view = self.view("a.glsl", *SIZE, "--position", "300,120", **state)
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
         view = self.view("a.glsl", **state)
         self.assertEqual(self.corner(view), (300, 120))

@@ -1,6 +1,6 @@
 """The window: what it shows, its keys, its size, its end."""
 from support import png, probe
-from support.live import LiveTest, main, wait_for
+from support.live import LiveTest, View, main, wait_for
 
 CLOCK = {"iTime": "iTime", "iTimeDelta": "iTimeDelta", "iFrame": "float(iFrame)"}
 SIZE = probe.vector("iResolution", "xyz")
@@ -71,7 +71,7 @@ class Picture(LiveTest):
         self.write("said.glsl", text.replace("300x120", "310x130") + "// saved\n")
         view.wait_for_words("reloaded in")
         self.assertEqual(list(view.told(SIZE).values()), [200, 100, 1])
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
         view = self.view("said.glsl")
         self.assertEqual(list(view.told(SIZE).values()), [310, 130, 1])
@@ -131,19 +131,34 @@ class Keys(LiveTest):
         view.wait_for_words(r"\Asaving clock-00000\.png\n\Z")
 
     def test_s_where_nothing_can_be_written_says_so_and_goes_on(self):
-        view = self.start()
+        self.write("clock.glsl", probe.shader(CLOCK))
+        gone = self.folder / "gone"
+        gone.mkdir()
+        view = View(self.screen, gone, str(self.folder / "clock.glsl"), "--size", "200x100")
+        self.addCleanup(view.close)
         view.restart_paused()
-        (self.folder / "clock-00000.png").mkdir()
+        gone.rmdir()
         view.key("s")
         view.wait_for_words(r"^saving clock-00000\.png$")
-        view.key("Escape")
+        view.quit()
         view.wait_for_end()
-        self.assertIn("tidemark: error: cannot write 'clock-00000.png': Is a directory", view.stderr())
+        self.assertIn("tidemark: error: cannot write 'clock-00000.png': No such file or directory", view.stderr())
+
+    def test_s_replaces_no_picture(self):
+        view = self.start()
+        view.restart_paused()
+        (self.folder / "clock-00000.png").write_text("another program's")
+        view.key("s")
+        view.wait_for_words(r"^saving clock-00000-2\.png$")
+        view.quit()
+        self.assertEqual(view.wait_for_end(), 0)
+        self.assertEqual(png.read(self.folder / "clock-00000-2.png").width, 200)
+        self.assertEqual((self.folder / "clock-00000.png").read_text(), "another program's")
 
     def test_h_prints_the_keys(self):
         view = self.start()
         view.key("h")
-        for words in ("drag ", "wheel, ", "space; left, right ", "Home ", "S  ", "Tab; ", "F; H, F1 ", "Esc "):
+        for words in ("drag ", "wheel, ", "space; left, right ", "Home; V ", "S  ", "Tab; ", "H, F1 ", "Esc "):
             view.wait_for_words(words)
 
     def test_f_fills_the_screen_and_gives_it_back(self):
@@ -156,7 +171,7 @@ class Keys(LiveTest):
 
     def test_escape_ends_it(self):
         view = self.start()
-        view.key("Escape")
+        view.quit()
         self.assertEqual(view.wait_for_end(), 0)
         self.assertEqual(view.stderr(), "")
 
@@ -168,7 +183,7 @@ class Keys(LiveTest):
     def test_escape_right_after_s_leaves_a_whole_picture(self):
         view = self.start()
         view.restart_paused()
-        self.screen.xdotool("key", "s", "Escape")
+        self.screen.xdotool("key", "s", "Escape", "Escape")
         self.assertEqual(view.wait_for_end(), 0)
         self.assertEqual(png.read(self.folder / "clock-00000.png").width, 200)
 

@@ -173,6 +173,7 @@ class View:
         self.words = tempfile.NamedTemporaryFile(prefix="tidemark-words-")
         self.state = tempfile.TemporaryDirectory(prefix="tidemark-state-")  # each window starts anew
         variables.setdefault("XDG_STATE_HOME", self.state.name)
+        variables.setdefault("TIDEMARK_MESSAGES", "off")  # tests compare pictures
         self.program = subprocess.Popen([PROGRAM, "view", scene, *options], cwd=folder, stdin=subprocess.DEVNULL,
                                         env=environment(**screen.variables(), **variables), stderr=self.words)
         if first_title is not None:
@@ -219,6 +220,9 @@ class View:
 
     def key(self, name: str) -> None:
         self.screen.xdotool("key", name)
+
+    def quit(self) -> None:
+        self.key("ctrl+q")
 
     def point(self, x: int, y: int) -> None:
         """Moves the pointer to a pixel, counted from the top left."""

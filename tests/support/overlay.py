@@ -14,6 +14,7 @@ PANEL_WIDTH = 320
 
 # The bar of time: its upper row's middle above the window's lower edge, and what stands in it from the left.
 BAR_ROW = 35
+END = 65  # the button that shows the bar's end, and the gap before it
 RESTART, PAUSE, LOOP_FROM, LOOP_TO, SPEED_BEGIN, SPEED_END, SCRUBBER = 18, 60, 96, 119, 135, 233, 241
 
 
@@ -56,7 +57,7 @@ class OverlayView(View):
 
     def scrubber(self, share: float) -> float:
         """A place on the bar's slider of time."""
-        width = self.place()["WIDTH"] / self.scale - SCRUBBER - PADDING
+        width = self.place()["WIDTH"] / self.scale - SCRUBBER - PADDING - END
         return SCRUBBER + share * width
 
     def type_time(self, seconds: str, frames_held: int = 0, end: str = "Return") -> None:

@@ -8,6 +8,7 @@
 #include <GL/gl.h>
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -36,7 +37,7 @@ void draw_row(DefinitionField& field, Commands& commands) {
             commands.emplace_back(Define{field.name, text_of(field)});
     }
     ImGui::SameLine();
-    draw_text(field.name);
+    draw_name_within(field.name, name_room(field.held ? "reset" : ""));
     if (field.held) {
         ImGui::SameLine();
         if (ImGui::SmallButton("reset"))
@@ -138,10 +139,12 @@ void draw_controllers(const KnobField& field, Commands& commands) {
 /// Draws the name, highlighted while one of its components waits for a controller.
 void draw_name(const KnobField& field) {
     const ImVec4 bright{1, 0.8F, 0.2F, 1};
-    if (std::ranges::any_of(field.controllers, &ControllerField::learning))
-        draw_coloured(bright, field.knob.name);
-    else
-        draw_text(field.knob.name);
+    const bool learning = std::ranges::any_of(field.controllers, &ControllerField::learning);
+    if (learning)
+        ImGui::PushStyleColor(ImGuiCol_Text, bright);
+    draw_name_within(field.knob.name, name_room(field.is_turned() ? "reset" : ""));
+    if (learning)
+        ImGui::PopStyleColor();
 }
 
 void draw_row(KnobField& field, Commands& commands) {
@@ -161,16 +164,24 @@ void draw_row(KnobField& field, Commands& commands) {
     ImGui::PopID();
 }
 
+/// Puts the next button into the same row if it fits.
+void stay_in_row(const char* button) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float needed = style.ItemSpacing.x + ImGui::CalcTextSize(button).x + 2 * style.FramePadding.x;
+    if (ImGui::GetItemRectMax().x + needed <= ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x)
+        ImGui::SameLine();
+}
+
 void draw_knobs(std::vector<KnobField>& fields, Commands& commands) {
     if (fields.empty())
         return draw_wrapped("The scene has no knobs: it declares one with a line like\n"
                             "#iUniform float height = 0.5 in { 0.0, 2.0 }");
     if (ImGui::Button("Reset all"))
         commands.emplace_back(ResetKnobs{});
-    ImGui::SameLine();
+    stay_in_row("Copy as --set");
     if (ImGui::Button("Copy as --set"))
         commands.emplace_back(CopyKnobs{});
-    ImGui::SameLine();
+    stay_in_row("Write to file");
     if (ImGui::Button("Write to file"))
         commands.emplace_back(WriteKnobs{});
     ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * k_widget_share);
@@ -289,7 +300,10 @@ void draw_thumbnails(const Model& model, const Surface& surface, Commands& comma
     draw_look(model, commands);
 }
 
-void draw_stepping(const Stepping& stepping, Commands& commands) {
+void draw_stepping(const TimeField& time, Commands& commands) {
+    const Stepping& stepping = *time.stepping;
+    if (time.bar_held) // the slider is not there to be released
+        commands.emplace_back(HoldBar{false});
     const std::string text = fmt::format("frame {} of {}", stepping.frame, stepping.last);
     if (ImGui::Button("Cancel"))
         commands.emplace_back(GiveUpSeek{});
@@ -332,26 +346,39 @@ void draw_speed(TimeField& time, Commands& commands) {
 void draw_scrubber(TimeField& time, Commands& commands) {
     constexpr double k_begin = 0;
     constexpr float k_nothing = -1;
-    const double end = bar_end(time);
+    const double end = time.bar_end;
+    const float button = ImGui::CalcTextSize("00000 s").x + 2 * ImGui::GetStyle().FramePadding.x;
     ImGuiStorage& kept = *ImGui::GetStateStorage();
     const ImGuiID typed = ImGui::GetID("typed time");
-    ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &time.seconds, &k_begin, &end, "%.2f s")) {
+    ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemSpacing.x);
+    const bool moved =
+        ImGui::SliderScalar("##time", ImGuiDataType_Double, &time.seconds, &k_begin, &end, "%.2f s");
+    const bool released = ImGui::IsItemDeactivated();
+    if (ImGui::IsItemActivated())
+        commands.emplace_back(HoldBar{true});
+    if (moved) {
         const double wanted = std::max(time.seconds, 0.0);
         if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !ImGui::GetIO().WantTextInput)
             commands.emplace_back(Seek{wanted});
         else
             kept.SetFloat(typed, float(wanted));
     }
-    if (!ImGui::IsItemDeactivated())
+    ImGui::SameLine();
+    if (ImGui::Button(fmt::format("{:.0f} s###end", end).c_str(), {button, 0}))
+        commands.emplace_back(GrowBar{});
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("The bar's end; click to double it");
+    if (!released)
         return;
+    commands.emplace_back(HoldBar{false});
     const bool taken_back = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
     if (const float wanted = kept.GetFloat(typed, k_nothing); wanted >= 0 && !taken_back)
         commands.emplace_back(Seek{wanted});
     kept.SetFloat(typed, k_nothing);
 }
 
-void draw_clock(TimeField& time, Commands& commands) {
+void draw_clock(TimeField& time, const Surface& surface, Commands& commands) {
+    constexpr double k_one_row = 380; // a narrower window has the slider in a row of its own
     if (ImGui::Button("|<"))
         commands.emplace_back(Restart{});
     ImGui::SameLine();
@@ -360,16 +387,18 @@ void draw_clock(TimeField& time, Commands& commands) {
     ImGui::SameLine();
     draw_loop(time, commands);
     ImGui::SameLine();
-    if (time.has_speed) {
+    if (time.has_speed)
         draw_speed(time, commands);
+    if (ImGui::GetWindowWidth() >= float(k_one_row * surface.scale))
         ImGui::SameLine();
-    }
     draw_scrubber(time, commands);
 }
 
 void draw_status(const Model& model) {
     std::string text = fmt::format("{:.3f} s  frame {}  {}x{}", model.time.seconds, model.time.frame,
                                    model.extent.width, model.extent.height);
+    if (model.time.frame_rate > 0)
+        text += fmt::format("  {:.0f} fps", model.time.frame_rate);
     double total = 0;
     for (const PictureField& picture : model.pictures)
         if (picture.milliseconds) {
@@ -392,14 +421,29 @@ void draw_large(const PictureField& picture, const Surface& surface) {
     draw_opaque(list, picture, from, {from.x + size.x, from.y + size.y});
 }
 
-void draw_controls(Model& model, const Surface& surface, Commands& commands) {
+void draw_controls(Model& model, const Surface& surface, float bottom, Commands& commands) {
     constexpr double k_margin = 8;
     constexpr double k_width = 320;
+    constexpr double k_narrowest = 160;
+    constexpr float k_share = 0.8F; // of a narrow window
     const auto pixels = [&](double size) { return float(size * surface.scale); };
-    ImGui::SetNextWindowPos({pixels(k_margin), pixels(k_margin)}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSizeConstraints(
-        {pixels(k_width), 0}, {pixels(k_width), float(surface.extent.height) - 2 * pixels(k_margin)});
-    if (ImGui::Begin("Controls", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
+    const float margin = pixels(k_margin);
+    const ImVec2 all(float(surface.extent.width), float(surface.extent.height) - bottom);
+    const ImVec2 most(std::max(all.x - 2 * margin, 1.0F), std::max(all.y - 2 * margin, 1.0F));
+    const ImGuiWindow* const before = ImGui::FindWindowByName("Controls");
+    const float first = std::min(pixels(k_width), all.x * k_share);
+    const float width = before && !before->Collapsed ? before->SizeFull.x : first;
+    ImGui::SetNextWindowPos({margin, margin}, ImGuiCond_FirstUseEver);
+    // The height follows the contents; the user may drag the right edge.
+    ImGui::SetNextWindowSize({width, 0});
+    ImGui::SetNextWindowSizeConstraints({std::min(pixels(k_narrowest), most.x), 0}, most);
+    const bool open = ImGui::Begin("Controls");
+    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    const ImVec2 within(std::clamp(at.x, 0.0F, std::max(0.0F, all.x - size.x)),
+                        std::clamp(at.y, 0.0F, std::max(0.0F, all.y - size.y)));
+    if (within.x != at.x || within.y != at.y)
+        ImGui::SetWindowPos(within);
+    if (open) {
         draw_knobs(model.knobs, commands);
         draw_definitions(model.definitions, commands);
         draw_thumbnails(model, surface, commands);
@@ -414,9 +458,9 @@ float draw_time_bar(Model& model, const Surface& surface, Commands& commands) {
     ImGui::SetNextWindowSizeConstraints({width, 0}, {width, float(surface.extent.height)});
     ImGui::Begin("Time", nullptr, k_bare_panel | ImGuiWindowFlags_NoMove);
     if (model.time.stepping)
-        draw_stepping(*model.time.stepping, commands);
+        draw_stepping(model.time, commands);
     else
-        draw_clock(model.time, commands);
+        draw_clock(model.time, surface, commands);
     draw_status(model);
     const float height = ImGui::GetWindowHeight();
     ImGui::End();

@@ -7,6 +7,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -33,6 +34,29 @@ inline void draw_wrapped(std::string_view text) {
     ImGui::PopTextWrapPos();
 }
 
+/// Draws a name in at most `room` pixels; a longer one ends in "…", and the pointer over it shows all of it.
+inline void draw_name_within(std::string_view name, float room) {
+    const std::string all = shown(name);
+    std::string part = all;
+    char last = 0;
+    const bool fits = ImGui::CalcTextSize(all.c_str()).x <= room;
+    while (!fits && part.size() > 1 && ImGui::CalcTextSize((part + "…").c_str()).x > room)
+        do { // a whole character
+            last = part.back();
+            part.pop_back();
+        } while (part.size() > 1 && (static_cast<unsigned char>(last) & 0xC0) == 0x80);
+    ImGui::TextUnformatted((fits ? all : part + "…").c_str());
+    if (!fits && ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s", all.c_str());
+}
+
+/// Returns the room for a name in the current row, before a button with that label if there is one.
+inline float name_room(const char* button) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float taken = ImGui::CalcTextSize(button).x + 2 * style.FramePadding.x + style.ItemSpacing.x;
+    return std::max(1.0F, ImGui::GetContentRegionAvail().x - (*button ? taken : 0));
+}
+
 inline void draw_coloured(const ImVec4& colour, std::string_view text) {
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
     draw_text(text);
@@ -42,7 +66,8 @@ inline void draw_coloured(const ImVec4& colour, std::string_view text) {
 // The panel at the left, with everything that can be set.
 
 /// Draws the panel. Applies edits to the model and adds a command for each.
-void draw_controls(Model& model, const Surface& surface, Commands& commands);
+/// `bottom`: pixels at the bottom edge that the time bar takes.
+void draw_controls(Model& model, const Surface& surface, float bottom, Commands& commands);
 
 /// Draws a picture below all panels, as large as the window allows.
 void draw_large(const PictureField& picture, const Surface& surface);
@@ -63,7 +88,7 @@ void draw_errors(const Model& model, const Surface& surface, const ErrorLayout& 
 
 // The panel in the middle, with the effects of keys and mouse.
 
-void draw_help(const Model& model, const Surface& surface);
+void draw_help(const Model& model, const Surface& surface, float bottom);
 
 // The panel next to the pointer: the surrounding pixels, enlarged, and the values that passes wrote into the
 // one under it.
@@ -74,5 +99,9 @@ void draw_magnifier(const MagnifierField& magnifier, const Surface& surface);
 // events.
 
 void draw_clock(const std::string& text, const Surface& surface);
+
+// Short messages at the upper right, below the clock. Take no events.
+
+void draw_messages(const Model& model, const Surface& surface);
 
 } // namespace tidemark::live

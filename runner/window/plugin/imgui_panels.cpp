@@ -8,6 +8,7 @@
 
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cfloat>
@@ -144,6 +145,27 @@ void release_all(ImGuiIO& io) {
     set_pointer(io, -FLT_MAX, -FLT_MAX);
 }
 
+bool is_escape(const platform::InputEvent& event) {
+    const auto* pressed = std::get_if<platform::KeyPressed>(&event);
+    return pressed && pressed->key == Key::escape;
+}
+
+/// Closes the innermost menu, list or colour picker; returns false if none is open.
+bool close_popup() {
+    const int open = ImGui::GetCurrentContext()->OpenPopupStack.Size;
+    if (open > 0)
+        ImGui::ClosePopupToLevel(open - 1, true);
+    return open > 0;
+}
+
+/// Characters of messages and comments that Dear ImGui's own font lacks or has elsewhere, and what is drawn
+/// for them.
+constexpr std::pair<ImWchar, ImWchar> k_stand_ins[] = {
+    {0x2026, 0x85}, // "…"
+    {0x2010, '-'},  {0x2011, '-'},  {0x2012, '-'}, {0x2013, '-'}, {0x2014, '-'},  {0x2212, '-'},
+    {0x2018, '\''}, {0x2019, '\''}, {0x201C, '"'}, {0x201D, '"'}, {0x2022, 0xB7}, {0x2192, '>'},
+};
+
 /// The size at which Dear ImGui's own font has whole pixels.
 constexpr double k_font_pixels = 13;
 
@@ -191,10 +213,11 @@ public:
     bool take(const platform::InputEvent& event) override {
         ImGuiIO& io = ImGui::GetIO();
         const bool typing = io.WantTextInput; // the key that ends typing still belongs to the field
+        const bool closes = !typing && is_escape(event) && close_popup();
         feed(io, event, surface_.extent.height);
         run();
         run(); // the result of the first run is needed to know whether a field has the keyboard
-        return owner_.take(event, {io.WantCaptureMouse, typing});
+        return owner_.take(event, {io.WantCaptureMouse, typing || closes});
     }
 
     void draw() override {
@@ -223,17 +246,18 @@ private:
         if (model_.controls) {
             if (model_.large)
                 draw_large(model_.pictures[*model_.large], surface_);
-            draw_controls(model_, surface_, commands_);
             bottom = draw_time_bar(model_, surface_, commands_);
+            draw_controls(model_, surface_, bottom, commands_);
         }
         if (!model_.errors.empty())
             draw_errors(model_, surface_, {large_, bottom}, commands_);
         if (!model_.help.empty())
-            draw_help(model_, surface_);
+            draw_help(model_, surface_, bottom);
         if (model_.magnifier)
             draw_magnifier(*model_.magnifier, surface_);
         if (!model_.clock.empty())
             draw_clock(model_.clock, surface_);
+        draw_messages(model_, surface_);
         ImGui::Render();
     }
 
@@ -249,6 +273,10 @@ private:
         io.Fonts->Clear();
         add_font(scale);
         large_ = add_font(k_large * scale);
+        io.Fonts->Build();
+        for (ImFont* font : io.Fonts->Fonts)
+            for (const auto& [character, drawn] : k_stand_ins)
+                font->AddRemapChar(character, drawn);
         ImGui_ImplOpenGL3_DestroyDeviceObjects(); // the next frame creates them again, with that font
     }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 
@@ -45,7 +46,9 @@ void draw_first(const ErrorField& error, ImFont* large, Commands& commands) {
 }
 
 void draw_others(const std::vector<ErrorField>& errors, Commands& commands) {
-    if (errors.size() < 2 || !ImGui::TreeNode("more", "%zu more", errors.size() - 1))
+    const auto more = std::count_if(errors.begin() + 1, errors.end(),
+                                    [](const ErrorField& error) { return !error.summary; });
+    if (more == 0 || !ImGui::TreeNode("more", "%d more", int(more)))
         return;
     for (size_t i = 1; i < errors.size(); ++i) {
         ImGui::PushID(int(i));
@@ -125,13 +128,15 @@ void draw_errors(const Model& model, const Surface& surface, const ErrorLayout& 
     ImGui::End();
 }
 
-void draw_help(const Model& model, const Surface& surface) {
+void draw_help(const Model& model, const Surface& surface, float bottom) {
     constexpr double k_width = 620; // the longest row takes two lines
-    const ImVec2 all(float(surface.extent.width), float(surface.extent.height));
+    const ImVec2 all(float(surface.extent.width), float(surface.extent.height) - bottom);
     ImGui::SetNextWindowPos({all.x / 2, all.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
     const float width = std::min(all.x, float(k_width * surface.scale));
     ImGui::SetNextWindowSizeConstraints({width, 0}, {width, all.y});
+    ImGui::SetNextWindowBgAlpha(1);
     if (ImGui::Begin("Help", nullptr, k_scrolled_panel)) {
+        ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
         if (ImGui::BeginTable("keys", 2)) {
             ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed);
             ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthStretch);
@@ -166,6 +171,25 @@ void draw_clock(const std::string& text, const Surface& surface) {
     if (ImGui::Begin("Clock", nullptr, k_bare_panel | ImGuiWindowFlags_NoInputs))
         draw_text(text);
     ImGui::End();
+}
+
+void draw_messages(const Model& model, const Surface& surface) {
+    const auto pixels = [&](double size) { return float(size * surface.scale); };
+    const float margin = pixels(8), padding = pixels(6);
+    const float right = float(surface.extent.width) - margin;
+    const float most = std::max(right - margin - 2 * padding, 1.0F);
+    float top = margin + (model.clock.empty() ? 0 : ImGui::GetFrameHeight() + 2 * margin);
+    ImDrawList& list = *ImGui::GetForegroundDrawList();
+    for (const MessageField& message : model.messages) {
+        const std::string text = shown(message.text);
+        const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, most);
+        const ImVec2 from(right - size.x - 2 * padding, top), to(right, top + size.y + 2 * padding);
+        const auto alpha = [&](double share) { return int(255 * share * message.opacity); };
+        list.AddRectFilled(from, to, IM_COL32(0, 0, 0, alpha(0.8)), pixels(3));
+        list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {from.x + padding, from.y + padding},
+                     IM_COL32(255, 255, 255, alpha(1)), text.c_str(), nullptr, most);
+        top = to.y + padding;
+    }
 }
 
 } // namespace tidemark::live

@@ -34,7 +34,7 @@ struct PanelsPlugIn {
     std::unique_ptr<Panels> (*create)();
 };
 
-inline constexpr unsigned k_panels_version = 3;
+inline constexpr unsigned k_panels_version = 4;
 inline constexpr const char* k_panels_entry = "tidemark_panels";
 
 } // namespace tidemark::live

@@ -294,6 +294,27 @@ TEST_F(FramePumpTest, tells_how_far_a_slow_frame_is) {
     EXPECT_FALSE(pump.progress_due(driver.now));
 }
 
+TEST_F(FramePumpTest, slow_frames_show_their_progress_from_the_beginning) {
+    const auto draw = [&](double seconds) {
+        driver.frame_seconds = seconds;
+        if (!begin(0))
+            while (!advance())
+                ;
+    };
+    draw(0.4);
+    EXPECT_TRUE(pump.frames_show_progress());
+    driver.frame_seconds = 0.4;
+    EXPECT_FALSE(begin(1));
+    EXPECT_FALSE(advance());
+    EXPECT_THAT(pump.progress(driver.now, true), testing::StartsWith("drawing 0.0 s, "));
+    while (!advance())
+        ;
+    draw(0.2);
+    EXPECT_TRUE(pump.frames_show_progress()) << "a little quicker: the words stay";
+    draw(0.1);
+    EXPECT_FALSE(pump.frames_show_progress());
+}
+
 TEST_F(FramePumpTest, reports_a_part_that_takes_too_long_once) {
     driver.frame_seconds = 5;
     EXPECT_FALSE(begin(0));

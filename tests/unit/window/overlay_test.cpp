@@ -2,6 +2,7 @@
 #include "support/scene_of.hpp"
 #include "window/overlay.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace tidemark::cli::overlay_test {
@@ -147,6 +148,172 @@ TEST(Overlay, shows_controllers_where_there_is_a_midi_device) {
     EXPECT_TRUE(model.knobs.at(0).controllers.at(0).learning);
     EXPECT_EQ(model.knobs.at(1).controllers.at(0).controller, "controller 7");
     EXPECT_THAT(model.views, ElementsAre("3.000 s"));
+}
+
+std::string words_at(Messages& messages, double now) {
+    std::string words;
+    for (const live::MessageField& field : messages.fields(now))
+        words += fmt::format("{}={:.1f} ", field.text, field.opacity);
+    return words;
+}
+
+TEST(Messages, fade_after_three_seconds) {
+    Messages messages;
+    EXPECT_FALSE(messages.take_due(100));
+    messages.tell("saved", "saving a.png", 100);
+    EXPECT_TRUE(messages.take_due(100));
+    EXPECT_FALSE(messages.take_due(100)) << "the caller shows them now";
+    EXPECT_EQ(words_at(messages, 100), "saving a.png=1.0 ");
+    EXPECT_EQ(messages.due(), 102.5) << "nothing changes before";
+    EXPECT_EQ(words_at(messages, 102.75), "saving a.png=0.5 ");
+    EXPECT_TRUE(messages.take_due(102.85));
+    EXPECT_EQ(words_at(messages, 103), "");
+    EXPECT_FALSE(messages.take_due(1e9));
+}
+
+TEST(Messages, one_topic_has_one_message) {
+    Messages messages;
+    messages.tell("marks", "marks are on", 0);
+    messages.tell("saved", "saving a.png", 0);
+    messages.tell("marks", "marks are off", 1);
+    EXPECT_EQ(words_at(messages, 1), "saving a.png=1.0 marks are off=1.0 ");
+    messages.retell("saved", "saved a.png");
+    messages.retell("gone", "nothing");
+    EXPECT_TRUE(messages.take_due(1));
+    EXPECT_EQ(words_at(messages, 1), "saved a.png=1.0 marks are off=1.0 ");
+}
+
+TEST(Messages, stay_until_their_end) {
+    Messages messages;
+    messages.tell("trace", "tracing", 0, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(words_at(messages, 1e6), "tracing=1.0 ");
+    EXPECT_FALSE(messages.take_due(1e9));
+    messages.end("trace");
+    EXPECT_TRUE(messages.take_due(1e9));
+    EXPECT_EQ(words_at(messages, 1e9), "");
+}
+
+TEST(Messages, can_be_turned_off) {
+    Messages messages;
+    messages.turn_off();
+    messages.tell("saved", "saving a.png", 0);
+    EXPECT_EQ(words_at(messages, 0), "");
+}
+
+TEST(Overlay, shows_messages_without_any_panel) {
+    Overlay overlay(false);
+    overlay.messages().tell("saved", "saving a.png", 5);
+    const live::Model model = overlay.model(nullptr, {}, {}, false, 6);
+    EXPECT_EQ(model.messages.at(0).text, "saving a.png");
+    EXPECT_NE(model.panels(), live::Model::Panels{});
+    EXPECT_TRUE(overlay.model(nullptr, {}, {}, false, 9).messages.empty());
+}
+
+Edits edits_with(double height) {
+    return {.knobs = {{"height", {1, {height}}}}};
+}
+
+TEST(History, goes_back_and_forth_by_steps) {
+    History history;
+    history.adopt({});
+    EXPECT_FALSE(history.undo());
+    history.follow(edits_with(1), 10, false);
+    history.follow(edits_with(2), 20, false);
+    EXPECT_EQ(history.undo(), edits_with(1));
+    EXPECT_EQ(history.undo(), Edits{});
+    EXPECT_FALSE(history.undo());
+    EXPECT_EQ(history.redo(), edits_with(1));
+    EXPECT_EQ(history.redo(), edits_with(2));
+    EXPECT_FALSE(history.redo());
+    EXPECT_EQ(history.undo(), edits_with(1));
+    history.follow(edits_with(1), 21, false);
+    EXPECT_EQ(history.redo(), edits_with(2)) << "nothing has changed";
+    EXPECT_EQ(history.undo(), edits_with(1));
+    history.follow(edits_with(3), 22, false);
+    EXPECT_FALSE(history.redo()) << "a change ends what was undone";
+    EXPECT_EQ(history.undo(), edits_with(1));
+}
+
+TEST(History, a_drag_is_one_step) {
+    History history;
+    history.adopt({});
+    for (int i = 0; i <= 10; ++i)
+        history.follow(edits_with(1 + i), 10 + i, true); // a second each
+    history.follow(edits_with(11), 21, false);           // released
+    history.follow(edits_with(20), 30, true);
+    EXPECT_EQ(history.undo(), edits_with(11));
+    EXPECT_EQ(history.undo(), Edits{});
+}
+
+TEST(History, quick_changes_are_one_step) {
+    History history;
+    history.adopt({});
+    history.follow(edits_with(1), 10, false);
+    history.follow(edits_with(2), 10.2, false); // notches of a wheel
+    history.follow(edits_with(3), 10.4, false);
+    history.follow(edits_with(4), 12, false);
+    EXPECT_EQ(history.undo(), edits_with(3));
+    EXPECT_EQ(history.undo(), Edits{});
+}
+
+TEST(History, two_drags_are_two_steps_however_quick) {
+    History history;
+    history.adopt({});
+    history.follow(edits_with(1), 10, true);
+    history.follow(edits_with(1), 10.1, false); // released
+    history.follow(edits_with(2), 10.2, true);
+    Edits moved = edits_with(2);
+    moved.camera.distance = 3;
+    history.follow(edits_with(2), 10.3, false);
+    history.follow(moved, 10.4, false);
+    EXPECT_EQ(history.undo(), edits_with(2));
+    EXPECT_EQ(history.undo(), edits_with(1));
+    EXPECT_EQ(history.undo(), Edits{});
+}
+
+TEST(History, a_reload_is_no_step) {
+    History history;
+    history.adopt({});
+    history.follow(edits_with(1), 10, false);
+    history.adopt(edits_with(5));
+    history.follow(edits_with(6), 20, false);
+    EXPECT_EQ(history.undo(), edits_with(5));
+    EXPECT_EQ(history.undo(), Edits{});
+}
+
+TEST(History, names_what_changed) {
+    Edits after{.knobs = {{"height", {1, {2}}}}, .defines = {"STEPS=3"}};
+    after.camera.distance = 3;
+    after.views = std::make_shared<std::vector<Moment>>();
+    EXPECT_EQ(changed_words({}, after), "height, camera, definitions, views");
+    EXPECT_EQ(changed_words(edits_with(1), edits_with(2)), "height");
+    EXPECT_EQ(changed_words(edits_with(1), {}), "height");
+}
+
+TEST(Overlay, kept_views_can_be_brought_back) {
+    Overlay overlay(true);
+    const auto none = overlay.kept_views();
+    overlay.keep(view_at(1));
+    const auto one = overlay.kept_views();
+    overlay.forget_view(0);
+    EXPECT_TRUE(none->empty());
+    EXPECT_EQ(one->size(), 1U);
+    overlay.set_views(one);
+    EXPECT_EQ(overlay.views().size(), 1U);
+}
+
+TEST(Overlay, an_error_lists_its_summary_apart) {
+    Overlay overlay(false);
+    Error error{ErrorCode::load, "the scene does not compile"};
+    error.diagnostics.push_back({{"a.glsl", 1, 1}, Severity::error, "wrong"});
+    overlay.show_error(&error);
+    const live::Model model = overlay.model(nullptr, {}, {}, false);
+    ASSERT_EQ(model.errors.size(), 2U);
+    EXPECT_FALSE(model.errors[0].summary);
+    EXPECT_TRUE(model.errors[1].summary);
+    error.diagnostics.clear();
+    overlay.show_error(&error);
+    EXPECT_FALSE(overlay.model(nullptr, {}, {}, false).errors.at(0).summary) << "it is the error itself";
 }
 
 TEST(Overlay, a_title_is_set_once) {

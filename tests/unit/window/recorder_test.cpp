@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 namespace tidemark::cli::recorder_test {
 
 namespace fs = std::filesystem;
@@ -114,15 +116,38 @@ TEST(Recorder, saves_pictures_named_after_scene_and_frame) {
     EXPECT_EQ(recorder.save(picture_of(43), "/somewhere/waves.glsl", {}).value(), "waves-00043.png");
     EXPECT_TRUE(recorder.finish({}));
     fs::current_path(before);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2);
     EXPECT_TRUE(fs::exists(folder / "waves-00042.png"));
     EXPECT_TRUE(fs::exists(folder / "waves-00043.png"));
+}
+
+TEST(Recorder, replaces_no_picture) {
+    const TemporaryFolder folder;
+    const fs::path before = fs::current_path();
+    fs::current_path(folder.path());
+    const std::string text = "an earlier picture";
+    std::ofstream("waves-00042.png") << text;
+    Recorder recorder({}, std::nullopt, k_camera);
+    const auto save = [&] { return recorder.save(picture_of(42), "waves.glsl", {}).value(); };
+    EXPECT_EQ(save(), "waves-00042-2.png");
+    EXPECT_EQ(save(), "waves-00042-3.png") << "the one before may not be written yet";
+    EXPECT_TRUE(recorder.finish({}));
+    std::string left;
+    std::getline(std::ifstream("waves-00042.png"), left);
+    EXPECT_EQ(left, text);
+    EXPECT_TRUE(fs::exists("waves-00042-3.png"));
+    fs::create_symlink("nowhere", "waves-00001.png");
+    EXPECT_EQ(Recorder({}, std::nullopt, k_camera).save(picture_of(1), "waves.glsl", {}).value(),
+              "waves-00001-2.png");
+    fs::current_path(before);
 }
 
 TEST(Recorder, reports_a_picture_that_cannot_be_written) {
     const TemporaryFolder folder;
     const fs::path before = fs::current_path();
-    fs::current_path(folder.path());
-    fs::create_directory("waves-00001.png");
+    fs::create_directory(folder / "gone");
+    fs::current_path(folder / "gone");
+    fs::remove(folder / "gone");
     Recorder recorder({}, std::nullopt, k_camera);
     EXPECT_TRUE(recorder.save(picture_of(1), "waves.glsl", {})) << "it is written later";
     const auto finished = recorder.finish({});

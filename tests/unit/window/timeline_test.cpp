@@ -309,6 +309,34 @@ TEST(Timeline, begins_again_with_the_first_picture) {
     EXPECT_EQ(clock.take_next_scene_time(), std::nullopt) << "once";
 }
 
+TEST(Timeline, the_bars_range_holds_while_it_is_pressed) {
+    Timeline clock(0);
+    const auto end_at = [&](double seconds) { return clock.field({.time = seconds}).bar_end; };
+    EXPECT_EQ(end_at(200), 320);
+    clock.hold_bar(200);
+    clock.fit_bar();
+    EXPECT_EQ(end_at(144), 320) << "dragged to the left";
+    EXPECT_EQ(end_at(500), 320) << "time went on while it was pressed";
+    EXPECT_TRUE(clock.field({}).bar_held);
+    clock.release_bar();
+    EXPECT_EQ(end_at(4), 320) << "the next press meets the same bar";
+    EXPECT_EQ(end_at(500), 640);
+    clock.fit_bar();
+    EXPECT_EQ(end_at(4), 10);
+}
+
+TEST(Timeline, the_bar_grows_until_the_next_restart) {
+    Timeline clock(0);
+    clock.grow_bar(3);
+    clock.grow_bar(3);
+    EXPECT_EQ(clock.field({.time = 3}).bar_end, 40);
+    clock.restart(1);
+    EXPECT_EQ(clock.field({.time = 0}).bar_end, 10);
+    for (int i = 0; i < 100; ++i)
+        clock.grow_bar(0);
+    EXPECT_TRUE(clock.frame_at(clock.field({.time = 0}).bar_end)) << "every place of the bar is a frame";
+}
+
 TEST(Timeline, fills_the_time_bar) {
     Timeline clock(0, 25, Timeline::Source::frames);
     clock.set_loop({.from = 1});
