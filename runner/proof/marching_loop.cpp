@@ -95,8 +95,6 @@ private:
 
     LoopBlocks loop() const { return {function_, block_of_, header_, back_slot_}; }
 
-    // -- Exit tests
-
     /// Returns the tests, those of a value above a number that the loop does not change after the others: in
     /// `if (d > 10.0) return sky; if (d < 0.01) break;` the first one ends rays that are far from everything.
     std::vector<ExitTest> nearness_first() const {
@@ -173,8 +171,6 @@ private:
         }
         return false;
     }
-
-    // -- Step of an iteration
 
     void read_steps() {
         const Block& here = function_.blocks[header_];
@@ -254,8 +250,6 @@ private:
                 result.push_back(group);
         return result;
     }
-
-    // -- Distance along the way
 
     bool is_header_phi(Value value) const { return loop().is_header_phi(value); }
 
