@@ -28,6 +28,7 @@ REWRITE = "PYTHONPATH=tests python3 tests/cli/transcripts_test.py --write"
 # What depends on the machine, besides what Normal hides. A busy one reports progress and drifting times.
 MACHINE = (
     (re.compile(r"^(\d+/\d+ .*, \d+ s left|times of .* the machine was busy)\n", re.MULTILINE), ""),
+    (re.compile(r"(\d\.\d s): \w+ \d+ %.*"), r"\1"),  # the shares of probes
     (re.compile(r"\bMesa [\d.]+[-\w]*"), "Mesa VERSION"),
     (re.compile(r"(llvmpipe) \([^)]*\)( on \S+,)?"), r"\1"),
 )
