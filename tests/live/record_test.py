@@ -23,7 +23,7 @@ class Record(LiveTest):
         view.drag((100, 50), (60, 70))
         wanted = view.wait_until_told(VALUES, lambda told: told["iMouse.x"] == 60 and told["iMouse.z"] == -100)
         self.assertEqual(wanted["toggled"], 1)
-        view.quit()
+        self.screen.xdotool("key", "Escape", "Escape")
         self.assertEqual(view.wait_for_end(), 0)
 
         lines = (self.folder / "take.txt").read_text().splitlines()
@@ -45,7 +45,7 @@ class Record(LiveTest):
         view.key("ctrl+r")
         view.point(70, 70)
         saved.append(view.save())
-        view.quit()
+        self.screen.xdotool("key", "Escape", "Escape")
         self.assertEqual(view.wait_for_end(), 0)
         for picture in saved:
             frame = int(picture.stem.split("-")[1])
@@ -66,7 +66,7 @@ class Record(LiveTest):
                 view = self.view(f"{name}.glsl", *SIZE, "--record", f"{name}.txt")
                 for key in keys:
                     view.key(key)
-                view.quit()
+                self.screen.xdotool("key", "Escape", "Escape", "Escape")  # the first one closes the help
                 self.assertEqual(view.wait_for_end(), 0)
                 lines = (self.folder / f"{name}.txt").read_text().splitlines()
                 self.assertEqual([line.split(" ", 1)[1] for line in lines], wanted)
@@ -92,7 +92,7 @@ class Record(LiveTest):
         view.wait_for_title(" - paused at ")
         view.key("ctrl+Home")
         view.wait_until_told(VALUES, lambda told: told["iMouse.x"] == 0)
-        view.quit()
+        self.screen.xdotool("key", "Escape", "Escape")
         self.assertEqual(view.wait_for_end(), 0)
         self.assertNotIn("press", (self.folder / "take.txt").read_text())
 
@@ -171,7 +171,7 @@ class Record(LiveTest):
         view.key("ctrl+s")
         view.wait_for_words(r"saving a-\d{5}\.png")
         view.key("ctrl+s") # what became of the first is told then, or at the end
-        view.quit()
+        self.screen.xdotool("key", "Escape", "Escape")
         view.wait_for_end()
         self.assertIn("is a link to 'victim', and only links named with -o are followed", view.stderr())
         self.assertEqual((self.folder / "victim").read_text(), "before")

@@ -67,7 +67,7 @@ class Screen:
         self.x11.XFree.argtypes = [ctypes.c_void_p]
 
     def close(self) -> None:
-        if self.connection:
+        if self.connection and self.server.poll() is None:  # Xlib would end this process
             self.x11.XCloseDisplay(self.connection)
         self.server.terminate()
         self.server.wait()
