@@ -215,7 +215,7 @@ class Explained(unittest.TestCase):
                     section = printed(topic)
                     self.assertTrue(section.startswith(heading + "\n"))
                     self.assertNotRegex(section, r"\]\(|^\|--|<!--|!\[|<img|\*\*")
-        self.assertRegex(printed("keys"), r"\n  S +save a picture \(`SCENE-FRAME.png` in the current folder\)\n")
+        self.assertRegex(printed("keys"), r"\n  S +save a picture \(`SCENE-FRAME.png` in the current folder, numbered if it exists\)\n")
 
     def test_every_exit_code_has_its_row(self) -> None:
         footer = option_table.printed_help("").partition("Exit codes: ")[2]

@@ -63,7 +63,7 @@ class Settle(LiveTest):
         white = bytes((255, 255, 255)) # of the letters on its buttons: the scene has none
         place = view.place()
         wait_for(lambda: any(white in row for row in self.screen.rows(place["X"], place["Y"], 200, 60)), "the controls")
-        view.drag((40, 66), (190, 66))
+        view.drag((25, 112), (92, 112))
         wait_for(lambda: png.read(view.save()).pixel(190, 190)[:3] == (255, 255, 255), "what the knob asks for")
 
     def test_bytes_stay_and_another_size_is_drawn_by_the_same_program(self):

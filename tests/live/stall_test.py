@@ -55,7 +55,7 @@ class Stall(LiveTest):
         view.key("Escape")
         view.wait_for_title(r" - cancelled, ")
         view.key("space")
-        view.wait_for_title(r" fps\Z")
+        view.wait_for_title(r"\A(?!.*cancelled)")
         view.key("Escape")
         view.wait_for_words(r"(frame cancelled, (.|\n)*){3}")
         view.wait_for_title(r" - cancelled, ")
