@@ -20,7 +20,7 @@ class Time(OverlayTest):
                 view.click_bar(PAUSE)
                 view.wait_for_title(" - paused at ")
                 view.drag_bar(view.scrubber(0.2), view.scrubber(0.75))
-                told = view.wait_until_told(CLOCK, lambda told: 7 < told["iTime"] < 8)
+                told = view.wait_until_told(CLOCK, lambda told: 7 < told["iTime"] < 8.5)
                 self.assertEqual(told["iFrame"], int(round(told["iTime"] * 60, 3)))
                 view.click_bar(RESTART)
                 view.wait_until_told(CLOCK, lambda told: told["iTime"] == 0)
