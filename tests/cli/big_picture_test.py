@@ -129,7 +129,7 @@ class Refusals(BigPicture):
         running.send_signal(signal.SIGINT)
         _, stderr = running.communicate(timeout=TIME_LIMIT)
         self.assertEqual(running.returncode, 130)
-        self.assertEqual(stderr.splitlines()[-1], "interrupted after 0 of 1 frames")
+        self.assertEqual(stderr.splitlines()[-1], "interrupted after 0 of 1 frame")
         self.assertEqual(self.files(), {"places.glsl", "slow.glsl"})
 
 

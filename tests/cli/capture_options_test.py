@@ -122,8 +122,8 @@ class Size(Told):
 
     def test_beyond_the_drivers_limit(self):
         self.write("a.glsl", GOOD)
-        self.expect_failure_like(["capture", "a.glsl", "--size", "1000000x5", "--frame", "0", "-o", "a.mp4"], 2,
-                                 r"tidemark: error: --size 1000000x5: this driver draws at most \d+ pixels on a "
+        self.expect_failure_like(["capture", "a.glsl", "--size", "1000000x6", "--frame", "0", "-o", "a.mp4"], 2,
+                                 r"tidemark: error: --size 1000000x6: this driver draws at most \d+ pixels on a "
                                  "side")
 
 
