@@ -161,8 +161,9 @@ TEST(ProvedHits, agree_with_a_march_that_is_right_and_tell_one_that_is_not) {
 }
 
 TEST(ProvedHits, count_the_way_back_after_a_march_in_fixed_steps) {
-    const std::string march = "float before = 0.0; for (; t < 9.0; t += 0.2) { if (map(rd * t) < 1e-3) break; "
-                              "before = t; }";
+    const std::string march =
+        "float before = 0.0; for (; t < 9.0; t += 0.2) { if (map(rd * t) < 1e-3) break; "
+        "before = t; }";
     const RayCounts late = counts_of(march);
     EXPECT_GT(late.step_over, late.rays / 10);
     EXPECT_EQ(late.within_last_step, late.step_over);

@@ -120,8 +120,9 @@ TEST(Includes, of_other_forms_are_left_for_the_driver) {
                              "#include <other>\n#endif\n#";
     const auto expanded = expand({{"main.glsl", text}});
     ASSERT_TRUE(expanded);
-    EXPECT_THAT(expanded->text.text(), testing::AllOf(testing::HasSubstr("#include <tidemark/no\n>\n#include NAME\n"),
-                                                      testing::HasSubstr("#include <other>\n")));
+    EXPECT_THAT(expanded->text.text(),
+                testing::AllOf(testing::HasSubstr("#include <tidemark/no\n>\n#include NAME\n"),
+                               testing::HasSubstr("#include <other>\n")));
 }
 
 TEST(Includes, in_angle_brackets_need_quotes) {
