@@ -30,7 +30,7 @@ Family family_of(const ProbeResult& result) {
     return result.answer.non_finite ? Family::numbers : result.probe->plain.family;
 }
 
-/// What a trace says of a NaN.
+/// The cause of a NaN and its lines, from a trace.
 struct Origin {
     std::string cause;
     std::vector<SourceLocation> places;
@@ -144,7 +144,7 @@ void add_command(const ProbesRequest& request, JoinedFinding& finding) {
 }
 
 JoinedFinding joined(const ProbesRequest& request, SameCause group) {
-    // What other GPUs draw says more than that floats are rounded, which `horizon` reports.
+    // A difference on other GPUs tells the author more than rounding in general, which `horizon` reports.
     std::ranges::stable_sort(group, std::greater(), [](const Plain& plain) {
         return std::pair(plain.result->answer.verdict, family_of(*plain.result) == Family::sines);
     });

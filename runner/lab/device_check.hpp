@@ -70,6 +70,9 @@ using Sample = std::array<float, 3>;
 /// `c.rgb`. `count` is rounded up to whole rows of 256.
 Result<std::vector<Sample>> samples_of(std::string_view statements, int count);
 
+/// Runs a loop of that many iterations. Returns how many ran, and the low 16 bits of a sum over them.
+Result<Sample> counted_loop(int iterations);
+
 /// Returns the distance of two numbers in units in the last place of a float at `truth`.
 double ulps_between(double truth, float got);
 

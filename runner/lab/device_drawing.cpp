@@ -173,14 +173,17 @@ Result<DeviceAnswer> ask_tiles() {
     return DeviceAnswer{Verdict::pass, "a frame drawn in tiles has the same bytes as one drawn whole"};
 }
 
+Result<Sample> counted_loop(int iterations) {
+    return TRY(samples_of(fmt::format("uint s = i; int n = 0;"
+                                      "for (; n < {} + int(iTime); ++n) s = s * 1664525u + 1013904223u;"
+                                      "c.rg = vec2(float(n), float(s & 0xFFFFu));",
+                                      iterations),
+                          1))[0];
+}
+
 Result<DeviceAnswer> ask_loops() {
     constexpr int k_turns = 1'000'000;
-    const Sample counted =
-        TRY(samples_of(fmt::format("uint s = i; int n = 0;"
-                                   "for (; n < {} + int(iTime); ++n) s = s * 1664525u + 1013904223u;"
-                                   "c.rg = vec2(float(n), float(s & 0xFFFFu));",
-                                   k_turns),
-                       1))[0];
+    const Sample counted = TRY(counted_loop(k_turns));
     uint32_t state = 0;
     for (int n = 0; n < k_turns; ++n)
         state = state * 1664525U + 1013904223U;

@@ -58,27 +58,30 @@ double count_not_finite(const std::vector<PassPicture>& passes) {
     return double(count);
 }
 
-Result<double> count_without_value(ProbeBench& bench) {
+/// Returns the number of places that `find(pass)` returns, over all passes.
+template <class Find>
+Result<double> count_in_texts(ProbeBench& bench, Find find) {
     size_t count = 0;
     for (const PassText& pass : TRY(read_texts(bench, true)))
-        count += glsl::find_unassigned(*pass.text, pass.facts).size();
+        count += find(pass).size();
     return double(count);
+}
+
+Result<double> count_without_value(ProbeBench& bench) {
+    return count_in_texts(bench,
+                          [](const PassText& pass) { return glsl::find_unassigned(*pass.text, pass.facts); });
 }
 
 Result<double> count_miscounting(ProbeBench& bench) {
-    size_t count = 0;
-    for (const PassText& pass : TRY(read_texts(bench, true)))
-        count += glsl::miscounting_loops(*pass.text, pass.facts).size();
-    return double(count);
+    return count_in_texts(
+        bench, [](const PassText& pass) { return glsl::miscounting_loops(*pass.text, pass.facts); });
 }
 
 Result<double> count_divergent(ProbeBench& bench) {
-    size_t count = 0;
-    for (const PassText& pass : TRY(read_texts(bench, true)))
-        count +=
-            glsl::find_divergent(*pass.text, pass.facts, which_have_mipmaps(bench.scene().passes[pass.pass]))
-                .size();
-    return double(count);
+    return count_in_texts(bench, [&](const PassText& pass) {
+        return glsl::find_divergent(*pass.text, pass.facts,
+                                    which_have_mipmaps(bench.scene().passes[pass.pass]));
+    });
 }
 
 Result<double> count_out_of_bounds(ProbeBench& bench, bool negative) {
@@ -88,10 +91,8 @@ Result<double> count_out_of_bounds(ProbeBench& bench, bool negative) {
 }
 
 Result<double> count_wrong_edges(ProbeBench& bench) {
-    size_t count = 0;
-    for (const PassText& pass : TRY(read_texts(bench, true)))
-        count += glsl::find_wrong_edges(*pass.text, pass.facts).size();
-    return double(count);
+    return count_in_texts(
+        bench, [](const PassText& pass) { return glsl::find_wrong_edges(*pass.text, pass.facts); });
 }
 
 Result<double> count_seams(ProbeBench& bench) {

@@ -176,12 +176,7 @@ Result<std::optional<double>> loop_limit() {
     if (known)
         return *known;
     const double most = 2 * k_safe_iterations;
-    const Sample counted =
-        TRY(samples_of(fmt::format("uint s = i; int n = 0;"
-                                   "for (; n < {:.0f} + int(iTime); ++n) s = s * 1664525u + 1013904223u;"
-                                   "c.rg = vec2(float(n), float(s & 0xFFFFu));",
-                                   most),
-                       1))[0];
+    const Sample counted = TRY(counted_loop(int(most)));
     known = counted[0] < most ? std::optional<double>(counted[0]) : std::nullopt;
     return *known;
 }

@@ -33,9 +33,9 @@ struct ProvedRay {
     ir::FirstHit::Reason reason = ir::FirstHit::Reason::none;
     uint64_t evaluations = 0;
     size_t turns = 0; ///< of the march
-    /// Of a march that steps over its first hit: the place before its last one is not past the hit.
+    /// The march steps over its first hit in its last step.
     bool within_last_step = false;
-    /// Of a march that misses: it went past the first hit, or its limit of the distance ended it.
+    /// The march misses because it went past the first hit, or because its limit of the distance ended it.
     bool went_past = false;
     /// The march was below the threshold at a place where that is excluded: a bug in Tidemark.
     bool contradicted = false;

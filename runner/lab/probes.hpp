@@ -23,7 +23,7 @@ std::string_view to_string(Verdict verdict);
 /// Returns true for `note`, `warn` and `fail`.
 bool is_finding(Verdict verdict);
 
-/// What a probe's findings are about. Findings of one family that name a common line, or no line, have one
+/// The subject of a probe's findings. Findings of one family that name a common line, or no line, have one
 /// cause.
 enum class Family { alone, numbers, sines, clock, steps, iterations };
 

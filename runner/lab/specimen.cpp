@@ -22,7 +22,7 @@
 namespace tidemark::lab {
 namespace {
 
-/// Of the uniforms that replace numbers.
+/// Prefix of the uniforms that replace numbers.
 constexpr std::string_view k_setting_prefix = "tidemark_setting_";
 
 /// Returns nullopt unless the text is a single GLSL number token: a sign is a second token.

@@ -122,6 +122,13 @@ private:
     bool starts_declaration() const {
         return at_ == 0 || tokens_[at_ - 1].is(";") || tokens_[at_ - 1].is("}") || tokens_[at_].first_on_line;
     }
+    /// Returns the distance from the qualifier to the type, past a precision.
+    size_t offset_of_type() const {
+        size_t type = 1;
+        while (peek(type).is("lowp") || peek(type).is("mediump") || peek(type).is("highp"))
+            ++type;
+        return type;
+    }
     bool is_read(std::string_view name) const { return uses_.at(name) > 1; }
 
     std::optional<size_t> free_channel() {
@@ -157,9 +164,7 @@ private:
 
     void read_uniform() {
         const size_t first = at_;
-        size_t type = 1;
-        while (peek(type).is("lowp") || peek(type).is("mediump") || peek(type).is("highp"))
-            ++type;
+        const size_t type = offset_of_type();
         at_ += type;
         if (peek(0).is("struct") || peek(1).is("{")) {
             read_block();
@@ -313,9 +318,7 @@ private:
 
     void read_varying() {
         const size_t first = at_;
-        size_t type = 1;
-        while (peek(type).is("lowp") || peek(type).is("mediump") || peek(type).is("highp"))
-            ++type;
+        const size_t type = offset_of_type();
         const Token& name = peek(type + 1);
         if (name.kind != TokenKind::identifier || !peek(type + 2).is(";") || !is_read(name.text))
             return;

@@ -56,7 +56,7 @@ MARCH = ("float map(vec3 p) { return length(p) - 1.0; }\n"
          "    c = vec4(0.1 * t);\n}\n")
 
 
-# Faults that need another input or a late time are warnings; those that nobody meets are notes.
+# Faults that need another input or a late time are warnings; those that no viewer meets are notes.
 MILDER = {"mouse": "warn", "inputs": "warn", "inputs, white": "warn", "inputs, texel": "warn", "camera": "warn",
           "time_discontinuity": "warn", "horizon": "warn", "sizes": "note"}
 

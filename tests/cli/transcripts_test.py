@@ -25,7 +25,7 @@ from support.program import PROGRAM, ROOT, TIME_LIMIT, environment, main  # noqa
 
 TRANSCRIPTS = ROOT / "tests" / "transcripts"
 REWRITE = "PYTHONPATH=tests python3 tests/cli/transcripts_test.py --write"
-# What depends on the machine, besides what Normal hides. A busy one reports progress and drifting times.
+# Output that depends on the machine and that Normal does not hide. A busy one reports progress and drifting times.
 MACHINE = (
     (re.compile(r"^(\d+/\d+ .*, \d+ s left|times of .* the machine was busy)\n", re.MULTILINE), ""),
     (re.compile(r"(\d\.\d s): \w+ \d+ %.*"), r"\1"),  # the shares of probes
