@@ -1,3 +1,5 @@
+// Libraries that are loaded on demand: of the system, and the program's own plug-ins.
+//
 // Loads system libraries that only some runs need. They stay loaded until the process ends. The build needs
 // only their headers.
 #pragma once

@@ -47,7 +47,7 @@ Character first_character(std::string_view text) {
         return {};
     int code = int(first & (0x7fu >> length));
     for (size_t i = 1; i < length; ++i) {
-        if ((byte(i) & 0xc0u) != 0x80)
+        if (!continues_character(text[i]))
             return {};
         code = code << 6 | int(byte(i) & 0x3fu);
     }
@@ -74,14 +74,17 @@ std::string valid_utf8(std::string_view text) {
     return result;
 }
 
+size_t begin_of_character(std::string_view text, size_t at) {
+    while (at > 0 && at < text.size() && continues_character(text[at]))
+        --at;
+    return at;
+}
+
 std::string cut_text(std::string_view text, size_t most) {
     constexpr std::string_view k_rest = "...";
     if (text.size() <= most)
         return std::string(text);
-    const auto continues = [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) == 0x80; };
-    size_t end = most - std::min(most, k_rest.size());
-    while (end > 0 && continues(text[end]))
-        --end;
+    const size_t end = begin_of_character(text, most - std::min(most, k_rest.size()));
     return std::string(text.substr(0, end)).append(k_rest);
 }
 
@@ -206,6 +209,11 @@ std::string base64(std::string_view bytes) {
             text += k <= count ? k_digits[group >> (18 - 6 * k) & 63] : '=';
     }
     return text;
+}
+
+std::string float_literal(std::string_view digits) {
+    const bool whole = digits.find_first_of(".e") == digits.npos;
+    return std::string(digits) + (whole ? ".0" : "");
 }
 
 struct Sha256::State {

@@ -1,9 +1,11 @@
-// Removes the blanks around a text.
+// Texts, numbers and bytes in each other: blanks, numbers in text, printable text, shell words, URIs, base64,
+// SHA-256.
 #pragma once
 
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -70,6 +72,26 @@ std::vector<T> numbers_from(std::string_view text, char separator = ',') {
     return text.empty() ? numbers : std::vector<T>();
 }
 
+/// Makes a float literal of GLSL from a number as C++ prints it: `2` becomes `2.0`; digits with a point or an
+/// exponent stay.
+std::string float_literal(std::string_view digits);
+
+// Reads integers of several bytes from a file's bytes. Does not check bounds.
+
+inline uint32_t big_endian(std::string_view file, size_t at, size_t bytes) {
+    uint32_t value = 0;
+    for (size_t i = 0; i < bytes; ++i)
+        value = value << 8 | uint8_t(file[at + i]);
+    return value;
+}
+
+inline uint32_t little_endian(std::string_view file, size_t at, size_t bytes) {
+    uint32_t value = 0;
+    for (size_t i = bytes; i-- > 0;)
+        value = value << 8 | uint8_t(file[at + i]);
+    return value;
+}
+
 // Makes texts of scenes, files and drivers safe to show in a terminal, a title or a shell: characters that
 // would control it become visible escapes.
 
@@ -88,6 +110,14 @@ std::string valid_utf8(std::string_view text);
 
 /// Returns the text; if it is longer than `most` bytes, its first whole characters and `...`.
 std::string cut_text(std::string_view text, size_t most);
+
+/// Returns whether a byte of UTF-8 continues the character before it.
+inline bool continues_character(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xC0) == 0x80;
+}
+
+/// Returns the first byte of the character that the byte `at` belongs to; `at` may be the text's length.
+size_t begin_of_character(std::string_view text, size_t at);
 
 /// The first character of `text`, which must not be empty: its length in bytes and its code point, or 1 and
 /// -1 if it is not valid UTF-8.

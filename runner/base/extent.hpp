@@ -1,11 +1,14 @@
 // The size of a picture, target or window in pixels.
 #pragma once
 
+#include "base/encoding.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tidemark {
 
@@ -18,7 +21,11 @@ struct Extent {
 };
 
 /// Parses `640x360`; nullopt for any other text or a side below 1.
-std::optional<Extent> parse_extent(std::string_view text);
+inline std::optional<Extent> parse_extent(std::string_view text) {
+    const std::vector<int> sides = numbers_from<int>(text, 'x');
+    return sides.size() == 2 && std::ranges::min(sides) >= 1 ? std::optional(Extent{sides[0], sides[1]})
+                                                             : std::nullopt;
+}
 
 // A part of a picture, target or window in whole pixels; x and y are its bottom left pixel.
 
@@ -43,8 +50,16 @@ struct Rectangle {
 };
 
 /// Parses `100,50,320,180`: left, bottom, width and height; nullopt for any other text or a side below 1.
-std::optional<Rectangle> parse_rectangle(std::string_view text);
+inline std::optional<Rectangle> parse_rectangle(std::string_view text) {
+    const std::vector<int> numbers = numbers_from<int>(text);
+    if (numbers.size() != 4 || numbers[2] < 1 || numbers[3] < 1)
+        return std::nullopt;
+    return Rectangle{numbers[0], numbers[1], {numbers[2], numbers[3]}};
+}
 /// Returns the text that parse_rectangle reads.
-std::string to_string(const Rectangle& area);
+inline std::string to_string(const Rectangle& area) {
+    return std::to_string(area.x) + ',' + std::to_string(area.y) + ',' + std::to_string(area.extent.width) +
+           ',' + std::to_string(area.extent.height);
+}
 
 } // namespace tidemark

@@ -1,3 +1,5 @@
+// Files: descriptors, paths of outputs, reading and writing whole files.
+//
 // POSIX file descriptors: an owning type, and functions that read or write whole contents. Errors are errno
 // values.
 #pragma once

@@ -1,3 +1,5 @@
+// Folders: of the program, temporary ones, and the cache.
+//
 // Locates the program and the files that come with it, in a build folder or as installed.
 #pragma once
 

@@ -1,3 +1,5 @@
+// Long jobs: progress callbacks, timing, work on all cores, sampling, statistics.
+//
 // Progress and cancellation callbacks for long jobs.
 #pragma once
 

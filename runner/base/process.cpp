@@ -212,6 +212,34 @@ Result<size_t> ChildProcess::read(std::span<std::byte> to, std::string& words, C
     return size_t{0};
 }
 
+bool ChildProcess::read_output(std::string& to) {
+    std::array<char, 4096> block;
+    for (size_t left = k_pipe_holds; output_ >= 0 && left > 0; left -= block.size()) {
+        const ssize_t count = read_some(output_, block.data(), block.size());
+        if (count > 0)
+            to.append(block.data(), size_t(count));
+        else if (count < 0 && errno == EAGAIN)
+            return true;
+        else
+            close_and_forget(output_);
+    }
+    return output_ >= 0;
+}
+
+size_t ChildProcess::write_some(std::string_view bytes) {
+    if (input_ < 0)
+        return 0;
+    const ssize_t count = ::write(input_, bytes.data(), bytes.size());
+    if (count < 0 && errno != EAGAIN && errno != EINTR)
+        close_input();
+    return size_t(std::max(count, ssize_t{0}));
+}
+
+void ChildProcess::terminate() {
+    if (process_ > 0)
+        ::kill(process_, SIGTERM);
+}
+
 bool ChildProcess::ends_before(Clock::time_point until) const {
     const Descriptor process(::pidfd_open(process_, 0));
     pollfd ended = {process.get(), POLLIN, 0};

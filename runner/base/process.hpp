@@ -1,3 +1,5 @@
+// Child processes: argument vectors, and pipes to a running program.
+//
 // argv for exec and posix_spawn. The pointers are valid while the strings live.
 #pragma once
 
@@ -74,6 +76,20 @@ public:
     bool write(std::span<const std::byte> bytes, std::string& words);
     /// Closes the child's standard input.
     void close_input();
+
+    // For callers that wait for several children at once and must not wait for one.
+
+    /// The descriptors here of the child's standard streams, to be polled; -1: closed.
+    struct Streams {
+        int input, output, words;
+    };
+    Streams streams() const { return {input_, output_, words_}; }
+    /// Appends the standard output received so far; returns false after its end.
+    bool read_output(std::string& to);
+    /// Returns the number of bytes that the child's standard input takes now; closes it if it takes no more.
+    size_t write_some(std::string_view bytes);
+    /// Asks the child to end (SIGTERM).
+    void terminate();
 
     /// Appends the standard error received so far; does not wait.
     void read_words(std::string& words);

@@ -322,7 +322,7 @@ Result<void> replace_text(const OutputPath& output, std::string_view before, std
         return cannot_write(output, "it is read-only");
     if (::access(place.path.c_str(), W_OK) != 0)
         return cannot_write(output, errno);
-    // written before any change, so that a full disk does no harm
+    // written before any change, so that a full disk destroys nothing
     auto staged = TRY(StagedFile::create(output));
     TRY(staged.write(std::as_bytes(std::span(after))));
     const bool same_owner = ::fchown(staged.descriptor(), facts.st_uid, facts.st_gid) == 0;

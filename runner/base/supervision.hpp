@@ -1,3 +1,5 @@
+// Shared state for the end of a process: files to remove, programs to kill, the current driver call.
+//
 // Cleans up after a process that ends early, by a signal or because a driver hangs: removes files under
 // construction and kills started programs.
 #pragma once

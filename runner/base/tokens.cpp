@@ -1,5 +1,7 @@
 #include "base/tokens.hpp"
 
+#include "base/encoding.hpp"
+
 #include <algorithm>
 
 namespace tidemark::text {
@@ -224,16 +226,12 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 
 namespace {
 
-bool continues(char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
-}
-
 /// Returns the number of bytes of the first character of `rest`, which is not empty.
 size_t bytes_of_first(std::string_view rest) {
     const auto first = static_cast<unsigned char>(rest.front());
     const size_t wanted = first >= 0xF0 && first < 0xF8 ? 4 : first >= 0xE0 ? 3 : first >= 0xC0 ? 2 : 1;
     const std::string_view others = rest.substr(1, wanted - 1);
-    const bool whole = others.size() == wanted - 1 && std::ranges::all_of(others, continues);
+    const bool whole = others.size() == wanted - 1 && std::ranges::all_of(others, continues_character);
     return whole && first < 0xF8 ? wanted : 1;
 }
 

@@ -1,12 +1,11 @@
 #include "base/supervision.hpp"
 #include "cli/commands.hpp"
+#include "host/command_line.hpp"
 #include "host/console.hpp"
 #include "host/devices.hpp"
 #include "host/diagnostics.hpp"
-#include "host/help_formatter.hpp"
 #include "host/requests.hpp"
 #include "host/supervision.hpp"
-#include "host/version.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fcntl.h>
@@ -22,6 +21,9 @@
 #include <sstream>
 
 namespace tidemark::cli {
+
+using namespace host;
+using host::resolve;
 namespace {
 
 constexpr AddCommand k_commands[] = {
@@ -171,7 +173,7 @@ int run_or_throw(int argc, const char* const* argv) {
         "Tidemark runs ShaderToy shaders: live in a window, or into deterministic frames with no display.");
     app.name("tidemark");
     app.set_version_flag("--version", std::string("tidemark ") + k_version);
-    app.formatter(std::make_shared<HelpFormatter>());
+    format_help(app);
     app.footer(k_footer);
     app.require_subcommand(1);
     // An alias may add an option that the command line gives again.
@@ -205,7 +207,7 @@ int run_or_throw(int argc, const char* const* argv) {
             finish_diagnostics(false); // errors about how the child ended; the child wrote its own
             return *ended;
         }
-    platform::do_without_full_driver_cache();
+    host::do_without_full_driver_cache();
     const auto outcome = chosen();
     const int code = outcome ? *outcome : report(outcome.error());
     finish_diagnostics(true);

@@ -1,11 +1,10 @@
-// `bake noise` and `bake ramps`: the pictures that scenes read.
+// `bake noise`: the texture that scenes read as a channel.
 
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "cli/commands.hpp"
 #include "host/command_line.hpp"
 #include "host/console.hpp"
-#include "media/baked_textures.hpp"
 #include "media/generated_textures.hpp"
 #include "media/picture_file.hpp"
 
@@ -16,41 +15,30 @@
 
 namespace tidemark::cli {
 
+using namespace host;
+
 namespace fs = std::filesystem;
 namespace {
 
 struct BakeOptions {
-    fs::path output{}; ///< empty: the command's default
+    fs::path output{}; ///< empty: noise.png
     uint32_t seed = image::k_noise_seed;
 };
 
-Result<int> write(const OutputPath& output, const image::Image& image) {
+Result<int> bake_noise(const BakeOptions& options) {
+    const OutputPath output = OutputPath::typed_or(options.output, "noise.png");
     const fs::path& path = output.path();
     TRY(image::check_picture_name(path));
-    const auto depth =
-        image.type == image::SampleType::f32 ? image::SampleDepth::u16 : image::natural_depth(path);
-    const image::PictureFormat format{depth, {{"Software", "tidemark bake"}}};
-    TRY(image::write_picture(output, image, format));
+    const image::PictureFormat format{image::natural_depth(path), {{"Software", "tidemark bake"}}};
+    TRY(image::write_picture(output, image::make_noise(options.seed), format));
     say(fmt::format("wrote {}", path.string()));
-    return 0;
-}
-
-Result<int> bake_noise(const BakeOptions& options) {
-    return write(OutputPath::typed_or(options.output, "noise.png"), image::make_noise(options.seed));
-}
-
-Result<int> bake_ramps(const BakeOptions& options) {
-    for (const bake::NamedImage& ramp : bake::make_ramps())
-        if (auto written = write(OutputPath::typed(options.output) / (ramp.name + ".png"), ramp.image);
-            !written)
-            return written;
     return 0;
 }
 
 } // namespace
 
 void add_bake(Command app, Action& chosen) {
-    Command command = app.add_subcommand("bake", "Makes the textures that scenes need");
+    Command command = app.add_subcommand("bake", "Makes the noise texture that scenes read");
     command.require_subcommand();
 
     auto noise = std::make_shared<BakeOptions>();
@@ -62,15 +50,6 @@ void add_bake(Command app, Action& chosen) {
         .type_name("N")
         .capture_default_str();
     noise_command.on_call([noise, &chosen] { chosen = [noise] { return bake_noise(*noise); }; });
-
-    auto ramps = std::make_shared<BakeOptions>();
-    ramps->output = ".";
-    Command ramps_command = command.add_subcommand(
-        "ramps", "Makes the ramps of shaders/pseudo3d_water.glsl and stylized_waves.glsl");
-    ramps_command.add_option("-o,--output", ramps->output, "Folder")
-        .type_name("FOLDER")
-        .capture_default_str();
-    ramps_command.on_call([ramps, &chosen] { chosen = [ramps] { return bake_ramps(*ramps); }; });
 }
 
 } // namespace tidemark::cli

@@ -35,6 +35,8 @@
 #include <thread>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace {
 
 namespace fs = std::filesystem;
@@ -98,10 +100,10 @@ void take_options(const image::Metadata& metadata, CaptureOptions& options) {
     const bool same_pass = options.frames.pass.empty() || (pass && *pass == options.frames.pass);
     if (crop && !options.crop && !options.frames.size && same_pass && parse_rectangle(*crop))
         options.crop = *crop;
-    if (!options.samples)
-        options.samples = number_in(metadata, "Samples", 1, render::k_most_samples);
-    if (!options.shutter)
-        options.shutter = number_in(metadata, "Shutter", 0.0, 1.0);
+    if (!options.drawing.samples)
+        options.drawing.samples = number_in(metadata, "Samples", 1, render::k_most_samples);
+    if (!options.drawing.shutter)
+        options.drawing.shutter = number_in(metadata, "Shutter", 0.0, 1.0);
 }
 
 /// Fills everything not given on the command line from the moment.
@@ -121,18 +123,18 @@ SceneRequest completed(SceneRequest typed, Moment& moment) {
 
 /// Prints a line if the picture was drawn from another text, with other inputs, or by another driver.
 void say_what_is_unlike(const CapturePlan& plan) {
-    if (plan.options.like.empty())
+    if (plan.options.like.picture.empty())
         return;
-    const Fingerprint there = Fingerprint::parse(plan.options.like_fingerprint).of_scene();
+    const Fingerprint there = Fingerprint::parse(plan.options.like.fingerprint).of_scene();
     if (const std::string other = plan.identity.of_scene().differences(there); !other.empty())
-        say(fmt::format("the picture may differ from {}: {}", plan.options.like, other));
+        say(fmt::format("the picture may differ from {}: {}", plan.options.like.picture, other));
 }
 
 /// Returns an upper bound of the state's size in bytes: two textures per buffer with four floats a pixel,
 /// each at most as large as the frame or a cubemap.
 uint64_t largest_state(const CapturePlan& plan) {
     constexpr uint64_t k_cubemap = 6 * 1024 * 1024, k_header = 1 << 20;
-    const auto pixels = std::max<uint64_t>(plan.drawing.extent.pixels(), k_cubemap);
+    const auto pixels = std::max<uint64_t>(plan.drawing.options.extent.pixels(), k_cubemap);
     return k_header + plan.scene.passes.size() * 2 * pixels * 4 * sizeof(float);
 }
 
@@ -156,11 +158,12 @@ void say_what_was_written(const FrameRecords& records, const CapturePlan& plan) 
         say(fmt::format("wrote {} of {} as segments; `tidemark gather` joins them",
                         counted_frames(records.count()), plan.output.pattern().string()));
     else if (plan.output.video())
-        say(fmt::format(
-            "wrote {}: {}{}", plan.output.pattern().string(),
-            counted_frames(plan.kept.size() + records.count()),
-            plan.pace.fps == plan.frames.state.fps ? "" : fmt::format(", {:.4g} a second", plan.pace.fps)));
-    else if (plan.sheet)
+        say(fmt::format("wrote {}: {}{}", plan.output.pattern().string(),
+                        counted_frames(plan.kept.size() + records.count()),
+                        plan.video.pace.fps == plan.frames.state.fps
+                            ? ""
+                            : fmt::format(", {:.4g} a second", plan.video.pace.fps)));
+    else if (plan.area.sheet)
         say(fmt::format("wrote {}: {} moments, frames {} to {}", records.first().file, records.count(),
                         records.first().frame, records.last().frame));
     else if (records.count() == 1)
@@ -188,8 +191,8 @@ void say_what_pixels_hold(const FrameRecords& records, const CapturePlan& plan) 
                            pixels_are(first.not_finite, fmt::format("of frame {}", first.frame)), others,
                            trace_command(plan.options.scene, plan.frames, plan.states(first.frame)));
     });
-    const bool clamped = !plan.to_picture_files() || plan.depth == image::SampleDepth::u8 ||
-                         plan.depth == image::SampleDepth::u16;
+    const bool clamped = !plan.to_picture_files() || plan.encoding.depth == image::SampleDepth::u8 ||
+                         plan.encoding.depth == image::SampleDepth::u16;
     warn_of(records.no_coverage(), [&](const FrameRecord& first, const std::string& others) {
         return fmt::format("alpha is below 0 or above 1 in {} pixel{} of frame {}{}; {}", first.no_coverage,
                            first.no_coverage > 1 ? "s" : "", first.frame, others,
@@ -210,7 +213,7 @@ void keep_what_is_there(CapturePlan& plan) {
 /// Removes files of an earlier run, which may have overlapped with this one, and saved states that have
 /// become unnecessary.
 void tidy_up(const CapturePlan& plan) {
-    if (plan.options.resume)
+    if (plan.options.run.resume)
         for (const OutputPath& file : {plan.output.of_frame(0), state_file(plan.output, 0)})
             StagedFile::remove_abandoned(file);
     if (!plan.shard && !plan.output.standard_output())
@@ -222,25 +225,25 @@ std::string interruption(const CapturePlan& plan, Capture& run) {
     return fmt::format("interrupted after {} of {}{}{}", plan.kept.size() + run.records().count(),
                        counted_frames(plan.kept.size() + plan.frames.frames.size()),
                        plan.output.video() ? "; no video was written"
-                       : plan.sheet        ? "; no sheet was written"
+                       : plan.area.sheet   ? "; no sheet was written"
                                            : "",
                        words.empty() ? "" : "; " + words);
 }
 
 /// Removes existing frames from the plan, and returns the state from which the rest starts.
 std::optional<SavedState> take_up(CapturePlan& plan) {
-    if (plan.options.resume)
+    if (plan.options.run.resume)
         keep_what_is_there(plan);
     else if (plan.frames.frames.empty())
         say(plan.output.video() ? "this shard has nothing to draw: there are more shards than video "
                                   "segments; a smaller --state-every makes more segments"
                                 : "this shard has nothing to draw: there are more shards than frames");
-    if (plan.frames.frames.empty() || !(plan.options.resume || plan.shard))
+    if (plan.frames.frames.empty() || !(plan.options.run.resume || plan.shard))
         return std::nullopt;
     auto state = find_state(plan);
     if (state && !plan.shard) { // all shards must draw the same program, whatever another capture chose
-        plan.drawing.specialise = state->program;
-        plan.trial.reset();
+        plan.drawing.options.specialise = state->program;
+        plan.drawing.trial.reset();
     }
     return state;
 }
@@ -256,11 +259,11 @@ Result<bool> draw(Capture& run, const CapturePlan& plan, Interrupt& interrupt) {
 /// Prints a warning if the video's sides are odd, so that H.264 and HEVC cannot halve the resolution of its
 /// colours.
 void warn_odd_sides(const CapturePlan& plan) {
-    const Extent size = plan.written;
-    if (!plan.output.video() || !image::odd_sides_keep_colours(plan.output.pattern(), plan.codec) ||
+    const Extent size = plan.area.written;
+    if (!plan.output.video() || !image::odd_sides_keep_colours(plan.output.pattern(), plan.video.codec) ||
         (size.width % 2 == 0 && size.height % 2 == 0))
         return;
-    Rectangle area = plan.crop.value_or(Rectangle{0, 0, size});
+    Rectangle area = plan.area.crop.value_or(Rectangle{0, 0, size});
     area.extent = {size.width & ~1, size.height & ~1};
     say(fmt::format("warning: {}x{} is an odd size: the video stores colours at full resolution (4:4:4), "
                     "which many players refuse; give --pad even{}",
@@ -269,16 +272,16 @@ void warn_odd_sides(const CapturePlan& plan) {
 }
 
 Result<void> report(Capture& run, const CapturePlan& plan, bool complete) {
-    if (plan.options.json)
+    if (plan.options.run.json)
         TRY(put(dump(run.report(), 2) + "\n"));
     say_what_pixels_hold(run.records(), plan);
     if (complete && run.records().count() > 0)
         if (const std::string warning = run.cut_loops_warning(); !warning.empty())
             say(warning);
-    const bool written = complete || !(plan.output.video() || plan.sheet);
-    if (written && !plan.options.json && !plan.output.standard_output())
+    const bool written = complete || !(plan.output.video() || plan.area.sheet);
+    if (written && !plan.options.run.json && !plan.output.standard_output())
         say_what_was_written(run.records(), plan);
-    if (complete && plan.options.loop && run.loop().closed())
+    if (complete && plan.options.run.loop && run.loop().closed())
         say(run.loop().words(plan.frames.frames));
     if (!complete)
         say(interruption(plan, run));
@@ -290,13 +293,13 @@ Result<int> capture_frames(CapturePlan plan) {
     std::jthread codec; // loads in parallel with the driver, which takes as long
     if (plan.to_picture_files())
         codec = image::preload_picture_codec(plan.output.pattern());
-    const auto context = TRY(platform::HeadlessContext::create(plan.options.device));
+    const auto context = TRY(host::HeadlessContext::create(plan.options.run.device));
     plan.identity.set_device(gl::query_capabilities());
     say_what_is_unlike(plan);
     warn_odd_sides(plan);
     const std::optional<StagedFile> sound = draw_sound_of_video(plan, interrupt);
     const std::optional<SavedState> state = take_up(plan);
-    if (plan.frames.frames.empty() && (plan.to_picture_files() || plan.shard) && !plan.options.json) {
+    if (plan.frames.frames.empty() && (plan.to_picture_files() || plan.shard) && !plan.options.run.json) {
         tidy_up(plan);
         return 0;
     }
@@ -308,7 +311,7 @@ Result<int> capture_frames(CapturePlan plan) {
     if (complete)
         tidy_up(plan);
     TRY(report(run, plan, complete));
-    if (complete && plan.options.loop && run.loop().closed() && !run.loop().seamless())
+    if (complete && plan.options.run.loop && run.loop().closed() && !run.loop().seamless())
         return exit_code(ErrorCode::check_failed);
     return complete ? 0 : Interrupt::k_exit_code;
 }
@@ -323,29 +326,30 @@ Result<int> capture(const CaptureOptions& typed) {
 
 Result<CaptureOptions> with_likeness(CaptureOptions options) {
     SceneRequest& scene = options.scene;
-    if (options.like.empty())
+    if (options.like.picture.empty())
         return scene.path.empty()
                    ? Result<CaptureOptions>(fail(ErrorCode::usage, "capture: SCENE is required"))
                    : std::move(options);
-    const auto metadata = image::read_metadata(options.like);
+    const auto metadata = image::read_metadata(options.like.picture);
     if (!metadata)
-        return refuse(options.like, metadata.error());
-    Moment moment = TRY(read_moment(options.like, *metadata));
+        return refuse(options.like.picture, metadata.error());
+    Moment moment = TRY(read_moment(options.like.picture, *metadata));
     const Extent size = moment.sequence.state.extent;
     if (!options.frames.size && std::max(size.width, size.height) > scene::k_largest_stated_side)
-        return refuse(options.like, fmt::format("its recorded size is {}x{}; the limit for a recorded size "
-                                                "is {} pixels on a side: give --size",
-                                                size.width, size.height, scene::k_largest_stated_side));
+        return refuse(options.like.picture,
+                      fmt::format("its recorded size is {}x{}; the limit for a recorded size "
+                                  "is {} pixels on a side: give --size",
+                                  size.width, size.height, scene::k_largest_stated_side));
     std::error_code ignored;
     if (scene.path.empty() && !fs::exists(moment.scene.path, ignored))
         return refuse(
-            options.like,
+            options.like.picture,
             fmt::format(
                 "its scene '{}' was not found: name the scene, as in `tidemark capture SCENE --like {}`",
-                moment.scene.path.string(), options.like));
+                moment.scene.path.string(), options.like.picture));
     if (scene.path.empty())
         scene.path = moment.scene.path;
-    keep_inside(options.like, scene, moment);
+    keep_inside(options.like.picture, scene, moment);
     erase_named(scene.sets, moment.sequence.state.knobs);
     if (!moment.sequence.input_file.empty() && !options.frames.input) {
         options.frames.input = moment.sequence.input_file;
@@ -354,8 +358,8 @@ Result<CaptureOptions> with_likeness(CaptureOptions options) {
     scene = completed(std::move(scene), moment);
     take_options(*metadata, options);
     const std::string* fingerprint = image::find(*metadata, k_fingerprint);
-    options.like_frames = std::move(moment.sequence);
-    options.like_fingerprint = fingerprint ? *fingerprint : "";
+    options.like.frames = std::move(moment.sequence);
+    options.like.fingerprint = fingerprint ? *fingerprint : "";
     return options;
 }
 
@@ -374,7 +378,7 @@ void add_capture_options(Command command, CaptureOptions& options) {
     add_time_options(command, options.frames);
     command.option("SCENE").required(false); // --like may name it
     command
-        .add_option("--like", options.like,
+        .add_option("--like", options.like.picture,
                     "Draws the moment recorded in a picture's metadata; SCENE and options on the command "
                     "line override it")
         .type_name("PICTURE");
@@ -385,17 +389,17 @@ void add_capture_options(Command command, CaptureOptions& options) {
                     "standard output [SCENE.png]")
         .type_name("OUT");
     command
-        .add_option("--depth", options.depth,
+        .add_option("--depth", options.encoding.depth,
                     "Bits per channel in the file [the format's usual depth; a --pass in .exr: float]")
         .type_name("8|16|half|float");
     command
-        .add_option("--transfer", options.transfer,
+        .add_option("--transfer", options.encoding.transfer,
                     "Encoding of the samples: srgb, as Image writes them, or linear light, which needs at "
                     "least 16 bits [srgb; another --pass is stored unchanged]")
         .type_name("srgb|linear");
-    add_codec_option(command, options.codec);
+    add_codec_option(command, options.encoding.codec);
     command
-        .add_option("--alpha", options.alpha,
+        .add_option("--alpha", options.encoding.alpha,
                     "Alpha of Image: opaque: 1, as on ShaderToy; keep: as the shader writes it; "
                     "premultiplied: also multiplies the colours by it [opaque]")
         .type_name("opaque|keep|premultiplied");
@@ -404,16 +408,25 @@ void add_capture_options(Command command, CaptureOptions& options) {
                     "Writes that part alone: left, bottom, width and height in pixels from the bottom left")
         .type_name("X,Y,W,H");
     command
-        .add_option("--pad", options.pad,
+        .add_option("--pad", options.encoding.pad,
                     "Repeats the last column and row of a video where needed, so that both sides are even")
         .type_name("even")
         .check(one_of({"even"}));
-    command.add_flag(
-        "--layers", options.layers,
-        "Writes all passes into one .exr, each as a part with the pass's name; a cube as six parts");
-    add_device_options(command, options.device);
     command
-        .add_option("--timeout", options.timeout,
+        .add_option(
+            "--audio", options.encoding.audio,
+            "Sound of a video or a .wav: the Sound pass (sound), the channels that read sound files or "
+            "videos (inputs), both or none [both]")
+        .type_name("sound|inputs|both|none")
+        .check(one_of({"sound", "inputs", "both", "none"}));
+    command.add_flag(
+        "--layers", options.encoding.layers,
+        "Writes all passes into one .exr, each as a part with the pass's name; a cube as six parts");
+    add_device_options(command, options.run.device);
+    command.add_flag("--es", options.run.es,
+                     "Draws with OpenGL ES 3.1 or later, whose compiler is as strict as ShaderToy's");
+    command
+        .add_option("--timeout", options.run.timeout,
                     "Stops with exit code 5 when compiling, the first draw or one frame takes longer")
         .type_name("SECONDS")
         .check(number<double>("a number of seconds"));
@@ -432,47 +445,48 @@ void add_capture_options(Command command, CaptureOptions& options) {
         .type_name("SECONDS")
         .check(number<double>("a number of seconds"));
     const Option plain =
-        command.add_flag("--plain", options.plain, "Compiles the scene without optimising its text");
+        command.add_flag("--plain", options.drawing.plain, "Compiles the scene without optimising its text");
     command
-        .add_option("--allow-difference", options.allowed_difference,
+        .add_option("--allow-difference", options.drawing.allowed_difference,
                     "Compiles knobs as constants if that is faster and no sample changes by more than MAX")
         .type_name("MAX")
         .check(number<double>("a number"))
         .excludes(plain)
         .excludes("--timeout"); // frames of a trial have no time limit
     command
-        .add_option("--tile", options.tile,
+        .add_option("--tile", options.drawing.tile,
                     "Draws in tiles of N pixels a side, an even number [1024x256 above 4096x2160 pixels]")
         .type_name("N")
         .check(number<int>("a whole number"));
     command
         .add_option(
-            "--samples", options.samples,
+            "--samples", options.drawing.samples,
             "Smooths edges: each frame is the mean, in linear light, of N frames shifted by parts of a pixel")
         .type_name("N")
         .check(number<int>("a whole number from 1 to 65536", 1, render::k_most_samples))
         .excludes("--allow-difference");
     command
-        .add_option("--shutter", options.shutter,
+        .add_option("--shutter", options.drawing.shutter,
                     "Motion blur: spreads the samples over this part of the time to the next frame, 0 to 1 "
                     "[16 samples]")
         .type_name("PART")
         .check(number<double>("a number from 0 to 1", 0, 1))
         .excludes("--allow-difference");
-    const Option resume = command.add_flag(
-        "--resume", options.resume, "Continues an interrupted capture: keeps the frames that exist already");
+    const Option resume =
+        command.add_flag("--resume", options.run.resume,
+                         "Continues an interrupted capture: keeps the frames that exist already");
     command
-        .add_option("--state-every", options.state_every,
+        .add_option("--state-every", options.run.state_every,
                     "Saves the buffers after every so many frames, for --resume of a scene with feedback")
         .type_name("FRAMES")
         .check(positive_number());
     command
-        .add_option("--shard", options.shard,
+        .add_option("--shard", options.run.shard,
                     "Draws share K of N, for several processes or machines; slurm: takes K and N from a "
                     "Slurm array task")
         .type_name("K/N|slurm");
     command
-        .add_flag("--loop", options.loop,
+        .add_flag("--loop", options.run.loop,
                   "Tests whether the sequence loops: compares the frame after the last with the first; exit "
                   "code 1 if "
                   "it does not")
@@ -489,7 +503,18 @@ void add_capture_options(Command command, CaptureOptions& options) {
         .excludes("--state-every")
         .excludes("--shard")
         .excludes("--loop");
-    command.add_flag("--json", options.json, "Prints one JSON object about the frames");
+    command
+        .add_option("--lens", options.lens,
+                    "Draws a number per pixel instead of the picture: cost, steps, error, rounding, proof, "
+                    "value:LINE or branch:LINE; an .exr holds the numbers")
+        .type_name("LENS")
+        .excludes("--layers")
+        .excludes("--tile")
+        .excludes("--samples")
+        .excludes("--shutter")
+        .excludes("--crop")
+        .excludes("--allow-difference");
+    command.add_flag("--json", options.run.json, "Prints one JSON object about the frames");
 }
 
 void add_capture(Command app, Action& chosen) {
@@ -498,7 +523,7 @@ void add_capture(Command app, Action& chosen) {
         app.add_subcommand("capture", "Makes pictures, raw frames or a video of a scene; needs no display");
     add_capture_options(command, *options);
     command.on_call([options, command, &chosen] {
-        options->words =
+        options->run.words =
             command.typed_words(std::array<std::string_view, 3>{"--shard", "--resume", "--json"});
         chosen = [options] { return capture(*options); };
     });

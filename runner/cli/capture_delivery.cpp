@@ -5,8 +5,6 @@
 #include "host/moment.hpp"
 #include "host/scene_report.hpp"
 #include "media/file_samples.hpp"
-#include "media/sound_file.hpp"
-#include "render/sound_renderer.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,9 +12,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace {
 
 void find(FrameRecords::Found& found, size_t pixels, const FrameRecord& record) {
@@ -107,33 +106,6 @@ std::vector<image::PictureLayer> other_layers(const render::Renderer& renderer, 
     return layers;
 }
 
-/// Returns the scene's sound from `start` on (seconds): interleaved left and right samples,
-/// render::k_sample_rate of each a second. After an interrupt the rest is silent. A context must be current.
-Result<std::vector<int16_t>> draw_sound(const scene::Scene& scene, glsl::Precision precision, double start,
-                                        double duration, const Interrupt& interrupt) {
-    if (constexpr double k_last = render::SoundRenderer::k_longest_seconds; start + duration > k_last)
-        return fail(
-            ErrorCode::usage,
-            fmt::format("sound cannot be longer than {} s, because iSampleOffset counts samples in an int",
-                        k_last));
-    auto renderer = TRY(render::SoundRenderer::create(scene, render::Date{}, precision));
-    const auto count = 2 * size_t(std::llround(duration * render::k_sample_rate));
-    const auto first = int(std::llround(start * render::k_sample_rate));
-    const auto block = 2 * size_t(render::SoundRenderer::block_samples());
-    const int lead = first % render::SoundRenderer::block_samples(); // only whole blocks can be drawn
-    const size_t drawn_count = 2 * size_t(lead) + count;
-    std::vector<int16_t> samples;
-    Progress progress("blocks of sound", (drawn_count + block - 1) / block);
-    while (samples.size() < drawn_count && !interrupt.requested()) {
-        const std::vector<int16_t> drawn = renderer.draw(first - lead + int(samples.size() / 2));
-        samples.insert(samples.end(), drawn.begin(), drawn.end());
-        progress.advance();
-    }
-    samples.resize(drawn_count);
-    samples.erase(samples.begin(), samples.begin() + 2 * std::ptrdiff_t(lead));
-    return samples;
-}
-
 } // namespace
 
 void FrameRecords::add(FrameRecord record) {
@@ -215,23 +187,23 @@ std::vector<std::string> layer_names(const render::Renderer& renderer) {
 Delivery::Delivery(const CapturePlan& plan, const render::Renderer& renderer, const gl::Capabilities& driver,
                    Watchdog& watchdog, std::filesystem::path sound)
     : plan_(plan), renderer_(renderer), driver_(driver), watchdog_(watchdog), sound_(std::move(sound)),
-      records_(plan.options.json || plan.sheet.has_value()) {}
+      records_(plan.options.run.json || plan.area.sheet.has_value()) {}
 
 bool Delivery::in_bands() const {
-    return renderer_.tiles() && !(plan_.exposure.several() && renderer_.tiles()->count() == 1);
+    return renderer_.tiles() && !(plan_.drawing.exposure.several() && renderer_.tiles()->count() == 1);
 }
 
 Result<void> Delivery::open(const Interrupt& interrupt) {
     interrupt_ = &interrupt;
     if (plan_.output.video()) {
-        video_.emplace(TRY(SegmentedVideo::create(plan_, plan_.written)));
-    } else if (plan_.sheet) {
-        sheet_.emplace(*plan_.sheet);
+        video_.emplace(TRY(SegmentedVideo::create(plan_, plan_.area.written)));
+    } else if (plan_.area.sheet) {
+        sheet_.emplace(*plan_.area.sheet);
     } else if (!plan_.output.standard_output() && !in_bands()) {
         // Two encoders are enough: the driver keeps the cores busy while it draws.
         const auto encoders = unsigned(std::min<size_t>(2, plan_.frames.frames.size()));
         // Frames with all passes are large, so fewer wait.
-        writer_ = std::make_unique<FrameWriter>(encoders, plan_.layers ? 1 : encoders + 1);
+        writer_ = std::make_unique<FrameWriter>(encoders, plan_.encoding.layers ? 1 : encoders + 1);
     }
     return {};
 }
@@ -272,24 +244,25 @@ size_t Delivery::written() {
 WrittenFrame Delivery::prepare(DrawnFrame drawn) const {
     WrittenFrame frame{std::move(drawn.record), laid_out(std::move(drawn.pixels), plan_.output.six_faces())};
     auto& [record, pictures] = frame;
-    if (plan_.crop)
+    if (plan_.area.crop)
         for (image::Image& picture : pictures)
-            picture = image::cropped(std::move(picture), *plan_.crop);
-    record.not_finite = count_not_finite(renderer_, pictures, plan_.crop);
+            picture = image::cropped(std::move(picture), *plan_.area.crop);
+    if (!plan_.drawing.lens)
+        record.not_finite = count_not_finite(renderer_, pictures, plan_.area.crop);
     for (image::Image& picture : pictures)
         if (plan_.keeps_alpha())
             record.no_coverage += image::pixels_of_no_coverage(picture);
-        else if (plan_.depth == image::SampleDepth::u8)
+        else if (plan_.encoding.depth == image::SampleDepth::u8)
             picture = image::in_bytes(std::move(picture));
-    if (plan_.padded)
+    if (plan_.area.padded)
         for (image::Image& picture : pictures)
-            picture = padded(picture, plan_.written);
+            picture = padded(picture, plan_.area.written);
     return frame;
 }
 
 Result<bool> Delivery::deliver(WrittenFrame frame) {
     auto& [record, pictures] = frame;
-    if (plan_.options.json) {
+    if (plan_.options.run.json) {
         Sha256 hash;
         for (const image::Image& picture : pictures)
             add_rows(hash, picture);
@@ -304,7 +277,7 @@ Result<bool> Delivery::deliver(WrittenFrame frame) {
 Result<bool> Delivery::write(const FrameRecord& record, std::vector<image::Image> pictures) {
     image::Image& first = pictures.front();
     if (video_) {
-        auto encoded = encode(fmt::format("encoding frame {}", record.frame), plan_.options.timeout,
+        auto encoded = encode(fmt::format("encoding frame {}", record.frame), plan_.options.run.timeout,
                               [&] { return video_->push(first); });
         return encoded.map([] { return true; }).map_error([&](Error error) {
             error.message += fmt::format(" (in frame {})", record.frame);
@@ -317,7 +290,7 @@ Result<bool> Delivery::write(const FrameRecord& record, std::vector<image::Image
     }
     if (!writer_)
         return put_raw(first).map([] { return true; });
-    if (plan_.layers)
+    if (plan_.encoding.layers)
         return writer_->push(
             {record.frame, plan_.output.of_frame(record.frame), {}, {}, layers_of(record, std::move(first))});
     bool wanted = true;
@@ -345,11 +318,11 @@ Result<std::unique_ptr<BandOutput>> Delivery::open_bands(int frame) const {
     std::optional<image::PictureStream> stream;
     if (!plan_.output.standard_output()) {
         const bool alpha = plan_.keeps_alpha() || renderer_.shown_pass().kind != scene::PassKind::image;
-        stream.emplace(TRY(image::PictureStream::create(plan_.output.of_frame(frame), plan_.written, alpha,
-                                                        format_of(frame))));
+        stream.emplace(TRY(image::PictureStream::create(plan_.output.of_frame(frame), plan_.area.written,
+                                                        alpha, format_of(frame))));
     }
-    return std::make_unique<BandOutput>(std::move(stream), renderer_.extent(), plan_.crop,
-                                        plan_.options.json);
+    return std::make_unique<BandOutput>(std::move(stream), renderer_.extent(), plan_.area.crop,
+                                        plan_.options.run.json);
 }
 
 void Delivery::add(FrameRecord record, BandOutput& bands) {
@@ -362,15 +335,18 @@ void Delivery::add(FrameRecord record, BandOutput& bands) {
 std::vector<image::PictureLayer> Delivery::layers_of(const FrameRecord& record, image::Image picture) const {
     std::vector<image::PictureLayer> layers;
     layers.push_back({renderer_.shown_pass().name, std::move(picture), format_of(record.frame)});
-    std::ranges::move(other_layers(renderer_, *plan_.layers, plan_.crop), std::back_inserter(layers));
+    std::ranges::move(other_layers(renderer_, *plan_.encoding.layers, plan_.area.crop),
+                      std::back_inserter(layers));
     return layers;
 }
 
 image::PictureFormat Delivery::format_of(int frame) const {
     const render::FrameState state = plan_.states(frame);
     // The fingerprint goes first: a JPEG without room for all metadata keeps the first entries.
-    image::PictureFormat format{
-        plan_.depth, {{k_fingerprint, plan_.identity.of_frame(state).text()}}, plan_.transfer, plan_.alpha};
+    image::PictureFormat format{plan_.encoding.depth,
+                                {{k_fingerprint, plan_.identity.of_frame(state).text()}},
+                                plan_.encoding.transfer,
+                                plan_.encoding.alpha};
     for (auto& fact : metadata_of(renderer_.scene(), moment_of(plan_.options.scene, plan_.frames, state)))
         format.metadata.push_back(std::move(fact));
     const Extent extent = renderer_.extent();
@@ -380,14 +356,16 @@ image::PictureFormat Delivery::format_of(int frame) const {
                             {"Precision", name_of(renderer_.precision())},
                             {"Driver", fmt::format("{}, OpenGL {}", driver_.device(), driver_.version)}});
     if (plan_.keeps_alpha())
-        format.metadata.emplace_back("Alpha",
-                                     plan_.alpha == image::Alpha::straight ? "straight" : "premultiplied");
-    if (plan_.crop)
-        format.metadata.emplace_back(k_crop, to_string(*plan_.crop));
-    if (plan_.exposure.several())
-        format.metadata.emplace_back("Samples", std::to_string(plan_.exposure.samples));
-    if (plan_.exposure.shutter > 0)
-        format.metadata.emplace_back("Shutter", fmt::format("{}", plan_.exposure.shutter));
+        format.metadata.emplace_back(
+            "Alpha", plan_.encoding.alpha == image::Alpha::straight ? "straight" : "premultiplied");
+    if (plan_.drawing.lens)
+        format.metadata.emplace_back("Lens", lab::to_string(plan_.drawing.lens->lens));
+    if (plan_.area.crop)
+        format.metadata.emplace_back(k_crop, to_string(*plan_.area.crop));
+    if (plan_.drawing.exposure.several())
+        format.metadata.emplace_back("Samples", std::to_string(plan_.drawing.exposure.samples));
+    if (plan_.drawing.exposure.shutter > 0)
+        format.metadata.emplace_back("Shutter", fmt::format("{}", plan_.drawing.exposure.shutter));
     if (!plan_.options.scene.defines.empty())
         format.metadata.emplace_back("Defines",
                                      fmt::format("{}", fmt::join(plan_.options.scene.defines, "; ")));
@@ -407,52 +385,11 @@ image::PictureFormat Delivery::format_of_sheet() const {
         frames.push_back(record.frame);
         times.push_back(plan_.states(record.frame).seconds());
     }
-    format.metadata.emplace_back("Sheet", fmt::format("{}x{}", plan_.sheet->columns, plan_.sheet->rows));
+    format.metadata.emplace_back("Sheet",
+                                 fmt::format("{}x{}", plan_.area.sheet->columns, plan_.area.sheet->rows));
     format.metadata.emplace_back("Frames", fmt::format("{}", fmt::join(frames, ",")));
     format.metadata.emplace_back("Times", fmt::format("{}", fmt::join(times, ",")));
     return format;
-}
-
-std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const Interrupt& interrupt) {
-    if (!plan.output.video() || plan.shard) // `gather` draws it
-        return std::nullopt;
-    const std::vector<int>& frames = plan.frames.frames;
-    const VideoPace& pace = plan.pace;
-    const bool heard = plan.output.pattern().extension() != ".gif" && plan.scene.find(scene::PassKind::sound);
-    if (!pace.not_in_time.empty())
-        say(fmt::format("the video does not follow the scene's time: {}; it shows {:.4g} frames per second{}",
-                        pace.not_in_time, pace.fps, heard ? "; it is silent" : ""));
-    if (pace.holds)
-        say(fmt::format("the frames are not evenly spaced: the video ({:.4g} frames per second) holds each "
-                        "until the time of the next",
-                        pace.fps));
-    if (!heard || !pace.not_in_time.empty())
-        return std::nullopt;
-    const std::vector<int> shown = ticks_of(frames, pace);
-    const auto ticks = std::accumulate(shown.begin(), shown.end(), size_t{0});
-    const double first = plan.frames.state.at_frame(frames.front()).seconds();
-    auto samples = draw_sound(plan.scene, plan.drawing.precision, std::max(0.0, first),
-                              double(ticks) / pace.fps, interrupt);
-    auto file = StagedFile::create(plan.output.of_frame(0), ".wav");
-    Result<void> written = !file      ? fail(std::move(file.error()))
-                           : !samples ? fail(std::move(samples.error()))
-                                      : sound::write_wav(file->path(), int(render::k_sample_rate), *samples);
-    if (written)
-        return *std::move(file);
-    say("the video is silent: " + to_string(written.error()));
-    return std::nullopt;
-}
-
-Result<int> capture_sound(const SoundPlan& plan) {
-    const Interrupt interrupt;
-    const auto context = TRY(platform::HeadlessContext::create(plan.device));
-    const auto samples =
-        TRY(draw_sound(plan.scene, plan.precision, plan.part.begin, plan.part.length, interrupt));
-    if (interrupt.requested())
-        return Interrupt::k_exit_code;
-    TRY(sound::write_wav(plan.output, int(render::k_sample_rate), samples));
-    say(fmt::format("wrote {}", plan.output.string()));
-    return 0;
 }
 
 } // namespace tidemark::cli

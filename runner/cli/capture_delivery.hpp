@@ -151,10 +151,10 @@ public:
     /// All references must outlive it. `sound` is a WAV file for a video; empty: silent. `watchdog` is used
     /// from `open` on.
     Delivery(const CapturePlan& plan, const render::Renderer& renderer, const gl::Capabilities& driver,
-             Watchdog& watchdog, std::filesystem::path sound);
+             host::Watchdog& watchdog, std::filesystem::path sound);
 
     /// Starts the encoders. `interrupt` must outlive it.
-    Result<void> open(const Interrupt& interrupt);
+    Result<void> open(const host::Interrupt& interrupt);
     /// Returns true if frames are written band by band. Otherwise a frame is in memory as a whole, also for
     /// several samples in one tile, as videos need it.
     bool in_bands() const;
@@ -193,10 +193,10 @@ private:
     const CapturePlan& plan_;
     const render::Renderer& renderer_;
     const gl::Capabilities& driver_;
-    Watchdog& watchdog_;
+    host::Watchdog& watchdog_;
     std::filesystem::path sound_;
-    const Interrupt* interrupt_ = nullptr;
-    std::unique_ptr<FrameWriter> writer_; ///< of pictures
+    const host::Interrupt* interrupt_ = nullptr;
+    std::unique_ptr<host::FrameWriter> writer_; ///< of pictures
     std::optional<SegmentedVideo> video_;
     std::atomic<bool> in_encoder_ = false; ///< the main thread is using `video_`
     /// If `writer_`, `video_` and `sheet_` are empty, frames go to standard output.
@@ -204,11 +204,16 @@ private:
     FrameRecords records_;
 };
 
-// `tidemark capture SCENE -o sound.wav`: writes the Sound pass to a file.
+// The sound of a video, and `tidemark capture SCENE -o sound.wav`.
 
-/// Returns the sound during the frames of a video, as a WAV file. Errors are printed and the video is silent,
-/// since pictures without sound are better than none.
-std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const Interrupt& interrupt);
+/// Returns the sounds that --audio selects for a file of that name: `sound`, `inputs`, `both` or `none`;
+/// empty: both. Fails (ErrorCode::usage) if the file has no sound, or the scene has nothing of the kind.
+Result<render::HeardParts> parse_audio(const std::string& text, const std::filesystem::path& output,
+                                       const scene::Scene& scene);
+
+/// Returns the sound during the frames of a video, as a WAV file, and prints what is in it. Errors are
+/// printed and the video lacks that sound, since pictures without sound are better than none.
+std::optional<StagedFile> draw_sound_of_video(const CapturePlan& plan, const host::Interrupt& interrupt);
 
 Result<int> capture_sound(const SoundPlan& plan);
 

@@ -16,6 +16,8 @@
 #include <numeric>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace {
 
 /// Returns the differences of successive frames.

@@ -2,13 +2,12 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "base/supervision.hpp"
+#include "cli/capture_delivery.hpp"
 #include "cli/capture_resume.hpp"
 #include "host/console.hpp"
 #include "host/scene_report.hpp"
 #include "media/texture_files.hpp"
 #include "media/video_output.hpp"
-#include "render/gl_context.hpp"
 #include "render/picture_parts.hpp"
 
 #include <fmt/format.h>
@@ -20,6 +19,9 @@
 #include <unordered_set>
 
 namespace tidemark::cli {
+
+using namespace host;
+using host::resolve;
 namespace {
 
 using image::Alpha;
@@ -74,7 +76,7 @@ Result<Transfer> parse_transfer(const std::string& text, const CapturePlan& plan
         return refuse("give srgb or linear");
     if (!plan.to_picture_files())
         return refuse("videos and raw frames on standard output are always sRGB");
-    if (plan.depth == SampleDepth::u8)
+    if (plan.encoding.depth == SampleDepth::u8)
         return refuse("8 bits of linear light show steps in dark areas: give --depth 16, or an .exr");
     return Transfer::linear;
 }
@@ -89,7 +91,7 @@ Result<Alpha> parse_alpha(const std::string& text, const CapturePlan& plan) {
     const Alpha alpha = text == "keep" ? Alpha::straight : Alpha::premultiplied;
     const auto holds = [&](Alpha kind) {
         const std::filesystem::path& name = plan.output.pattern();
-        return plan.output.video() ? image::video_holds_alpha(name, plan.codec, kind)
+        return plan.output.video() ? image::video_holds_alpha(name, plan.video.codec, kind)
                                    : image::holds_alpha(name, kind);
     };
     if (drawn_transfer(plan.frames.state.pass) == Transfer::data)
@@ -107,7 +109,7 @@ Result<Alpha> parse_alpha(const std::string& text, const CapturePlan& plan) {
 /// floats by default.
 Result<std::optional<SampleDepth>> parse_layers(const CaptureOptions& options, const CapturePlan& plan) {
     const auto refuse = refusal("--layers");
-    if (!options.layers)
+    if (!options.encoding.layers)
         return std::nullopt;
     if (!plan.to_picture_files() || !image::holds_layers(plan.output.pattern()))
         return refuse("only an .exr can hold several pictures");
@@ -115,14 +117,14 @@ Result<std::optional<SampleDepth>> parse_layers(const CaptureOptions& options, c
         return refuse("the faces of a cube become layers: remove {} from the name");
     if (!plan.frames.state.pass.empty())
         return refuse("the file holds all passes: remove --pass");
-    if (options.tile)
+    if (options.drawing.tile)
         return refuse("passes are not drawn in tiles: remove --tile");
-    if (plan.exposure.shutter > 0)
+    if (plan.drawing.exposure.shutter > 0)
         return refuse("not with --shutter: a frame then has several moments, and buffers cannot be averaged");
     const Extent extent = plan.frames.state.extent;
     if (std::max(extent.width, extent.height) > image::k_largest_side)
         return refuse(fmt::format("a side has at most {} pixels", image::k_largest_side));
-    return options.depth.empty() ? SampleDepth::f32 : plan.depth;
+    return options.encoding.depth.empty() ? SampleDepth::f32 : plan.encoding.depth;
 }
 
 /// Returns the part of a picture of size `drawn` that is written; nothing for the whole picture.
@@ -169,15 +171,15 @@ Result<std::vector<int>> frames_of_sheet(const CaptureOptions& options, const Fr
 
 /// Rejects outputs that do not fit a sheet.
 Result<void> check_sheet(const CapturePlan& plan) {
-    if (!plan.sheet)
+    if (!plan.area.sheet)
         return {};
     const auto refuse = refusal("--sheet");
     if (!plan.to_picture_files() || plan.output.six_faces())
         return refuse("the sheet is one picture: give a .png, .jpg, .tif, .exr or .hdr");
-    if (plan.cube && !plan.crop)
+    if (plan.area.cube && !plan.area.crop)
         return refuse("a cube is shown as a panorama, which is too large for a cell");
-    const Extent extent = plan.sheet->extent(plan.written);
-    const size_t bytes = extent.pixels() * 4 * image::size_of(plan.drawing.samples);
+    const Extent extent = plan.area.sheet->extent(plan.area.written);
+    const size_t bytes = extent.pixels() * 4 * image::size_of(plan.drawing.options.samples);
     if (std::max(extent.width, extent.height) > image::k_largest_side || bytes > image::k_largest_picture)
         return refuse(fmt::format("the sheet would have {}x{} pixels: give a smaller --size, or fewer cells",
                                   extent.width, extent.height));
@@ -195,7 +197,7 @@ Result<FrameOptions> with_time(const CaptureOptions& options, FrameOptions frame
                                 frames.frame    ? "--frame"
                                 : frames.frames ? "--frames"
                                                 : "--time"));
-    const FrameSequence base = options.like_frames.value_or(FrameSequence());
+    const FrameSequence base = options.like.frames.value_or(FrameSequence());
     const auto typed = frames.numbers.find("--fps");
     const double fps =
         typed != frames.numbers.end() ? typed->second : base.lead_in_fps.value_or(base.state.fps);
@@ -206,7 +208,7 @@ Result<FrameOptions> with_time(const CaptureOptions& options, FrameOptions frame
     return frames;
 }
 
-/// Fails if a video is asked for without its frames, which would be a video of one frame.
+/// Fails if a video is requested without its frames, which would be a video of one frame.
 Result<void> check_frames_of_video(const CapturePlan& plan, const CaptureOptions& options) {
     const FrameOptions& frames = options.frames;
     if (!plan.output.video() || options.time.given() || frames.frame || frames.frames || frames.time)
@@ -224,10 +226,10 @@ Result<void> pad(const std::string& text, CapturePlan& plan) {
     if (!plan.output.video())
         return fail(ErrorCode::usage,
                     "--pad: is for videos only; pictures and raw frames may have odd sides");
-    const Extent even{plan.written.width + plan.written.width % 2,
-                      plan.written.height + plan.written.height % 2};
-    plan.padded = even != plan.written;
-    plan.written = even;
+    const Extent even{plan.area.written.width + plan.area.written.width % 2,
+                      plan.area.written.height + plan.area.written.height % 2};
+    plan.area.padded = even != plan.area.written;
+    plan.area.written = even;
     return {};
 }
 
@@ -242,7 +244,7 @@ void drop_repeats(std::vector<int>& frames) {
 constexpr double k_longest_sound = 3600;
 constexpr double k_seconds_of_sound = 60;
 
-/// Fails if existing frames could not be told from missing ones.
+/// Fails if existing and missing frames could not be distinguished.
 Result<void> check_resume(const OutputName& output) {
     const auto refuse = refusal("--resume");
     if (output.standard_output())
@@ -261,21 +263,21 @@ Result<void> check_shard(const CaptureOptions& options, const OutputName& output
             "write files (a sequence of pictures or a video), so that `tidemark gather` can read them");
     if (!output.video() && !image::holds_metadata(output.pattern()))
         return check_resume(output);
-    if (options.allowed_difference)
+    if (options.drawing.allowed_difference)
         return refuse("not with --allow-difference, which may choose another program on each machine");
     return {};
 }
 
 /// Checks the options that keep data for a later run.
 Result<void> check_keeping(const CaptureOptions& options, const OutputName& output, Extent extent) {
-    if (options.resume)
+    if (options.run.resume)
         TRY(check_resume(output));
-    if (options.state_every > 0 && output.standard_output())
+    if (options.run.state_every > 0 && output.standard_output())
         return fail(ErrorCode::usage, "--state-every: frames on standard output cannot be resumed");
-    if (options.state_every > 0 && extent.pixels() * 4 * sizeof(float) > k_largest_saved_buffer)
+    if (options.run.state_every > 0 && extent.pixels() * 4 * sizeof(float) > k_largest_saved_buffer)
         return fail(ErrorCode::usage, fmt::format("--state-every: buffers of {}x{} are too large to save",
                                                   extent.width, extent.height));
-    if (!options.shard.empty())
+    if (!options.run.shard.empty())
         TRY(check_shard(options, output));
     return {};
 }
@@ -286,8 +288,8 @@ constexpr int k_samples_of_shutter = 16;
 
 /// Clamps each sample for integer formats, as a display does.
 render::Exposure exposure_of(const CaptureOptions& options, SampleDepth depth) {
-    const double shutter = options.shutter.value_or(0);
-    return {.samples = options.samples.value_or(shutter > 0 ? k_samples_of_shutter : 1),
+    const double shutter = options.drawing.shutter.value_or(0);
+    return {.samples = options.drawing.samples.value_or(shutter > 0 ? k_samples_of_shutter : 1),
             .shutter = shutter,
             .clamped = depth == SampleDepth::u8 || depth == SampleDepth::u16};
 }
@@ -296,22 +298,23 @@ render::Exposure exposure_of(const CaptureOptions& options, SampleDepth depth) {
 Result<void> check_output(const CapturePlan& plan, const CaptureOptions& options) {
     const OutputName& output = plan.output;
     const Extent extent = plan.frames.state.extent;
-    if (output.video() && output.pattern().extension() == ".gif" && plan.pace.fps > image::k_fastest_gif)
+    if (output.video() && output.pattern().extension() == ".gif" &&
+        plan.video.pace.fps > image::k_fastest_gif)
         return fail(ErrorCode::usage, fmt::format("--fps {}: a GIF has at most {} frames per second",
                                                   plan.frames.state.fps, image::k_fastest_gif));
     if (plan.to_picture_files()) {
-        TRY(image::check_picture_format(output.pattern(), plan.depth));
-        TRY(image::PictureStream::check_extent(output.pattern(), plan.written));
+        TRY(image::check_picture_format(output.pattern(), plan.encoding.depth));
+        TRY(image::PictureStream::check_extent(output.pattern(), plan.area.written));
     }
     TRY(check_sheet(plan));
     TRY(check_keeping(options, output, extent));
-    if (options.loop && plan.frames.frames.size() < 2)
+    if (options.run.loop && plan.frames.frames.size() < 2)
         return fail(ErrorCode::usage, "--loop: give at least two --frames");
-    if (options.tile && output.video())
+    if (options.drawing.tile && output.video())
         return fail(ErrorCode::usage, "--tile: the frames of a video are not drawn in tiles");
-    if (options.timeout && !(*options.timeout > 0))
+    if (options.run.timeout && !(*options.run.timeout > 0))
         return fail(ErrorCode::usage, "--timeout: give a number of seconds above 0");
-    if (options.json && output.standard_output())
+    if (options.run.json && output.standard_output())
         return fail(ErrorCode::usage, "--json and -o - both write to standard output: give one of them");
     if (std::max(extent.width, extent.height) > render::k_largest_tiled_side)
         return fail(ErrorCode::usage, fmt::format("--size {}x{}: a side has at most {} pixels", extent.width,
@@ -332,46 +335,49 @@ Result<CapturePlan> plan_of_options(const CaptureOptions& options, const scene::
     CapturePlan plan;
     plan.options = options;
     FrameOptions frames = TRY(with_time(options, options.frames));
-    if (files && !options.like_frames)
+    if (files && !options.like.frames)
         frames = sized(std::move(frames), *files);
-    plan.frames = TRY(resolve(frames, options.like_frames.value_or(FrameSequence())));
+    plan.frames = TRY(resolve(frames, options.like.frames.value_or(FrameSequence())));
     plan.states = states_of(plan.frames);
     const scene::Pass* const shown = files ? shown_pass(*files, plan.frames.state.pass) : nullptr;
-    plan.cube = shown && shown->kind == scene::PassKind::cubemap;
+    plan.area.cube = shown && shown->kind == scene::PassKind::cubemap;
     std::vector<int>& numbers = plan.frames.frames;
     if (!options.sheet.empty()) {
-        plan.sheet = TRY(parse_sheet(options.sheet));
-        numbers = TRY(frames_of_sheet(options, plan.frames, *plan.sheet));
+        plan.area.sheet = TRY(parse_sheet(options.sheet));
+        numbers = TRY(frames_of_sheet(options, plan.frames, *plan.area.sheet));
     }
-    const size_t count = plan.sheet ? 1 : std::unordered_set(numbers.begin(), numbers.end()).size();
+    const size_t count = plan.area.sheet ? 1 : std::unordered_set(numbers.begin(), numbers.end()).size();
     plan.output = TRY(options.output ? OutputName::parse(*options.output, count)
                                      : OutputName::of_scene(options.scene.path, count));
-    if (plan.to_picture_files() && !plan.sheet)
+    if (plan.to_picture_files() && !plan.area.sheet)
         drop_repeats(numbers);
-    plan.codec = TRY(parse_codec(options.codec, plan.output));
-    plan.depth = TRY(parse_depth(options.depth, plan.output, plan.codec, plan.frames.state.pass));
-    plan.transfer = TRY(parse_transfer(options.transfer, plan));
-    plan.pace = pace_of(numbers, plan.frames.state.fps);
-    plan.exposure = exposure_of(options, plan.depth);
-    plan.alpha = TRY(parse_alpha(options.alpha, plan));
-    plan.layers = TRY(parse_layers(options, plan));
-    const Extent drawn = plan.cube ? image::k_panorama : plan.frames.state.extent;
-    plan.crop = TRY(parse_crop(options, plan, drawn));
-    plan.written = plan.crop ? plan.crop->extent : drawn;
-    TRY(pad(options.pad, plan));
-    const bool bytes = plan.depth == SampleDepth::u8 && !plan.exposure.several() && !plan.keeps_alpha();
-    plan.drawing = {
+    plan.video.codec = TRY(parse_codec(options.encoding.codec, plan.output));
+    plan.encoding.depth =
+        TRY(parse_depth(options.encoding.depth, plan.output, plan.video.codec, plan.frames.state.pass));
+    plan.encoding.transfer = TRY(parse_transfer(options.encoding.transfer, plan));
+    plan.video.pace = pace_of(numbers, plan.frames.state.fps);
+    plan.drawing.exposure = exposure_of(options, plan.encoding.depth);
+    plan.encoding.alpha = TRY(parse_alpha(options.encoding.alpha, plan));
+    plan.encoding.layers = TRY(parse_layers(options, plan));
+    const Extent drawn = plan.area.cube ? image::k_panorama : plan.frames.state.extent;
+    plan.area.crop = TRY(parse_crop(options, plan, drawn));
+    plan.area.written = plan.area.crop ? plan.area.crop->extent : drawn;
+    TRY(plan_lens_output(plan));
+    TRY(pad(options.encoding.pad, plan));
+    const bool bytes = plan.encoding.depth == SampleDepth::u8 && !plan.drawing.exposure.several() &&
+                       !plan.keeps_alpha() && options.lens.empty();
+    plan.drawing.options = {
         .extent = plan.frames.state.extent,
         .samples = bytes ? SampleType::u8 : SampleType::f32,
         .pass = plan.frames.state.pass,
         .precision = precision_of(options.scene),
-        .specialise = options.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable,
-        .extras = {.passes = options.layers},
+        .specialise = options.drawing.plain ? glsl::Specialise::nothing : glsl::Specialise::unreachable,
+        .extras = {.passes = options.encoding.layers},
         .marks_non_finite = true,
         .keeps_alpha = plan.keeps_alpha(),
     };
     if (plan.output.video())
-        plan.segments = segments_of(numbers, plan.pace, options.state_every);
+        plan.video.segments = segments_of(numbers, plan.video.pace, options.run.state_every);
     return check_output(plan, options).map([&] { return std::move(plan); });
 }
 
@@ -394,8 +400,8 @@ Result<void> make_folders(const CapturePlan& plan) {
 /// drawn.
 Result<void> spare_what_is_read(const CaptureOptions& options, CapturePlan& plan) {
     std::vector<std::filesystem::path> read = files_read(plan.scene, options.frames);
-    if (!options.like.empty())
-        read.emplace_back(options.like);
+    if (!options.like.picture.empty())
+        read.emplace_back(options.like.picture);
     if (plan.output.standard_output())
         return {};
     plan.output.spare(read);
@@ -409,7 +415,7 @@ Result<void> spare_what_is_read(const CaptureOptions& options, CapturePlan& plan
 }
 
 Result<void> check_six_faces(const CapturePlan& plan) {
-    if (plan.output.six_faces() && !plan.cube && shown_pass(plan.scene, plan.drawing.pass))
+    if (plan.output.six_faces() && !plan.area.cube && shown_pass(plan.scene, plan.drawing.options.pass))
         return fail(ErrorCode::usage,
                     fmt::format("-o {}: {{}} in the name stands for a face of a cube: give --pass \"Cube A\"",
                                 plan.output.pattern().string()));
@@ -424,25 +430,26 @@ constexpr size_t k_frames_worth_a_trial = 64;
 Result<std::optional<TrialPlan>> plan_trial(const CaptureOptions& options, const CapturePlan& plan) {
     const std::vector<int>& frames = plan.frames.frames;
     const bool turned = plan.frames.input && turns_knobs(*plan.frames.input);
-    if (turned && options.allowed_difference)
+    if (turned && options.drawing.allowed_difference)
         return fail(ErrorCode::usage,
                     fmt::format("--allow-difference: knobs cannot be constants, because {} changes them",
                                 plan.frames.input_file));
-    const bool long_enough = frames.size() >= k_frames_worth_a_trial && !options.timeout;
-    if (options.plain || turned || !(options.allowed_difference || long_enough))
+    const bool long_enough = frames.size() >= k_frames_worth_a_trial && !options.run.timeout;
+    if (options.drawing.plain || plan.drawing.lens || turned ||
+        !(options.drawing.allowed_difference || long_enough))
         return std::nullopt;
     const int first = plan.scene.passes.size() > 1 ? 0 : frames.front(); // buffers begin at frame 0
     return TrialPlan{inputs_of(plan.states(first)), inputs_of(plan.states(frames.back())), frames.size(),
-                     options.allowed_difference};
+                     options.drawing.allowed_difference};
 }
 
 /// Assigns whole segments of a video to the shard, since segments are encoded separately.
 void take_segments(const Shard& shard, CapturePlan& plan) {
-    for (VideoSegment& segment : plan.segments)
+    for (VideoSegment& segment : plan.video.segments)
         segment.others = true;
     plan.frames.frames.clear();
-    for (const size_t index : segments_of_shard(shard, plan.segments.size(), plan.scene)) {
-        VideoSegment& own = plan.segments[index];
+    for (const size_t index : segments_of_shard(shard, plan.video.segments.size(), plan.scene)) {
+        VideoSegment& own = plan.video.segments[index];
         own.others = false;
         plan.frames.frames.insert(plan.frames.frames.end(), own.frames.begin(), own.frames.end());
     }
@@ -450,10 +457,10 @@ void take_segments(const Shard& shard, CapturePlan& plan) {
 
 /// Reduces the plan to the shard's frames. All shards draw the same program, without a trial.
 Result<void> take_shard(const CaptureOptions& options, CapturePlan& plan) {
-    plan.shard = TRY(parse_shard(options.shard));
+    plan.shard = TRY(parse_shard(options.run.shard));
     const std::filesystem::path folder = plan.output.of_frame(0).path().parent_path();
     TRY(leave_note(OutputPath::typed(folder.empty() ? "." : folder) / k_shard_note,
-                   {options.words, plan.shard->count}));
+                   {options.run.words, plan.shard->count}));
     if (plan.output.video())
         take_segments(*plan.shard, plan);
     else
@@ -461,63 +468,11 @@ Result<void> take_shard(const CaptureOptions& options, CapturePlan& plan) {
     return {};
 }
 
-/// Returns the size of the tiles; nothing if frames are drawn whole.
-Result<std::optional<Extent>> choose_tile(const CapturePlan& plan) {
-    const int limit = gl::query_capabilities().largest_target;
-    if (plan.options.tile)
-        return render::tile_of_side(*plan.options.tile, limit).map([](Extent tile) {
-            return std::optional(tile);
-        });
-    const bool whole = plan.output.video() || plan.layers || plan.sheet;
-    const auto tile =
-        whole ? std::nullopt
-              : render::tile_for(plan.drawing.extent, 4 * image::size_of(plan.drawing.samples), limit);
-    return plan.exposure.several() && !tile ? plan.drawing.extent : tile; // one tile, shifted for each sample
-}
-
-/// Rejects options that the compiled scene does not allow.
-Result<void> check_compiled(const CapturePlan& plan, const render::Renderer& renderer) {
-    const auto refuse = [](std::string why) { return fail(ErrorCode::usage, std::move(why)); };
-    if (plan.options.tile && !renderer.tiles())
-        return refuse(fmt::format(
-            "--tile: {} cannot be drawn in tiles: it is a cube, another pass reads it, or it discards pixels",
-            renderer.shown_pass().name));
-    if (plan.options.loop && renderer.tiles() && renderer.tiles()->count() > 1)
-        return refuse("--loop: frames drawn in tiles cannot be compared; give a smaller --size");
-    if (plan.exposure.several() && renderer.shown_pass().kind != scene::PassKind::image)
-        return refuse("--samples: only frames of Image can be averaged");
-    if (plan.exposure.several() && !renderer.tiles())
-        return refuse("--samples: Image cannot be drawn several times per frame: a pass reads it, or it "
-                      "discards pixels");
-    if (plan.exposure.shutter > 0 && renderer.plan().feedback)
-        return refuse("--shutter: this scene reads its own last frame, so there are no moments between two "
-                      "frames; --samples alone smooths its edges");
-    return {};
-}
-
-/// Returns the faster of two programs if a trial is planned. No trial in tiles: the picture is too
-/// large to draw it for one.
-Result<Trial> choose_renderer(const CapturePlan& plan, render::RenderOptions drawing) {
-    if (!plan.trial || drawing.tile)
-        return Trial{TRY(render::Renderer::create(plan.scene, drawing))};
-    drawing.specialise =
-        plan.trial->allowed ? glsl::Specialise::constants : glsl::Specialise::invariant_uniforms;
-    auto trial = TRY(choose_program(plan.scene, drawing, *plan.trial));
-    if (!trial.said.empty())
-        say(trial.said);
-    return trial;
-}
-
-Result<Trial> compile_all(const CapturePlan& plan, Interrupt& interrupt) {
-    const Interrupt::Immediate at_once(interrupt);
-    Watchdog watchdog;
-    const Watchdog::Watch watch(watchdog, {"compiling", plan.options.timeout});
-    const auto tile = TRY(choose_tile(plan));
-    render::RenderOptions drawing = plan.drawing;
-    drawing.tile = tile;
-    auto compiled = TRY(choose_renderer(plan, drawing));
-    TRY(check_compiled(plan, compiled.renderer));
-    return compiled;
+host::DeviceChoice device_of(const RunOptions& run) {
+    host::DeviceChoice device = run.device;
+    if (run.es)
+        device.name = host::with_es(device.name);
+    return device;
 }
 
 } // namespace
@@ -526,13 +481,16 @@ Result<CapturePlan> plan_capture(const CaptureOptions& options) {
     // Wrong options are reported before a scene that cannot be loaded.
     auto files = scene::load_scene(options.scene.path, options.scene.files);
     CapturePlan plan = TRY(plan_of_options(options, files ? &*files : nullptr));
+    plan.options.run.device = device_of(options.run);
     plan.scene = TRY(load(options.scene, plan.frames, std::move(files)));
+    TRY(plan_lens(plan));
     TRY(spare_what_is_read(options, plan));
     TRY(check_six_faces(plan));
-    if (options.shard.empty())
-        plan.trial = TRY(plan_trial(options, plan));
+    TRY(parse_audio(options.encoding.audio, plan.output.pattern(), plan.scene));
+    if (options.run.shard.empty())
+        plan.drawing.trial = TRY(plan_trial(options, plan));
     plan.identity = identity_of_run(plan);
-    if (!options.shard.empty())
+    if (!options.run.shard.empty())
         TRY(take_shard(options, plan));
     return plan;
 }
@@ -555,7 +513,7 @@ Transfer drawn_transfer(const std::string& pass) {
 }
 
 bool can_be_resumed(const CapturePlan& plan) {
-    return !plan.sheet && check_resume(plan.output).has_value();
+    return !plan.area.sheet && check_resume(plan.output).has_value();
 }
 
 std::string words_on_resuming(const CapturePlan& plan, size_t whole_frames) {
@@ -570,7 +528,7 @@ bool wants_sound(const CaptureOptions& options) {
 }
 
 Result<SoundPlan> plan_sound(const CaptureOptions& options) {
-    if (options.resume)
+    if (options.run.resume)
         return fail(ErrorCode::usage, "--resume: a sound cannot be resumed");
     if (!options.time.to && options.time.duration.value_or(1) <= 0)
         return fail(ErrorCode::usage, fmt::format("--duration {}: give more than 0 and at most {} seconds",
@@ -584,17 +542,13 @@ Result<SoundPlan> plan_sound(const CaptureOptions& options) {
     if (const auto folder = output.path().parent_path(); !folder.empty())
         TRY(make_folder(OutputPath::typed(folder)));
     TRY(check_writable(output));
-    return SoundPlan{std::move(scene), std::move(output), options.device, precision_of(options.scene), part};
-}
-
-Result<Trial> compile(const CapturePlan& plan, Interrupt& interrupt) {
-    if (!plan.frames.frames.empty())
-        Doing::note_frame(DoingPage::Frame{plan.frames.frames.front(), false});
-    return compile_all(plan, interrupt).map_error([&](Error error) {
-        if (error.code == ErrorCode::no_memory && !plan.frames.frames.empty())
-            error.message += fmt::format(" (before frame {})", plan.frames.frames.front());
-        return error;
-    });
+    const auto heard = TRY(parse_audio(options.encoding.audio, *options.output, scene));
+    return SoundPlan{std::move(scene),
+                     std::move(output),
+                     device_of(options.run),
+                     precision_of(options.scene),
+                     part,
+                     heard};
 }
 
 } // namespace tidemark::cli

@@ -12,9 +12,11 @@
 #include "host/program_trial.hpp"
 #include "host/requests.hpp"
 #include "host/supervision.hpp"
+#include "lab/lens.hpp"
 #include "media/picture_file.hpp"
 #include "render/exposure.hpp"
 #include "render/renderer.hpp"
+#include "render/sound_renderer.hpp"
 
 #include <optional>
 #include <string>
@@ -22,35 +24,58 @@
 
 namespace tidemark::cli {
 
-struct CaptureOptions {
-    SceneRequest scene;
-    FrameOptions frames;
-    std::string like;                           ///< a picture; empty: none
-    std::optional<FrameSequence> like_frames{}; ///< of that picture's metadata
-    std::string like_fingerprint{};             ///< Fingerprint::text, of that picture's metadata
-    std::optional<std::string> output;
+/// `--like`: the picture whose metadata complete the options.
+struct LikeOptions {
+    std::string picture;                         ///< empty: none
+    std::optional<host::FrameSequence> frames{}; ///< of its metadata, like the next field
+    std::string fingerprint{};                   ///< Fingerprint::text
+};
+
+/// How files are encoded.
+struct EncodingOptions {
     std::string depth;
     std::string transfer;
-    bool layers = false;
     std::string alpha;
     std::string codec;
-    std::optional<std::string> crop;
-    platform::DeviceChoice device{};
-    std::optional<double> timeout;
-    std::string sheet;
-    TimeSpan time{};
-    std::string pad; ///< "even", or empty
+    std::string pad;   ///< "even", or empty
+    std::string audio; ///< "sound", "inputs", "both" or "none"; empty: both
+    bool layers = false;
+};
+
+/// How frames are drawn.
+struct DrawingOptions {
     bool plain = false;
     std::optional<double> allowed_difference;
     std::optional<int> tile;
     std::optional<int> samples;
     std::optional<double> shutter;
+};
+
+/// How the command runs: where, how long, how often it saves, and what it prints.
+struct RunOptions {
+    host::DeviceChoice device{};
+    bool es = false; ///< with OpenGL ES
+    std::optional<double> timeout;
     bool json = false;
     bool resume = false;
     bool loop = false;
     int state_every = 0;
     std::string shard;
     std::vector<std::string> words{}; ///< the arguments, without --shard, --resume and --json
+};
+
+struct CaptureOptions {
+    host::SceneRequest scene;
+    host::FrameOptions frames;
+    TimeSpan time{};
+    LikeOptions like;
+    std::optional<std::string> output;
+    std::optional<std::string> crop;
+    std::string sheet;
+    std::string lens; ///< empty: the picture
+    EncodingOptions encoding;
+    DrawingOptions drawing;
+    RunOptions run;
 };
 
 /// Frames of a video that are encoded separately.
@@ -63,36 +88,56 @@ struct VideoSegment {
     bool is_to_be_made() const { return !kept && !others; }
 };
 
-struct CapturePlan {
-    CaptureOptions options{}; ///< completed by --like
-    scene::Scene scene;
-    FrameSequence frames;
-    render::FrameStates states; ///< of `frames`: the state of any frame by its number
-    Fingerprint identity;       ///< of the run; its device is set when there is a context
-    OutputName output;
-    bool cube =
-        false; ///< the shown pass is a cube, drawn as a panorama or, with {} in the name, as six faces
-    std::optional<Rectangle> crop{}; ///< the part of a drawn picture that is written; nothing: all of it
-    Extent written{};                ///< size of a written picture, except for six faces
-    bool padded = false;             ///< `written` has a column or a row more than what is drawn
+/// The part of the drawn pixels that a picture is written from, and how.
+struct WrittenArea {
+    /// The shown pass is a cube, drawn as a panorama or, with {} in the name, as six faces.
+    bool cube = false;
+    std::optional<Rectangle> crop{};  ///< the part of a drawn picture that is written; nothing: all of it
+    Extent written{};                 ///< size of a written picture, except for six faces
+    bool padded = false;              ///< `written` has a column or a row more than what is drawn
+    std::optional<SheetGrid> sheet{}; ///< its cells are the frames
+};
+
+/// How the samples of a picture are stored.
+struct SampleEncoding {
     image::SampleDepth depth = image::SampleDepth::u8;
     image::Transfer transfer = image::Transfer::srgb; ///< of the files
     image::Alpha alpha = image::Alpha::where_needed;  ///< of Image; where_needed: alpha is 1
-    std::optional<SheetGrid> sheet{};                 ///< its cells are the frames
     /// Sample depth when all passes are written as layers; nothing: one picture.
     std::optional<image::SampleDepth> layers{};
-    std::string codec{};                  ///< of a video; empty: the default of its file type
-    VideoPace pace;                       ///< of a video
-    std::vector<VideoSegment> segments{}; ///< of a video: all its frames
-    render::RenderOptions drawing;        ///< for frames drawn whole
+    bool lens_numbers = false; ///< the file holds the numbers of a lens, without a legend
+};
+
+struct VideoPlan {
+    std::string codec{}; ///< empty: the default of its file type
+    VideoPace pace;
+    std::vector<VideoSegment> segments{}; ///< all its frames
+};
+
+struct DrawingPlan {
+    render::RenderOptions options; ///< for frames drawn whole
     render::Exposure exposure;
-    std::optional<TrialPlan> trial; ///< of a program with stronger optimisation than `drawing` has
-    std::optional<Shard> shard{};   ///< the shard that makes `frames`
-    std::vector<int> kept{};        ///< frames that already exist, not in `frames`
+    std::optional<lab::LensPlan> lens{};  ///< its numbers are drawn instead of the picture
+    std::optional<host::TrialPlan> trial; ///< of a program with stronger optimisation than `options` has
+};
+
+struct CapturePlan {
+    CaptureOptions options{}; ///< completed by --like
+    scene::Scene scene;
+    host::FrameSequence frames;
+    render::FrameStates states; ///< of `frames`: the state of any frame by its number
+    host::Fingerprint identity; ///< of the run; its device is set when there is a context
+    host::OutputName output;
+    WrittenArea area;
+    SampleEncoding encoding;
+    VideoPlan video;
+    DrawingPlan drawing;
+    std::optional<Shard> shard{}; ///< the shard that makes `frames`
+    std::vector<int> kept{};      ///< frames that already exist, not in `frames`
 
     /// Returns the fingerprint of a frame of the run.
-    Fingerprint identity_of(int frame) const { return identity.of_frame(states(frame)); }
-    bool keeps_alpha() const { return alpha != image::Alpha::where_needed; }
+    host::Fingerprint identity_of(int frame) const { return identity.of_frame(states(frame)); }
+    bool keeps_alpha() const { return encoding.alpha != image::Alpha::where_needed; }
     bool to_picture_files() const { return !output.standard_output() && !output.video(); }
 };
 
@@ -100,7 +145,12 @@ struct CapturePlan {
 image::Transfer drawn_transfer(const std::string& pass);
 
 /// Returns the codec of --codec. Fails (ErrorCode::usage) if a file of that name cannot have it.
-Result<std::string> parse_codec(const std::string& text, const OutputName& output);
+Result<std::string> parse_codec(const std::string& text, const host::OutputName& output);
+
+/// Sets what --lens changes in a plan whose frames, output and encoding are known; nothing without --lens.
+Result<void> plan_lens_output(CapturePlan& plan);
+/// Plans the lens for the loaded scene; nothing without --lens.
+Result<void> plan_lens(CapturePlan& plan);
 
 /// Returns true if --resume could continue it.
 bool can_be_resumed(const CapturePlan& plan);
@@ -120,25 +170,20 @@ Result<CaptureOptions> with_likeness(CaptureOptions options);
 struct SoundPlan {
     scene::Scene scene;
     OutputPath output;
-    platform::DeviceChoice device;
+    host::DeviceChoice device;
     glsl::Precision precision = glsl::Precision::single;
     TimePart part{0, 60};
+    render::HeardParts heard{};
 };
 
 /// Returns true if the output is a .wav file.
 bool wants_sound(const CaptureOptions& options);
 Result<SoundPlan> plan_sound(const CaptureOptions& options);
 
-// Compiles the programs that draw a plan, with tiles for large frames, and the faster of two programs if a
-// trial is planned.
-
-/// A context must be current. --timeout applies.
-Result<Trial> compile(const CapturePlan& plan, Interrupt& interrupt);
-
 /// Adds the options of `tidemark capture`, also for other code that parses its command line.
-void add_capture_options(Command command, CaptureOptions& options);
+void add_capture_options(host::Command command, CaptureOptions& options);
 
 /// Adds --codec, for every command that makes videos.
-void add_codec_option(Command command, std::string& codec);
+void add_codec_option(host::Command command, std::string& codec);
 
 } // namespace tidemark::cli

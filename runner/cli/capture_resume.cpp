@@ -19,6 +19,8 @@
 #include <thread>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace fs = std::filesystem;
 namespace {
 
@@ -33,28 +35,30 @@ Json knob_facts(const scene::Scene& scene) {
 /// which do not change pictures.
 Json drawing_facts(const CapturePlan& plan) {
     const auto& [extent, samples, pass, precision, specialise, extras, tile, marks, keeps_alpha] =
-        plan.drawing;
-    const bool differs = plan.trial && plan.trial->allowed;
-    Json facts = Json::array({int(samples), int(precision), int(specialise), marks, int(plan.depth),
+        plan.drawing.options;
+    const bool differs = plan.drawing.trial && plan.drawing.trial->allowed;
+    Json facts = Json::array({int(samples), int(precision), int(specialise), marks, int(plan.encoding.depth),
                               plan.output.pattern().extension().string(), plan.output.six_faces(),
-                              plan.output.video() ? Json(plan.pace.fps) : Json(),
-                              differs ? Json(*plan.trial->allowed) : Json()});
-    if (plan.exposure.several())
-        facts.push_back(Json::array({plan.exposure.samples, plan.exposure.shutter}));
-    if (plan.transfer != drawn_transfer(pass))
-        facts.push_back(Json::array({"transfer", int(plan.transfer)}));
-    if (!plan.codec.empty())
-        facts.push_back(Json::array({"codec", plan.codec}));
-    if (plan.output.video() && plan.pace.holds)
-        facts.push_back(Json::array({"ticks", ticks_of(plan.frames.frames, plan.pace)}));
+                              plan.output.video() ? Json(plan.video.pace.fps) : Json(),
+                              differs ? Json(*plan.drawing.trial->allowed) : Json()});
+    if (plan.drawing.exposure.several())
+        facts.push_back(Json::array({plan.drawing.exposure.samples, plan.drawing.exposure.shutter}));
+    if (plan.encoding.transfer != drawn_transfer(pass))
+        facts.push_back(Json::array({"transfer", int(plan.encoding.transfer)}));
+    if (!plan.video.codec.empty())
+        facts.push_back(Json::array({"codec", plan.video.codec}));
+    if (plan.output.video() && plan.video.pace.holds)
+        facts.push_back(Json::array({"ticks", ticks_of(plan.frames.frames, plan.video.pace)}));
     if (keeps_alpha)
-        facts.push_back(Json::array({"alpha", int(plan.alpha)}));
-    if (plan.layers)
-        facts.push_back(Json::array({"layers", int(*plan.layers)}));
-    if (plan.crop)
-        facts.push_back(Json::array({"crop", to_string(*plan.crop)}));
-    if (plan.padded)
-        facts.push_back(Json::array({"pad", plan.options.pad}));
+        facts.push_back(Json::array({"alpha", int(plan.encoding.alpha)}));
+    if (plan.encoding.layers)
+        facts.push_back(Json::array({"layers", int(*plan.encoding.layers)}));
+    if (plan.drawing.lens)
+        facts.push_back(Json::array({"lens", lab::to_string(plan.drawing.lens->lens)}));
+    if (plan.area.crop)
+        facts.push_back(Json::array({"crop", to_string(*plan.area.crop)}));
+    if (plan.area.padded)
+        facts.push_back(Json::array({"pad", plan.options.encoding.pad}));
     return facts;
 }
 
@@ -184,8 +188,8 @@ KeptFrames leave_out_pictures(CapturePlan& plan) {
 KeptFrames leave_out_segments(CapturePlan& plan) {
     KeptFrames kept;
     std::vector<int> missing;
-    for (size_t i = 0; i < plan.segments.size(); ++i) {
-        VideoSegment& segment = plan.segments[i];
+    for (size_t i = 0; i < plan.video.segments.size(); ++i) {
+        VideoSegment& segment = plan.video.segments[i];
         if (segment.others)
             continue;
         const auto note = image::note_of_segment(segment_file(plan.output, i).path());
@@ -292,11 +296,11 @@ Result<void> StateSaver::save_program() {
 }
 
 bool StateSaver::is_due(int frame) const {
-    if (plan_.options.state_every == 0 || !renderer_.plan().feedback || frame <= last_.value_or(0))
+    if (plan_.options.run.state_every == 0 || !renderer_.plan().feedback || frame <= last_.value_or(0))
         return false;
     if (!plan_.output.video())
-        return frame % plan_.options.state_every == 0;
-    return std::ranges::any_of(plan_.segments, [&](const VideoSegment& segment) {
+        return frame % plan_.options.run.state_every == 0;
+    return std::ranges::any_of(plan_.video.segments, [&](const VideoSegment& segment) {
         return segment.is_to_be_made() && segment.frames.front() == frame;
     });
 }
@@ -375,7 +379,7 @@ Result<void> SegmentedVideo::claim() {
 }
 
 Result<void> SegmentedVideo::open_next() {
-    const std::vector<VideoSegment>& segments = plan_.segments;
+    const std::vector<VideoSegment>& segments = plan_.video.segments;
     while (next_ < segments.size() && !segments[next_].is_to_be_made())
         ++next_;
     if (next_ == segments.size())
@@ -390,13 +394,13 @@ Result<void> SegmentedVideo::open_next() {
 Result<void> SegmentedVideo::push(const image::Image& image) {
     if (!writer_)
         TRY(open_next());
-    for (int tick = 0; tick < plan_.segments[next_ - 1].ticks[pushed_]; ++tick)
+    for (int tick = 0; tick < plan_.video.segments[next_ - 1].ticks[pushed_]; ++tick)
         TRY(writer_->push(image));
-    return ++pushed_ < plan_.segments[next_ - 1].frames.size() ? Result<void>() : close();
+    return ++pushed_ < plan_.video.segments[next_ - 1].frames.size() ? Result<void>() : close();
 }
 
 Result<void> SegmentedVideo::close() {
-    auto written = writer_->finish(note_of(plan_, plan_.segments[next_ - 1]));
+    auto written = writer_->finish(note_of(plan_, plan_.video.segments[next_ - 1]));
     writer_.reset();
     if (written)
         written_ += pushed_;
@@ -405,17 +409,17 @@ Result<void> SegmentedVideo::close() {
 
 Result<void> SegmentedVideo::finish(const std::filesystem::path& sound) {
     std::vector<image::SegmentFile> files;
-    for (size_t i = 0; i < plan_.segments.size(); ++i)
-        files.push_back({segment_file(plan_.output, i).path(), ticks_in(plan_.segments[i])});
+    for (size_t i = 0; i < plan_.video.segments.size(); ++i)
+        files.push_back({segment_file(plan_.output, i).path(), ticks_in(plan_.video.segments[i])});
     TRY(image::join_segments(plan_.output.of_frame(0), files, format(), sound));
     remove_segments();
     return {};
 }
 
 Result<void> join(CapturePlan plan, const std::filesystem::path& sound) {
-    for (VideoSegment& segment : plan.segments)
+    for (VideoSegment& segment : plan.video.segments)
         segment.kept = true;
-    SegmentedVideo video = TRY(SegmentedVideo::create(plan, plan.written));
+    SegmentedVideo video = TRY(SegmentedVideo::create(plan, plan.area.written));
     return video.finish(sound);
 }
 

@@ -22,7 +22,7 @@ namespace tidemark::cli {
 
 /// Returns the fingerprint that all frames of a capture share, for no device yet; for a plan of all its
 /// frames. Reads the files that the scene reads.
-Fingerprint identity_of_run(const CapturePlan& plan);
+host::Fingerprint identity_of_run(const CapturePlan& plan);
 
 // The state for continuing an interrupted capture: the buffers before a frame, and the program that draws it.
 // It is stored next to the frames as `frame_0120.png.state`, written whole or not at all, with a checksum at
@@ -38,18 +38,18 @@ struct SavedState {
 inline constexpr size_t k_largest_saved_buffer = 0x7fffffff;
 
 /// Returns the file of the state before a frame. A video has one file for all.
-OutputPath state_file(const OutputName& output, int frame);
+OutputPath state_file(const host::OutputName& output, int frame);
 
 /// Returns the existing state files of an output, the latest frame first.
-std::vector<std::filesystem::path> find_states(const OutputName& output);
+std::vector<std::filesystem::path> find_states(const host::OutputName& output);
 
 /// Removes all files that `find_states` finds.
-void remove_states(const OutputName& output);
+void remove_states(const host::OutputName& output);
 
 /// Reads the state if the file is complete, at most `most_bytes` long, and was written with the fingerprint
 /// that `fingerprint_of` returns for its frame. Otherwise only the first line is read.
 std::optional<SavedState> read_state(const std::filesystem::path& file,
-                                     const std::function<Fingerprint(int frame)>& fingerprint_of,
+                                     const std::function<host::Fingerprint(int frame)>& fingerprint_of,
                                      uint64_t most_bytes);
 
 // Saves the states that `--resume` needs, while a capture draws: the chosen program before the first frame,
@@ -85,7 +85,7 @@ private:
 std::vector<VideoSegment> segments_of(const std::vector<int>& frames, const VideoPace& pace, int length);
 
 /// Returns for example `wave.mp4.segment-0003.mp4`.
-OutputPath segment_file(const OutputName& video, size_t index);
+OutputPath segment_file(const host::OutputName& video, size_t index);
 
 /// Returns the fingerprint that a segment stores as its note.
 std::string note_of(const CapturePlan& plan, const VideoSegment& segment);
@@ -110,7 +110,9 @@ private:
     Result<void> claim();
     Result<void> open_next();
     Result<void> close();
-    image::VideoFormat format() const { return {extent_, plan_.pace.fps, plan_.codec, plan_.alpha}; }
+    image::VideoFormat format() const {
+        return {extent_, plan_.video.pace.fps, plan_.video.codec, plan_.encoding.alpha};
+    }
     void remove_segments() const;
 
     const CapturePlan& plan_;
@@ -147,6 +149,6 @@ struct Wrong {
 void note(std::vector<Wrong>& all, std::string what, const std::string& file);
 
 /// Returns the files of a frame: one picture, or the six faces of a cube.
-std::vector<std::filesystem::path> files_of(const OutputName& output, int frame);
+std::vector<std::filesystem::path> files_of(const host::OutputName& output, int frame);
 
 } // namespace tidemark::cli

@@ -1,15 +1,16 @@
 #include "cli/capture_run.hpp"
 
 #include "base/error.hpp"
-#include "base/software_renderer.hpp"
 #include "base/supervision.hpp"
 #include "host/console.hpp"
+#include "host/program_trial.hpp"
 #include "host/scene_report.hpp"
-#include "host/version.hpp"
 #include "lab/instrumented_pass.hpp"
 #include "media/comparison.hpp"
 #include "media/image.hpp"
 #include "render/exposure.hpp"
+#include "render/gl_context.hpp"
+#include "render/picture_parts.hpp"
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -22,6 +23,8 @@
 #include <utility>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace {
 
 /// One frame is drawn while the previous one is copied and the one before that is encoded.
@@ -53,14 +56,84 @@ int frame_behind(const std::vector<int>& frames) {
     return frames.size() > 1 ? 2 * last - frames[frames.size() - 2] : last + 1;
 }
 
+/// Returns the size of the tiles; nothing if frames are drawn whole.
+Result<std::optional<Extent>> choose_tile(const CapturePlan& plan) {
+    const int limit = gl::query_capabilities().largest_target;
+    if (plan.options.drawing.tile)
+        return render::tile_of_side(*plan.options.drawing.tile, limit).map([](Extent tile) {
+            return std::optional(tile);
+        });
+    const bool whole = plan.output.video() || plan.encoding.layers || plan.area.sheet || plan.drawing.lens;
+    const auto tile = whole ? std::nullopt
+                            : render::tile_for(plan.drawing.options.extent,
+                                               4 * image::size_of(plan.drawing.options.samples), limit);
+    return plan.drawing.exposure.several() && !tile ? plan.drawing.options.extent
+                                                    : tile; // one tile, shifted for each sample
+}
+
+/// Rejects options that the compiled scene does not allow.
+Result<void> check_compiled(const CapturePlan& plan, const render::Renderer& renderer) {
+    const auto refuse = [](std::string why) { return fail(ErrorCode::usage, std::move(why)); };
+    if (plan.options.drawing.tile && !renderer.tiles())
+        return refuse(fmt::format(
+            "--tile: {} cannot be drawn in tiles: it is a cube, another pass reads it, or it discards pixels",
+            renderer.shown_pass().name));
+    if (plan.options.run.loop && renderer.tiles() && renderer.tiles()->count() > 1)
+        return refuse("--loop: frames drawn in tiles cannot be compared; give a smaller --size");
+    if (plan.drawing.exposure.several() && renderer.shown_pass().kind != scene::PassKind::image)
+        return refuse("--samples: only frames of Image can be averaged");
+    if (plan.drawing.exposure.several() && !renderer.tiles())
+        return refuse("--samples: Image cannot be drawn several times per frame: a pass reads it, or it "
+                      "discards pixels");
+    if (plan.drawing.exposure.shutter > 0 && renderer.plan().feedback)
+        return refuse("--shutter: this scene reads its own last frame, so there are no moments between two "
+                      "frames; --samples alone smooths its edges");
+    return {};
+}
+
+/// Returns the faster of two programs if a trial is planned. No trial in tiles: the picture is too
+/// large to draw it for one.
+Result<Trial> choose_renderer(const CapturePlan& plan, render::RenderOptions drawing) {
+    if (!plan.drawing.trial || drawing.tile)
+        return Trial{TRY(render::Renderer::create(plan.scene, drawing))};
+    drawing.specialise =
+        plan.drawing.trial->allowed ? glsl::Specialise::constants : glsl::Specialise::invariant_uniforms;
+    auto trial = TRY(choose_program(plan.scene, drawing, *plan.drawing.trial));
+    if (!trial.said.empty())
+        say(trial.said);
+    return trial;
+}
+
+Result<Trial> compile_all(const CapturePlan& plan, Interrupt& interrupt) {
+    const Interrupt::Immediate at_once(interrupt);
+    Watchdog watchdog;
+    const Watchdog::Watch watch(watchdog, {"compiling", plan.options.run.timeout});
+    const auto tile = TRY(choose_tile(plan));
+    render::RenderOptions drawing = plan.drawing.options;
+    drawing.tile = tile;
+    auto compiled = TRY(choose_renderer(plan, drawing));
+    TRY(check_compiled(plan, compiled.renderer));
+    return compiled;
+}
+
 } // namespace
+
+Result<Trial> compile(const CapturePlan& plan, Interrupt& interrupt) {
+    if (!plan.frames.frames.empty())
+        Doing::note_frame(DoingPage::Frame{plan.frames.frames.front(), false});
+    return compile_all(plan, interrupt).map_error([&](Error error) {
+        if (error.code == ErrorCode::no_memory && !plan.frames.frames.empty())
+            error.message += fmt::format(" (before frame {})", plan.frames.frames.front());
+        return error;
+    });
+}
 
 /// A driver that draws on the CPU copies pixels itself and waits for the drawing before: nothing more
 /// overlaps, and there is one copy more (figures: tests/bench/README.md).
 bool FramesAhead::pays(std::string_view renderer) {
     const char* const variable = std::getenv("TIDEMARK_READ_BACK");
     const std::string_view wish = variable ? variable : "";
-    return wish == "ahead" || (wish != "at-once" && !is_software_renderer(renderer));
+    return wish == "ahead" || (wish != "at-once" && !gl::is_software_renderer(renderer));
 }
 
 FramesAhead::FramesAhead(const render::Renderer& renderer, Watchdog& dog, std::optional<double> limit)
@@ -136,7 +209,7 @@ std::string LoopCheck::words(const std::vector<int>& frames) const {
 }
 
 std::string Capture::cut_loops_warning() {
-    if (!is_software_renderer(driver_.renderer) || !lab::may_exceed_safe_iterations(renderer_))
+    if (!gl::is_software_renderer(driver_.renderer) || !lab::may_exceed_safe_iterations(renderer_))
         return {};
     const auto limit = lab::loop_limit();
     if (!limit || !*limit)
@@ -160,10 +233,10 @@ Result<bool> Capture::run(Interrupt& interrupt) {
     ::mallopt(M_TRIM_THRESHOLD, 4 * k_kept_bytes); // including its copies on the way to a file
     TRY(delivery_.open(interrupt));
     if (draws_ahead())
-        ahead_.emplace(renderer_, watchdog_, plan_.options.timeout);
+        ahead_.emplace(renderer_, watchdog_, plan_.options.run.timeout);
     if (!plan_.frames.frames.empty()) {
         Doing::note_frame(DoingPage::Frame{plan_.frames.frames.front(), true});
-        prepare(interrupt);
+        TRY(prepare(interrupt));
         TRY(check_driver("preparing the first frame"));
         restore();
         if (in_doubt_ && !plan_.output.standard_output())
@@ -189,13 +262,12 @@ Result<bool> Capture::run(Interrupt& interrupt) {
     }
     TRY(hand_over_all_ahead());
     Doing::note_frame({});
-    if (plan_.options.loop && whole_frames() > 0)
-        TRY(close_loop(interrupt));
+    const bool loop_known = !loop_.begun() || TRY(close_loop(interrupt));
     TRY(delivery_.close());
-    if (plan_.shard && plan_.options.state_every > 0 && !plan_.frames.frames.empty() &&
+    if (plan_.shard && plan_.options.run.state_every > 0 && !plan_.frames.frames.empty() &&
         renderer_.plan().feedback)
         TRY(saver_.save_buffers(plan_.frames.frames.back() + 1)); // the next shard may start from it
-    return true;
+    return loop_known;
 }
 
 /// Returns false with --json, which reports each frame's own time, and if more is read of a frame than the
@@ -203,21 +275,24 @@ Result<bool> Capture::run(Interrupt& interrupt) {
 bool Capture::draws_ahead() const {
     const scene::PassKind shown = renderer_.shown_pass().kind;
     const bool whole_in_memory =
-        !delivery_.in_bands() && !plan_.exposure.several() && shown != scene::PassKind::cubemap;
+        !delivery_.in_bands() && !plan_.drawing.exposure.several() && shown != scene::PassKind::cubemap;
     const bool tells_non_finite =
         shown == scene::PassKind::image || renderer_.samples() == image::SampleType::f32;
-    return plan_.frames.frames.size() > 1 && whole_in_memory && tells_non_finite && !plan_.layers &&
-           !plan_.options.json && FramesAhead::pays(driver_.renderer);
+    return plan_.frames.frames.size() > 1 && whole_in_memory && tells_non_finite && !plan_.encoding.layers &&
+           !plan_.drawing.lens && !plan_.options.run.json && FramesAhead::pays(driver_.renderer);
 }
 
 /// Does the work that drivers defer until the first draw, so that it does not count for a frame's time or
 /// limit.
-void Capture::prepare(Interrupt& interrupt) {
+Result<void> Capture::prepare(Interrupt& interrupt) {
     const Interrupt::Immediate at_once(interrupt);
-    const Watchdog::Watch watch(watchdog_, {"preparing the first frame", plan_.options.timeout});
+    const Watchdog::Watch watch(watchdog_, {"preparing the first frame", plan_.options.run.timeout});
     const auto start = Clock::now();
+    if (plan_.drawing.lens)
+        lens_.emplace(TRY(LensDrawing::create(plan_, renderer_)));
     renderer_.warm_up(inputs_of(plan_.states(plan_.frames.frames.front())));
     prepare_milliseconds_ = milliseconds_since(start);
+    return {};
 }
 
 /// Restores the buffers of an earlier run; an unusable state is ignored.
@@ -248,7 +323,7 @@ Result<bool> Capture::step_to(int frame, const Interrupt& interrupt, FrameRecord
         else if (steps)
             steps->advance();
         work.start = Clock::now();
-        work.watch.emplace(watchdog_, Watchdog::frame_task(step, plan_.options.timeout, work.begun));
+        work.watch.emplace(watchdog_, Watchdog::frame_task(step, plan_.options.run.timeout, work.begun));
         return true;
     });
     TRY(std::move(saved));
@@ -276,7 +351,13 @@ Result<std::optional<WrittenFrame>> Capture::draw(int frame, const Interrupt& in
     std::optional<Work> work(std::in_place);
     if (!TRY(step_to(frame, interrupt, drawn.record, *work)))
         return std::nullopt;
-    auto pixels = plan_.exposure.several() ? draw_samples(frame, interrupt) : std::optional(read_back());
+    auto pixels = lens_ ? std::optional<DrawnPixels>(TRY(lens_->draw(frame, interrupt)))
+                  : plan_.drawing.exposure.several() ? draw_samples(frame, interrupt)
+                                                     : std::optional(read_back());
+    if (lens_ && interrupt.requested())
+        return std::nullopt;
+    if (lens_ && plan_.options.run.json)
+        lens_reports_.push_back(lens_->report(plan_.frames.frames.size() == 1));
     if (!pixels)
         return std::nullopt;
     TRY(check_driver(fmt::format("drawing frame {}", frame)));
@@ -298,13 +379,13 @@ Result<void> Capture::check_driver(const std::string& doing) {
 /// Converts a frame to what is written of it, and shows that to the check of the loop.
 WrittenFrame Capture::finish(DrawnFrame drawn) {
     WrittenFrame frame = delivery_.prepare(std::move(drawn));
-    if (plan_.options.loop)
+    if (plan_.options.run.loop)
         loop_.see(frame.pictures);
     return frame;
 }
 
 /// Draws the frame after the last one for the comparison, and one more if the sequence may lack a frame; they
-/// are not written.
+/// are not written. Returns false if interrupted.
 Result<bool> Capture::close_loop(const Interrupt& interrupt) {
     std::vector<int> frames = plan_.frames.frames;
     frames.push_back(frame_behind(frames));
@@ -371,13 +452,13 @@ Result<Capture::Outcome> Capture::make_in_tiles(int frame, const Interrupt& inte
     work.watch.reset();
     auto output = TRY(delivery_.open_bands(frame));
     BandOutput& bands = *output;
-    const render::ExposedFrame exposed = expose(plan_.exposure, plan_.states(frame));
+    const render::ExposedFrame exposed = expose(plan_.drawing.exposure, plan_.states(frame));
     Progress progress("tiles", renderer_.tiles()->count() * exposed.samples.size());
     const auto before_tile = [&] {
         if (work.watch)
             progress.advance();
         work.watch.reset();
-        work.watch.emplace(watchdog_, Watchdog::frame_task(frame, plan_.options.timeout, work.start));
+        work.watch.emplace(watchdog_, Watchdog::frame_task(frame, plan_.options.run.timeout, work.start));
         return !interrupt.requested();
     };
     auto drawn = render::draw_bands(renderer_, exposed, before_tile, [&](image::Image band) {
@@ -406,7 +487,7 @@ DrawnPixels Capture::read_back() const {
 
 /// Returns nothing if interrupted.
 std::optional<DrawnPixels> Capture::draw_samples(int frame, const Interrupt& interrupt) {
-    const render::ExposedFrame exposed = expose(plan_.exposure, plan_.states(frame));
+    const render::ExposedFrame exposed = expose(plan_.drawing.exposure, plan_.states(frame));
     Progress progress("samples", exposed.samples.size());
     return draw_in_tiles(renderer_, exposed, [&] {
         progress.advance();
@@ -443,17 +524,17 @@ nlohmann::ordered_json Capture::report() const {
     report["defines"] = plan_.options.scene.defines;
     report["prepare_milliseconds"] = prepare_milliseconds_;
     report["left_out"] = facts_of(renderer_).left_out;
-    if (plan_.crop) {
-        const auto& [x, y, size] = *plan_.crop;
+    if (plan_.area.crop) {
+        const auto& [x, y, size] = *plan_.area.crop;
         report["crop"] = {x, y, size.width, size.height};
     }
-    if (plan_.sheet)
-        report["sheet"] = {plan_.sheet->columns, plan_.sheet->rows};
-    if (plan_.layers)
+    if (plan_.area.sheet)
+        report["sheet"] = {plan_.area.sheet->columns, plan_.area.sheet->rows};
+    if (plan_.encoding.layers)
         report["layers"] = layer_names(renderer_);
-    if (plan_.options.resume)
+    if (plan_.options.run.resume)
         report["kept"] = plan_.kept;
-    if (plan_.options.loop)
+    if (loop_.closed())
         report["loop"] = {
             {"seamless", loop_.seamless()}, {"closing_psnr", loop_.closing()}, {"step_psnr", loop_.step()}};
     report["frames"] = nlohmann::ordered_json::array();
@@ -472,6 +553,8 @@ nlohmann::ordered_json Capture::report() const {
                                    {"milliseconds", record.milliseconds}});
         if (plan_.keeps_alpha())
             frame["no_coverage"] = record.no_coverage;
+        if (const size_t index = report["frames"].size() - 1; index < lens_reports_.size())
+            frame["lens"] = lens_reports_[index];
     }
     return report;
 }

@@ -9,7 +9,7 @@
 #include "render/gl_context.hpp"
 #include "render/gl_sync.hpp"
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <deque>
@@ -32,31 +32,31 @@ public:
     static bool pays(std::string_view renderer);
 
     /// `renderer` and `dog` must outlive it. `limit`: seconds for a frame.
-    FramesAhead(const render::Renderer& renderer, Watchdog& dog, std::optional<double> limit);
+    FramesAhead(const render::Renderer& renderer, host::Watchdog& dog, std::optional<double> limit);
 
     bool empty() const { return ring_.empty(); }
     bool full() const { return ring_.full(); }
 
     /// Adds the frame that was just drawn, whose work began at `begun`. Returns false if the driver has no
     /// memory for it.
-    bool add(const FrameRecord& record, Watchdog::Clock::time_point begun);
+    bool add(const FrameRecord& record, host::Watchdog::Clock::time_point begun);
     /// Returns the oldest frame; waits for it.
     DrawnFrame take();
 
 private:
     struct Waiting {
         FrameRecord record;
-        Watchdog::Clock::time_point begun;
+        host::Watchdog::Clock::time_point begun;
     };
 
     const render::Renderer& renderer_;
-    Watchdog& dog_;
+    host::Watchdog& dog_;
     std::optional<double> limit_;
     gl::PixelRing ring_;
     std::deque<Waiting> waiting_;
     /// The time of a later frame counts from here at the earliest, so that waiting for an earlier one is not
     /// included.
-    Watchdog::Clock::time_point last_taken_;
+    host::Watchdog::Clock::time_point last_taken_;
 };
 
 // Checks whether a sequence is a seamless loop: the frame after the last must equal the first, or at least be
@@ -70,6 +70,8 @@ public:
     /// Ends the sequence with the frame that was added last, the one after its end.
     void close();
 
+    /// Returns whether it has seen a frame. Frames that are written count later.
+    bool begun() const { return seen_ > 0; }
     bool closed() const { return closed_; }
 
     // After `close`:
@@ -98,16 +100,45 @@ private:
     std::optional<double> beyond_{}; ///< the same of the frame after the closing one
 };
 
+// Compiles the programs that draw a plan, with tiles for large frames, and the faster of two programs if a
+// trial is planned.
+
+/// A context must be current. --timeout applies.
+Result<host::Trial> compile(const CapturePlan& plan, host::Interrupt& interrupt);
+
+/// Draws the numbers of a lens instead of a frame's picture.
+class LensDrawing {
+public:
+    /// `plan` and `plain`, the scene's own renderer, must outlive it.
+    static Result<LensDrawing> create(const CapturePlan& plan, render::Renderer& plain);
+
+    /// Returns the picture with its legend, or the raw numbers, of the frame that `plain` has drawn.
+    Result<image::Image> draw(int frame, const host::Interrupt& interrupt);
+    /// Returns the statistics of the frame drawn last; with `all` also its numbers.
+    nlohmann::ordered_json report(bool all) const;
+
+private:
+    LensDrawing(const CapturePlan& plan, lab::LensPlan lens, render::Renderer& plain)
+        : plan_(&plan), lens_(std::move(lens)), plain_(&plain) {}
+
+    const CapturePlan* plan_;
+    lab::LensPlan lens_; ///< with the weights of the device
+    render::Renderer* plain_;
+    std::unique_ptr<render::Renderer> drawn_;
+    std::optional<render::FrameStepper> stepper_; ///< of `drawn_`
+    lab::LensNumbers numbers_;
+};
+
 class Capture {
 public:
     /// `plan` and `compiled` must outlive it. `sound` is a WAV file for a video; empty: silent.
-    Capture(const CapturePlan& plan, Trial& compiled, std::filesystem::path sound = {});
+    Capture(const CapturePlan& plan, host::Trial& compiled, std::filesystem::path sound = {});
 
     /// Starts from a saved state instead of the beginning. Call it before `run`.
     void start_from(const SavedState& state) { start_ = &state; }
 
     /// Draws and delivers every frame; returns false if it was interrupted.
-    Result<bool> run(Interrupt& interrupt);
+    Result<bool> run(host::Interrupt& interrupt);
 
     /// Returns the number of complete frames on disk, including those kept from before: `--resume` continues
     /// from them.
@@ -123,32 +154,32 @@ public:
     nlohmann::ordered_json report() const;
 
 private:
-    using Clock = Watchdog::Clock;
+    using Clock = host::Watchdog::Clock;
     enum class Outcome { made, interrupted, unwanted };
     /// The work on one frame.
     struct Work {
         Clock::time_point begun = Clock::now(); ///< includes the frames that lead to it
         Clock::time_point start = begun;
-        std::optional<Watchdog::Watch> watch;
+        std::optional<host::Watchdog::Watch> watch;
     };
 
-    void prepare(Interrupt& interrupt);
+    Result<void> prepare(host::Interrupt& interrupt);
     void restore();
     bool draws_ahead() const;
-    Result<Outcome> make(int frame, const Interrupt& interrupt);
-    Result<Outcome> make_ahead(int frame, const Interrupt& interrupt);
+    Result<Outcome> make(int frame, const host::Interrupt& interrupt);
+    Result<Outcome> make_ahead(int frame, const host::Interrupt& interrupt);
     Result<Outcome> hand_over_ahead(DrawnFrame drawn);
     Result<Outcome> hand_over_all_ahead();
-    Result<bool> step_to(int frame, const Interrupt& interrupt, FrameRecord& record, Work& work);
+    Result<bool> step_to(int frame, const host::Interrupt& interrupt, FrameRecord& record, Work& work);
     Result<bool> prepare_for(int frame, bool long_way);
-    Result<std::optional<WrittenFrame>> draw(int frame, const Interrupt& interrupt);
+    Result<std::optional<WrittenFrame>> draw(int frame, const host::Interrupt& interrupt);
     Result<void> check_driver(const std::string& doing);
     WrittenFrame finish(DrawnFrame drawn);
     Result<Outcome> hand_over(WrittenFrame frame);
-    Result<bool> close_loop(const Interrupt& interrupt);
-    Result<Outcome> make_in_tiles(int frame, const Interrupt& interrupt);
+    Result<bool> close_loop(const host::Interrupt& interrupt);
+    Result<Outcome> make_in_tiles(int frame, const host::Interrupt& interrupt);
     DrawnPixels read_back() const;
-    std::optional<DrawnPixels> draw_samples(int frame, const Interrupt& interrupt);
+    std::optional<DrawnPixels> draw_samples(int frame, const host::Interrupt& interrupt);
     void rescue_output();
 
     const CapturePlan& plan_;
@@ -160,8 +191,10 @@ private:
     const SavedState* start_ = nullptr;
     double prepare_milliseconds_ = 0;
     LoopCheck loop_;
+    std::optional<LensDrawing> lens_;
+    std::vector<nlohmann::ordered_json> lens_reports_; ///< one for each frame, with --json
     Delivery delivery_;
-    Watchdog watchdog_; ///< its thread may use all members before it
+    host::Watchdog watchdog_; ///< its thread may use all members before it
     std::optional<FramesAhead> ahead_;
 };
 

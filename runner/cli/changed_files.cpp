@@ -13,6 +13,8 @@
 #include <set>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace {
 
 /// The changes for one file.
@@ -92,8 +94,11 @@ Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
 }
 
 Result<std::string> CuredFiles::text_of(const std::string& file) {
-    if (!texts_.contains(file))
-        texts_[file] = TRY(read_text_file(file));
+    if (texts_.contains(file))
+        return texts_[file];
+    std::error_code ignored;
+    const auto held = unsaved_.find(std::filesystem::weakly_canonical(file, ignored));
+    texts_[file] = held != unsaved_.end() ? held->second : TRY(read_text_file(file));
     return texts_[file];
 }
 

@@ -28,6 +28,9 @@ Result<std::vector<ChangedFile>> with_settings(const scene::Scene& scene,
 /// writes do not move the tokens at which fixes are placed.
 class CuredFiles {
 public:
+    /// `unsaved`: texts of an editor, read in place of the files.
+    explicit CuredFiles(const scene::UnsavedTexts& unsaved = {}) : unsaved_(unsaved) {}
+
     /// Returns every file that the last fix changes; `before` is the file with the earlier fixes. Fails
     /// (ErrorCode::write) if the file does not have the tokens that the fix replaces.
     Result<std::vector<ChangedFile>> with_last(std::span<const glsl::Cure> cures);
@@ -35,6 +38,7 @@ public:
 private:
     Result<std::string> text_of(const std::string& file);
 
+    scene::UnsavedTexts unsaved_;
     std::map<std::string, std::string> texts_{};
 };
 

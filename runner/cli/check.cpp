@@ -1,6 +1,7 @@
 #include "cli/check.hpp"
 
 #include "base/error.hpp"
+#include "base/file.hpp"
 #include "cli/check_report.hpp"
 #include "cli/commands.hpp"
 #include "host/console.hpp"
@@ -10,7 +11,7 @@
 #include "host/requests.hpp"
 #include "host/scene_report.hpp"
 #include "host/supervision.hpp"
-#include "host/version.hpp"
+#include "render/gl_context.hpp"
 #include "shader/portability.hpp"
 
 #include <fmt/format.h>
@@ -21,6 +22,9 @@
 #include <optional>
 
 namespace tidemark::cli {
+
+using namespace host;
+using host::resolve;
 namespace {
 
 Json json_of(const Diagnostic& diagnostic) {
@@ -30,12 +34,38 @@ Json json_of(const Diagnostic& diagnostic) {
             {"message", diagnostic.message}};
 }
 
+/// Returns a finding for each file of the scene that begins with a byte order mark. Loading removes it, but
+/// it goes along if the text is pasted into the site.
+std::vector<Diagnostic> byte_order_marks(const scene::Scene& scene) {
+    constexpr std::string_view k_mark = "\xEF\xBB\xBF";
+    std::vector<std::string> files{scene.common.lines().locate(1).file};
+    for (const scene::Pass& pass : scene.passes)
+        files.push_back(pass.text.lines().locate(1).file);
+    std::vector<Diagnostic> found;
+    for (const std::string& file : files) {
+        const bool seen =
+            std::ranges::any_of(found, [&](const Diagnostic& each) { return each.where.file == file; });
+        const auto text = file.empty() || file.ends_with(".json") || seen ? fail(ErrorCode::load, "")
+                                                                          : read_text_file(file);
+        if (text && text->starts_with(k_mark))
+            found.push_back({{file, 1, 1},
+                             Severity::warning,
+                             "the file begins with a byte order mark (U+FEFF): the site refuses it if it is "
+                             "pasted too; save as UTF-8 without one"});
+    }
+    return found;
+}
+
 } // namespace
 
-Result<int> check_portable(const SceneRequest& request, const platform::DeviceChoice& device, bool as_json) {
+Result<int> check_portable(const SceneRequest& request, const host::DeviceChoice& device, bool as_json) {
     const auto scene = TRY(load(request));
-    std::vector<Diagnostic> found = glsl::portability_lint(scene);
-    const auto context = platform::HeadlessContext::create(device);
+    std::vector<Diagnostic> found = byte_order_marks(scene);
+    std::ranges::move(glsl::portability_lint(scene), std::back_inserter(found));
+    // A compiler of OpenGL ES is stricter than one of a desktop in a text of version 300 es.
+    auto context = host::HeadlessContext::create({host::with_es(device.name), device.gpu_only});
+    if (!context)
+        context = host::HeadlessContext::create(device);
     std::optional<SlowNotice> notice;
     if (context)
         add_site_refusals(scene, found, [&](const std::string& pass) {
@@ -49,6 +79,7 @@ Result<int> check_portable(const SceneRequest& request, const platform::DeviceCh
                  {"scene", scene.file.string()},
                  {"portable", found.empty()},
                  {"compiled", context.has_value()},
+                 {"compiler", context ? Json(gl::query_capabilities().version) : Json(nullptr)},
                  {"findings", Json::array()}};
     std::string text = found.empty() ? "nothing found\n" : "";
     for (const Diagnostic& diagnostic : found) {

@@ -15,6 +15,8 @@
 #include <utility>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace {
 
 using lab::Family;
@@ -36,7 +38,7 @@ struct Origin {
     std::vector<SourceLocation> places;
 };
 
-/// Reads the origin from a trace, or both if mending another operation mends the pixel.
+/// Reads the origin from a trace, or both if fixing another operation fixes the pixel.
 Origin origin_of(const Json& trace) {
     Origin origin;
     for (const char* name : {"fix", "first"}) {
@@ -127,7 +129,7 @@ std::string fix_command(const ProbesRequest& request, bool hashes) {
     return shell_words(words);
 }
 
-/// Sets the command: the first that mends the cause, otherwise the first that shows it.
+/// Sets the command: the first that fixes the cause, otherwise the first that shows it.
 void add_command(const ProbesRequest& request, JoinedFinding& finding) {
     const bool untraced = finding.results.front()->answer.non_finite && finding.places.empty();
     for (const Remedy wanted : {Remedy::fix_hashes, Remedy::fix})
@@ -144,7 +146,7 @@ void add_command(const ProbesRequest& request, JoinedFinding& finding) {
 }
 
 JoinedFinding joined(const ProbesRequest& request, SameCause group) {
-    // A difference on other GPUs tells the author more than rounding in general, which `horizon` reports.
+    // A difference on other GPUs is more specific than rounding in general, which `horizon` reports.
     std::ranges::stable_sort(group, std::greater(), [](const Plain& plain) {
         return std::pair(plain.result->answer.verdict, family_of(*plain.result) == Family::sines);
     });

@@ -4,14 +4,13 @@
 #include "base/file.hpp"
 #include "cli/changed_files.hpp"
 #include "cli/check.hpp"
-#include "cli/import.hpp"
+#include "cli/commands.hpp"
 #include "host/console.hpp"
 #include "host/forked.hpp"
 #include "host/frame_files.hpp"
 #include "host/gl_context.hpp"
 #include "host/json.hpp"
 #include "host/requests.hpp"
-#include "host/version.hpp"
 #include "lab/fix.hpp"
 #include "lab/report_page.hpp"
 #include "render/gl_context.hpp"
@@ -22,8 +21,13 @@
 #include <algorithm>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace tidemark::cli {
+
+using namespace host;
+using host::number;
+using host::to_json;
 
 /// A fix as text (cli/check_fix.cpp), and its change of the files.
 struct CureCard {
@@ -83,7 +87,7 @@ std::string fix_page(const std::string& scene, std::span<const CureCard> cures,
 
 namespace {
 
-Json number(const std::optional<double>& value) {
+Json number_or_null(const std::optional<double>& value) {
     return value ? Json(*value) : Json();
 }
 
@@ -114,10 +118,10 @@ Json to_json(const lab::Offer& offer, const glsl::Cure& cure) {
             {"pixels_compared", seen.compared},
             {"pixels_changed", seen.changed},
             {"flip", seen.flip},
-            {"error_before", number(seen.error_before)},
-            {"error_after", number(seen.error_after)},
-            {"ms_before", number(seen.milliseconds_before)},
-            {"ms_after", number(seen.milliseconds_after)}};
+            {"error_before", number_or_null(seen.error_before)},
+            {"error_after", number_or_null(seen.error_after)},
+            {"ms_before", number_or_null(seen.milliseconds_before)},
+            {"ms_after", number_or_null(seen.milliseconds_after)}};
 }
 
 namespace {
@@ -135,7 +139,7 @@ std::string characters_of(std::string_view bytes) {
     return text;
 }
 
-std::string bytes_of(std::string_view characters) {
+std::string decoded_bytes(std::string_view characters) {
     std::string bytes;
     for (size_t i = 0; i < characters.size(); ++i) {
         const auto first = static_cast<unsigned char>(characters[i]);
@@ -155,23 +159,23 @@ Json files_json(const std::vector<ChangedFile>& files) {
     return json;
 }
 
-std::vector<ChangedFile> files_of(const Json& json) {
+} // namespace
+
+std::vector<ChangedFile> files_of_offer(const Json& line) {
     std::vector<ChangedFile> files;
-    for (const Json& file : json)
-        files.push_back({bytes_of(file.at("file").get<std::string>()),
-                         bytes_of(file.at("before").get<std::string>()),
-                         bytes_of(file.at("after").get<std::string>())});
+    for (const Json& file : line.at("files"))
+        files.push_back({decoded_bytes(file.at("file").get<std::string>()),
+                         decoded_bytes(file.at("before").get<std::string>()),
+                         decoded_bytes(file.at("after").get<std::string>())});
     return files;
 }
 
-/// Runs in a child process, since a driver may hang or crash: sends one line for each fix and for each
-/// remaining finding.
-Result<void> mend(const FixOptions& options, const scene::Scene& scene, const lab::Promises& promises,
-                  const Tell& tell) {
-    const auto context = TRY(platform::HeadlessContext::create(options.device));
+Result<void> send_fixes(const FixOptions& options, const scene::Scene& scene, const lab::Promises& promises,
+                        const Tell& tell, std::function<void(const Result<lab::ShownError>&)> measured) {
     lab::Mending mending;
     mending.hashes = options.hashes;
-    CuredFiles cured;
+    mending.measured = std::move(measured);
+    CuredFiles cured(options.scene.files.unsaved);
     std::vector<ChangedFile> files; // changed by the last fix that can be written
     mending.can_be_written = [&](std::span<const glsl::Cure> cures) {
         auto changed = cured.with_last(cures);
@@ -195,6 +199,15 @@ Result<void> mend(const FixOptions& options, const scene::Scene& scene, const la
     };
     TRY(lab::mend(scene, promises, mending));
     return driver ? gl::check_work("drawing fixes") : driver;
+}
+
+namespace {
+
+/// Runs in the child process.
+Result<void> mend(const FixOptions& options, const scene::Scene& scene, const lab::Promises& promises,
+                  const Tell& tell) {
+    const auto context = TRY(host::HeadlessContext::create(options.device));
+    return send_fixes(options, scene, promises, tell);
 }
 
 /// Shows the child's lines as they arrive.
@@ -231,7 +244,7 @@ public:
 
 private:
     Result<void> take_offer(const Json& line) {
-        const std::vector<ChangedFile> files = files_of(line.at("files"));
+        const std::vector<ChangedFile> files = files_of_offer(line);
         if (options_.write)
             TRY(write_files(files));
         std::string difference_text;

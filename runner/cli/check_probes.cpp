@@ -34,11 +34,14 @@
 
 namespace tidemark::cli {
 
+using namespace host;
+using host::to_json;
+
 namespace {
 
-Result<image::Image> picture(const scene::Scene& scene, const platform::DeviceChoice& device,
+Result<image::Image> picture(const scene::Scene& scene, const host::DeviceChoice& device,
                              const render::FrameState& state) {
-    const auto context = TRY(platform::HeadlessContext::create(device));
+    const auto context = TRY(host::HeadlessContext::create(device));
     return lab::ProbeBench(scene, {}).picture(state);
 }
 
@@ -53,7 +56,7 @@ Json bits_of(const image::Image& picture) {
 } // namespace
 
 /// Starts a process that sleeps until `drawn_by`. Call it before this process has a context.
-Result<ForkedHelper> one_thread_painter(const scene::Scene& scene, const platform::DeviceChoice& device) {
+Result<ForkedHelper> one_thread_painter(const scene::Scene& scene, const host::DeviceChoice& device) {
     return ForkedHelper::start([&](const std::string& question, const Tell& tell) {
         ::setenv("LP_NUM_THREADS", "0", 1); // no threads in addition to the calling one
         const auto drawn =
@@ -168,7 +171,7 @@ using Probes = std::span<const lab::Probe* const>;
 Result<void> ask_all(const ProbesRequest& request, const scene::Scene& scene, const lab::Promises& promises,
                      Probes probes, Clock::time_point start, const Tell& tell) {
     auto painter = TRY(one_thread_painter(scene, request.device));
-    const auto context = TRY(platform::HeadlessContext::create(request.device));
+    const auto context = TRY(host::HeadlessContext::create(request.device));
     lab::DrawElsewhere with_one_thread;
     if (counts_threads())
         with_one_thread = [&](const render::FrameState& state) {

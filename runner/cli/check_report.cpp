@@ -3,11 +3,11 @@
 #include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "host/console.hpp"
 #include "host/forked.hpp"
 #include "host/frame_files.hpp"
 #include "host/gl_context.hpp"
 #include "host/json.hpp"
-#include "host/version.hpp"
 #include "lab/report_page.hpp"
 #include "render/gl_context.hpp"
 #include "shader/pass_reading.hpp"
@@ -24,6 +24,9 @@
 #include <vector>
 
 namespace tidemark::cli {
+
+using namespace host;
+using host::to_json;
 namespace {
 
 using lab::NanOrigin;
@@ -176,7 +179,7 @@ Json message_of(const lab::NanTrace& trace) {
 
 /// Runs in the child.
 Result<std::optional<lab::NanTrace>> trace(const scene::Scene& scene, const TraceJob& job, const Tell& tell) {
-    const auto context = TRY(platform::HeadlessContext::create(job.device));
+    const auto context = TRY(host::HeadlessContext::create(job.device));
     const render::FrameState state = job.request.states(job.request.frame);
     auto renderer = TRY(render::Renderer::create(scene, {state.extent, image::SampleType::f32, state.pass}));
     lab::TraceRequest request = job.request;

@@ -32,7 +32,7 @@ std::optional<SourceLocation> origin_in(const nlohmann::ordered_json& trace);
 
 /// The pixel or frame to trace, and the device to draw on.
 struct TraceJob {
-    platform::DeviceChoice device{};
+    host::DeviceChoice device{};
     lab::TraceRequest request;
     std::function<bool()> unwanted{}; ///< called some twenty times a second: returns true to end the trace
 };
@@ -41,7 +41,7 @@ struct TraceJob {
 struct TraceFound {
     bool found = false;  ///< something is NaN or infinite
     std::string text{};  ///< report as text, whole lines
-    Json json{};         ///< report as JSON; null if nothing was found
+    host::Json json{};   ///< report as JSON; null if nothing was found
     std::string ended{}; ///< why the trace is incomplete; empty: it is complete
 };
 
@@ -58,12 +58,12 @@ struct ProbeResult {
     std::filesystem::path picture{}; ///< empty: no picture was written
     /// The origin of a NaN or infinity, or why it is unknown: as text with whole lines, and as JSON.
     std::string trace{};
-    Json trace_json{};
+    host::Json trace_json{};
 };
 
-Json to_json(const ProbeResult& asked);
+host::Json to_json(const ProbeResult& asked);
 /// Reads the output of to_json, with the errors and exceptions of frame_state_of.
-Result<ProbeResult> result_of(const Json& line);
+Result<ProbeResult> result_of(const host::Json& line);
 
 // Formats the results of probes as text, as JSON and as findings.
 
@@ -78,7 +78,7 @@ struct JoinedFinding {
     std::vector<SourceLocation> places{};      ///< the lines to change; empty: not known
     std::vector<const ProbeResult*> results{}; ///< the most serious first
     lab::Remedy remedy = lab::Remedy::none;    ///< what `command` does
-    std::string command{};                     ///< mends it or shows it; empty: there is none
+    std::string command{};                     ///< fixes or shows it; empty: there is none
 };
 
 /// Joins the findings of one family that name a common line, or no line. The most serious comes first. The
@@ -96,7 +96,7 @@ std::string counted(std::span<const JoinedFinding> findings);
 std::string printed(const ProbesRequest& request, std::span<const ProbeResult> all, double seconds);
 
 /// Returns a finding for --diagnostics, placed at its first line, otherwise at mainImage.
-Finding finding(const scene::Scene& scene, const JoinedFinding& joined);
+host::Finding finding(const scene::Scene& scene, const JoinedFinding& joined);
 
 /// Returns all results as JSON.
 std::string report(const ProbesRequest& request, std::span<const ProbeResult> all);

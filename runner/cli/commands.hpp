@@ -8,6 +8,14 @@
 #include <string>
 #include <vector>
 
+namespace tidemark::scene {
+struct Scene;
+}
+
+namespace tidemark::host {
+struct SceneRequest;
+}
+
 namespace tidemark::cli {
 
 /// The work of the chosen command, run after the whole command line has been checked; the value is the exit
@@ -15,28 +23,33 @@ namespace tidemark::cli {
 using Action = std::function<Result<int>()>;
 
 /// Adds a sub-command to `app`. `chosen` is set when the command line calls it.
-using AddCommand = void (*)(Command app, Action& chosen);
+using AddCommand = void (*)(host::Command app, Action& chosen);
 
-void add_capture(Command app, Action& chosen);
-void add_inspect(Command app, Action& chosen);
-void add_check(Command app, Action& chosen);
-void add_import(Command app, Action& chosen);
-void add_gather(Command app, Action& chosen);
-void add_export(Command app, Action& chosen);
-void add_new(Command app, Action& chosen);
-void add_lsp(Command app, Action& chosen);
-void add_bake(Command app, Action& chosen);
-void add_compare(Command app, Action& chosen);
-void add_study(Command app, Action& chosen);
-void add_completion(Command app, Action& chosen);
-void add_help(Command app, Action& chosen);
+void add_capture(host::Command app, Action& chosen);
+void add_inspect(host::Command app, Action& chosen);
+void add_check(host::Command app, Action& chosen);
+void add_import(host::Command app, Action& chosen);
+void add_gather(host::Command app, Action& chosen);
+void add_export(host::Command app, Action& chosen);
+void add_new(host::Command app, Action& chosen);
+void add_lsp(host::Command app, Action& chosen);
+void add_bake(host::Command app, Action& chosen);
+void add_compare(host::Command app, Action& chosen);
+void add_study(host::Command app, Action& chosen);
+void add_completion(host::Command app, Action& chosen);
+void add_help(host::Command app, Action& chosen);
 /// Returns the topics that `tidemark help` accepts, each once.
 std::vector<std::string> help_topics();
-void add_tune(Command app, Action& chosen);
-void add_simplify(Command app, Action& chosen);
-void add_trace(Command app, Action& chosen);
-void add_view(Command app, Action& chosen);
-void add_serve(Command app, Action& chosen);
+void add_tune(host::Command app, Action& chosen);
+void add_simplify(host::Command app, Action& chosen);
+void add_trace(host::Command app, Action& chosen);
+void add_view(host::Command app, Action& chosen);
+void add_serve(host::Command app, Action& chosen);
+
+/// Loads a scene whose files are to be edited (import.cpp). A project's JSON is first imported into the
+/// folder beside it that is named like it, and `request` then names that folder; fails (ErrorCode::write) if
+/// the folder holds other files, or files that were edited since an import.
+Result<scene::Scene> load_editable(host::SceneRequest& request);
 
 /// Runs the whole program; returns the exit code.
 int run(int argc, const char* const* argv);

@@ -1,21 +1,26 @@
 #include "base/error.hpp"
 #include "cli/commands.hpp"
+#include "cli/inspect.hpp"
 #include "host/command_line.hpp"
 #include "host/console.hpp"
 #include "host/frame_files.hpp"
 #include "host/json.hpp"
-#include "host/version.hpp"
 #include "media/comparison.hpp"
 #include "media/picture_file.hpp"
+#include "scene/load_scene.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace {
 
 using image::PictureMetrics;
@@ -53,6 +58,10 @@ struct CompareOptions {
     double tolerance = 0.0;
     std::array<std::optional<double>, k_metric_count> limits{};
     bool json = false;
+    std::vector<std::string> devices; ///< of --devices: compares scenes, not pictures
+    std::vector<std::string> more_scenes;
+    std::string size = "320x180";
+    double time = 10;
 };
 
 /// Two pictures of the same frame.
@@ -144,10 +153,15 @@ std::vector<std::string> failures(const CompareOptions& options, const Pair& pai
 
 std::string text_of(const Pair& pair, const PictureMetrics& metrics, const std::string& note) {
     std::string line = pair.label();
-    for (const Metric& metric : k_metrics)
-        line += fmt::format("{}{} {:.6g}{}", &metric == k_metrics ? "" : ", ", metric.label,
-                            metric.of(metrics), metric.unit);
     const image::PictureDifference& samples = metrics.samples;
+    for (const Metric& metric : k_metrics) {
+        const double value = metric.of(metrics);
+        const bool too_small =
+            metric.key == std::string_view("ssim") && std::isnan(value) && !std::isnan(samples.rmse);
+        line += (&metric == k_metrics ? "" : ", ") +
+                (too_small ? fmt::format("no {} below {} pixels a side", metric.label, image::k_ssim_window)
+                           : fmt::format("{} {:.6g}{}", metric.label, value, metric.unit));
+    }
     if (samples.one_non_finite + samples.both_non_finite > 0)
         line += fmt::format("; pixels with NaN or infinity: {} in one picture only, {} in both",
                             samples.one_non_finite, samples.both_non_finite);
@@ -184,8 +198,29 @@ Result<void> write_map(const CompareOptions& options, const OutputPath& output, 
     return image::write_picture(output, picture, {depth});
 }
 
+Result<int> compare_devices(const CompareOptions& options) {
+    if (options.devices.size() != 2)
+        return fail(ErrorCode::usage, "--devices: give two devices, such as surfaceless,mesa:zink");
+    DevicesRequest request{
+        {options.devices[0], options.devices[1]}, {}, {}, {}, options.output, options.json};
+    request.sequence.state.extent = TRY(parse_size(options.size));
+    request.sequence.state = render::at_time(options.time, request.sequence.state);
+    std::vector<std::filesystem::path> paths{options.reference};
+    if (!options.test.empty())
+        paths.emplace_back(options.test);
+    paths.insert(paths.end(), options.more_scenes.begin(), options.more_scenes.end());
+    request.scenes = scene::scenes_of(paths);
+    return compare_on_devices(request);
+}
+
 Result<int> compare(const CompareOptions& options) {
+    if (!options.devices.empty())
+        return compare_devices(options);
     TRY(check(options));
+    if (options.test.empty())
+        return fail(ErrorCode::usage, "compare: give two pictures, or --devices X,Y and scenes");
+    if (!options.more_scenes.empty())
+        return fail(ErrorCode::usage, "compare: more than two pictures; scenes need --devices X,Y");
     const auto pairs = TRY(pairs_of(options));
     std::optional<OutputName> output;
     if (!options.output.empty()) {
@@ -233,10 +268,27 @@ void add_compare(Command app, Action& chosen) {
     Command command = app.add_subcommand("compare", "Measures how much two pictures or two sequences differ");
     command.add_option("A", options->reference, "Reference: a picture, or a sequence with %04d or ####")
         .required();
-    command.add_option("B", options->test, "Picture or sequence to compare with the reference").required();
+    command.add_option("B", options->test, "Picture or sequence to compare with the reference");
+    command.add_option("SCENES", options->more_scenes,
+                       "With --devices: A, B and these are scenes or folders of scenes");
+    command
+        .add_option("--devices", options->devices,
+                    "Draws scenes on two devices and explains the differences; names from `tidemark inspect "
+                    "--devices`")
+        .type_name("X,Y")
+        .delimiter(',')
+        .one_word();
+    command.add_option("--size", options->size, "With --devices: size of the pictures")
+        .type_name("WxH")
+        .capture_default_str();
+    command.add_option("--time", options->time, "With --devices: seconds at which the scenes are drawn")
+        .type_name("T")
+        .capture_default_str();
     command
         .add_option("-o,--output", options->output,
-                    "Writes a difference picture: .png .jpg .tif .exr .hdr, %04d or #### for a sequence")
+                    "Writes a difference picture: .png .jpg .tif .exr .hdr, %04d or #### for a sequence; "
+                    "with --devices "
+                    "a folder with a page")
         .type_name("OUT");
     command
         .add_option("--map", options->map,

@@ -20,6 +20,8 @@
 #include <vector>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace {
 
 using Words = std::vector<std::string>;
@@ -74,17 +76,10 @@ Words names_in_scene(const Words& before, bool knobs) {
     return names;
 }
 
-Words probe_names() {
+Words names_of_probes() {
     Words names;
     for (const lab::Probe& probe : lab::all_probes())
         names.emplace_back(probe.name);
-    return names;
-}
-
-Words device_names() {
-    Words names = {"auto"};
-    for (const platform::HeadlessDevice& device : platform::list_headless_devices())
-        names.push_back(device.name);
     return names;
 }
 
@@ -101,9 +96,9 @@ Words values_of(const CLI::Option& option, const Words& before) {
     if (option.check_lname("set") || option.check_lname("define"))
         return names_in_scene(before, option.check_lname("set"));
     if (option.check_lname("probe"))
-        return probe_names();
+        return names_of_probes();
     if (option.check_lname("device"))
-        return device_names();
+        return host::device_names();
     return choices(option.get_type_name());
 }
 

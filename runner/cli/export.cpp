@@ -5,7 +5,6 @@
 #include "host/diagnostics.hpp"
 #include "host/json.hpp"
 #include "host/requests.hpp"
-#include "host/version.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/project_exchange.hpp"
 #include "shader/pass_reading.hpp"
@@ -18,6 +17,9 @@
 #include <utility>
 
 namespace tidemark::cli {
+
+using namespace host;
+using host::resolve;
 namespace fs = std::filesystem;
 namespace {
 

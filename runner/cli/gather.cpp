@@ -32,6 +32,8 @@
 #include <vector>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace fs = std::filesystem;
 namespace {
 
@@ -90,9 +92,9 @@ std::vector<fs::path> files_of_piece(const CapturePlan& plan, int piece) {
 /// Returns the number of the shard that makes this file.
 int shard_of(const CapturePlan& plan, int shards, const std::string& file) {
     for (int index = 0; index < shards; ++index)
-        for (const int piece : plan.output.video()
-                                   ? segments_of_shard({index, shards}, plan.segments.size(), plan.scene)
-                                   : frames_of({index, shards}, plan.frames.frames, plan.scene))
+        for (const int piece :
+             plan.output.video() ? segments_of_shard({index, shards}, plan.video.segments.size(), plan.scene)
+                                 : frames_of({index, shards}, plan.frames.frames, plan.scene))
             for (const fs::path& made : files_of_piece(plan, piece))
                 if (made.string() == file)
                     return index + 1;
@@ -103,12 +105,12 @@ int shard_of(const CapturePlan& plan, int shards, const std::string& file) {
 Gathered gathered(const CapturePlan& plan, int shards) {
     const bool video = plan.output.video();
     const std::string_view pieces = video ? "segments" : "frames";
-    const size_t total = video ? plan.segments.size() : plan.frames.frames.size();
+    const size_t total = video ? plan.video.segments.size() : plan.frames.frames.size();
     Gathered result;
     std::vector<Wrong> all;
     Progress progress(fmt::format("{} checked", pieces), total);
     for (size_t i = 0; i < total; ++i, progress.advance()) {
-        const Fingerprint wanted = video ? Fingerprint::parse(note_of(plan, plan.segments[i]))
+        const Fingerprint wanted = video ? Fingerprint::parse(note_of(plan, plan.video.segments[i]))
                                          : plan.identity_of(plan.frames.frames[i]);
         for (const fs::path& file : files_of_piece(plan, video ? int(i) : plan.frames.frames[i]))
             if (auto what = look_at(file, video, wanted, result); !what.empty())
@@ -150,7 +152,7 @@ Result<CapturePlan> shared_plan(const GatherOptions& options, const ShardNote& n
             fmt::format("'{}' was written for '{}': run gather in the folder from which the shards were run",
                         file.string(), plan.output.pattern().string()));
     plan.output.came_from_a_file();
-    plan.trial.reset(); // shards make none
+    plan.drawing.trial.reset(); // shards make none
     return plan;
 }
 
@@ -245,15 +247,15 @@ Result<void> make_video(const CapturePlan& pictures, const GatherOptions& option
     if (!plan.output.video() || pictures.output.six_faces())
         return fail(ErrorCode::usage,
                     fmt::format("-o {}: give an .mp4, an .mkv, a .webm, a .mov, a .gif or a .webp", name));
-    plan.codec = TRY(parse_codec(options.codec, plan.output));
-    if (plan.alpha != image::Alpha::where_needed &&
-        !image::video_holds_alpha(plan.output.pattern(), plan.codec, plan.alpha))
+    plan.video.codec = TRY(parse_codec(options.codec, plan.output));
+    if (plan.encoding.alpha != image::Alpha::where_needed &&
+        !image::video_holds_alpha(plan.output.pattern(), plan.video.codec, plan.encoding.alpha))
         return fail(
             ErrorCode::usage,
             fmt::format("-o {}: this format cannot store the alpha of the frames: give a .mov", name));
-    if (plan.alpha == image::Alpha::premultiplied)
-        plan.alpha = image::Alpha::straight; // in files, alpha is straight
-    plan.segments = segments_of(plan.frames.frames, plan.pace, 0);
+    if (plan.encoding.alpha == image::Alpha::premultiplied)
+        plan.encoding.alpha = image::Alpha::straight; // in files, alpha is straight
+    plan.video.segments = segments_of(plan.frames.frames, plan.video.pace, 0);
     const auto sound = draw_sound_of_video(plan, interrupt);
     std::optional<SegmentedVideo> video;
     for (const int frame : plan.frames.frames) {
@@ -294,7 +296,7 @@ Result<int> gather(const GatherOptions& options) {
     Interrupt interrupt;
     const ShardNote note = TRY(read_note(options.folder / k_shard_note));
     CapturePlan plan = TRY(shared_plan(options, note));
-    const auto context = TRY(platform::HeadlessContext::create(plan.options.device));
+    const auto context = TRY(host::HeadlessContext::create(plan.options.run.device));
     plan.identity.set_device(gl::query_capabilities());
     const Gathered found = gathered(plan, note.count);
     if (!found.wrong.empty())

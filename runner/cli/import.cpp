@@ -1,5 +1,3 @@
-#include "cli/import.hpp"
-
 #include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
@@ -9,7 +7,7 @@
 #include "host/console.hpp"
 #include "host/frame_files.hpp"
 #include "host/json.hpp"
-#include "host/version.hpp"
+#include "host/requests.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/project_exchange.hpp"
 
@@ -26,6 +24,8 @@
 #include <system_error>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace fs = std::filesystem;
 namespace {
 

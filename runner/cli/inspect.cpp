@@ -4,11 +4,13 @@
 #include "cli/commands.hpp"
 #include "host/command_line.hpp"
 #include "host/console.hpp"
+#include "host/diagnostics.hpp"
 #include "host/gl_context.hpp"
 #include "host/json.hpp"
 #include "host/scene_report.hpp"
-#include "host/version.hpp"
+#include "lab/lens.hpp"
 #include "lab/pass_function.hpp"
+#include "lab/probe_inputs.hpp"
 #include "render/compiled_scene.hpp"
 #include "render/gl_context.hpp"
 #include "scene/scene.hpp"
@@ -28,6 +30,9 @@
 #include <optional>
 
 namespace tidemark::cli {
+
+using namespace host;
+using host::files_of;
 namespace {
 
 /// The size of a compiled pass, in bytes of the driver's own program format and in instructions if its
@@ -48,7 +53,7 @@ public:
         if (folder_.path().empty())
             return;
         ::setenv("MESA_SHADER_CACHE_DIR", folder_.path().c_str(), 1);
-        platform::do_without_full_driver_cache();
+        host::do_without_full_driver_cache();
     }
 
 private:
@@ -61,10 +66,10 @@ std::string march_lines(const scene::Scene& scene, const scene::Pass& pass) {
     std::string text;
     if (!function)
         return text;
-    for (const ir::MarchingLoop& loop : function->loops()) {
+    for (const proof::MarchingLoop& loop : function->loops()) {
         const SourceLocation where = function->locate(loop.line);
         text += fmt::format("  march     {}:{}: {}; ends here near the surface\n", where.file, where.line,
-                            loop.kind == ir::MarchingLoop::Kind::sphere_tracing
+                            loop.kind == proof::MarchingLoop::Kind::sphere_tracing
                                 ? "steps by the distance (sphere tracing)"
                                 : "steps that do not depend on the distance");
     }
@@ -77,12 +82,12 @@ Json marches_of(const scene::Scene& scene, const scene::Pass& pass) {
     if (!function)
         return {{"not_followed", function.error().message}};
     Json loops = Json::array();
-    for (const ir::MarchingLoop& loop : function->loops()) {
+    for (const proof::MarchingLoop& loop : function->loops()) {
         const SourceLocation where = function->locate(loop.line);
         loops.push_back({{"file", where.file},
                          {"line", where.line},
-                         {"kind", loop.kind == ir::MarchingLoop::Kind::sphere_tracing ? "sphere tracing"
-                                                                                      : "fixed step"}});
+                         {"kind", loop.kind == proof::MarchingLoop::Kind::sphere_tracing ? "sphere tracing"
+                                                                                         : "fixed step"}});
     }
     return loops;
 }
@@ -178,11 +183,13 @@ Json sizes_json(const CompiledSizes& sizes) {
 
 struct InspectOptions {
     SceneRequest scene;
-    platform::DeviceChoice device{};
+    host::DeviceChoice device{};
     std::string pass;
     std::string size = "640x360";
     std::vector<std::string> with;
     double budget = 20;
+    bool hot_lines = false;
+    double time = 10;
     bool devices = false;
     bool self_test = false;
     bool source = false;
@@ -239,6 +246,7 @@ Json json_of(const render::Renderer& renderer, const gl::Capabilities& driver, c
     }
     if (scene.size)
         json["size"] = {scene.size->width, scene.size->height};
+    json["sounds"] = sounds_of(scene);
     json["knobs"] = knobs_of(scene);
     json["definitions"] = definitions_of(scene);
     add_precision(json, renderer);
@@ -266,7 +274,7 @@ std::string to_text(const render::Renderer& renderer, const gl::Capabilities& dr
         if (const auto& size = sizes[facts_of_pass.pass])
             text += to_lines(*size);
     }
-    text += knob_lines(scene) + definition_lines(scene);
+    text += sound_lines(scene) + knob_lines(scene) + definition_lines(scene);
     text += precision_lines(renderer);
     for (const std::string& thing : facts.left_out)
         text += fmt::format("  left out  {}\n", thing);
@@ -301,7 +309,7 @@ Result<int> inspect_scene(const InspectOptions& options) {
     // Static, so that the folder goes after Mesa's threads, which end with the process and write to it until
     // then.
     static const FreshDriverCache fresh;
-    const auto context = TRY(platform::HeadlessContext::create(options.device, platform::DebugContext::yes));
+    const auto context = TRY(host::HeadlessContext::create(options.device, host::DebugContext::yes));
     render::RenderOptions target;
     target.pass = options.pass;
     target.precision = precision_of(options.scene);
@@ -311,6 +319,58 @@ Result<int> inspect_scene(const InspectOptions& options) {
     const gl::Capabilities driver = gl::query_capabilities();
     return put(options.json ? dump(json_of(renderer, driver, sizes), 2) + "\n"
                             : to_text(renderer, driver, sizes))
+        .map([] { return 0; });
+}
+
+constexpr size_t k_hot_lines = 10;
+
+Json json_of(const lab::HotLines& hot, const scene::Scene& scene, const render::FrameState& state) {
+    Json json{{"tidemark", k_version},
+              {"scene", scene.file.string()},
+              {"size", {state.extent.width, state.extent.height}},
+              {"time", state.seconds()},
+              {"operations", hot.operations},
+              {"weights", hot.basis},
+              {"not_counted", hot.not_counted},
+              {"lines", Json::array()}};
+    for (const lab::HotLine& line : hot.lines)
+        json["lines"].push_back({{"file", line.where.file},
+                                 {"line", line.where.line},
+                                 {"share", line.share},
+                                 {"text", line.text}});
+    return json;
+}
+
+std::string to_text(const lab::HotLines& hot, const scene::Scene& scene, const render::FrameState& state) {
+    std::string text =
+        fmt::format("{}, {}x{} at {:g} s: {:.0f} weighted operations per pixel, {}\n", scene.file.string(),
+                    state.extent.width, state.extent.height, state.seconds(), hot.operations, hot.basis);
+    for (const lab::HotLine& line : hot.lines)
+        text += fmt::format("  {:>6}  {}:{}: {}\n", lab::share_words(line.share), line.where.file,
+                            line.where.line, line.text);
+    for (const std::string& pass : hot.not_counted)
+        text += fmt::format("  not counted: {}\n", pass);
+    return text;
+}
+
+/// Prints the most expensive lines; with --diagnostics also as notes.
+Result<int> put_hot_lines(const InspectOptions& options) {
+    auto scene = TRY(load(options.scene));
+    const auto extent = scene::size_of_text(options.size);
+    if (!extent)
+        return fail(ErrorCode::usage,
+                    fmt::format("--size {}: give width and height, as in 640x360", options.size));
+    const auto context = TRY(host::HeadlessContext::create(options.device));
+    render::FrameState state = lab::state_at(options.time, *extent);
+    state.pass = options.pass;
+    const lab::HotLines hot = TRY(lab::hot_lines(scene, state, k_hot_lines, lab::device_weights()));
+    TRY(gl::check_work("counting the operations of lines"));
+    if (findings_are_diagnostics())
+        for (const lab::HotLine& line : hot.lines)
+            say(finding_of(
+                {line.where, Severity::note, lab::share_words(line.share) + " of the work of a frame"},
+                {"hot-line", "The lines of a text that take most of a frame's operations."}));
+    return put(options.json ? dump(json_of(hot, scene, state), 2) + "\n" : to_text(hot, scene, state))
         .map([] { return 0; });
 }
 
@@ -324,8 +384,9 @@ void add_inspect(Command app, Action& chosen) {
     add_precision_options(command, options->scene);
     add_device_options(command, options->device);
     command.option("--device")
-        .description("Device to draw with: a name from --devices; none: uses no driver and reports only what "
-                     "the files say");
+        .description(
+            "Device to draw with, or to list with --devices: a name from --devices; none: uses no driver "
+            "and reports only what the files say");
     command.add_option("--pass", options->pass, "Pass to inspect, as in \"Buffer A\" [Image]")
         .type_name("NAME");
     const Option devices = command.add_flag("--devices", options->devices,
@@ -343,7 +404,13 @@ void add_inspect(Command app, Action& chosen) {
         .delimiter(',')
         .one_word()
         .check(one_of(things));
-    command.add_option("--size", options->size, "With --with: size of the picture")
+    command.add_flag("--hot-lines", options->hot_lines,
+                     "Lists the ten lines that take most of a frame's operations");
+    command.add_option("--time", options->time, "With --hot-lines: the moment")
+        .type_name("SECONDS")
+        .check(number<double>("a number of seconds"))
+        .capture_default_str();
+    command.add_option("--size", options->size, "With --with and --hot-lines: size of the picture")
         .type_name("WxH")
         .capture_default_str();
     command.add_option("--budget", options->budget, "With --with: seconds to spend on measuring")
@@ -358,9 +425,11 @@ void add_inspect(Command app, Action& chosen) {
     command.on_call([options, &chosen] {
         chosen = [options]() -> Result<int> {
             if (options->devices)
-                return inspect_devices(options->self_test, options->json);
+                return inspect_devices(options->device.name, options->self_test, options->json);
             if (options->scene.path.empty())
                 return fail(ErrorCode::usage, "inspect: give a SCENE, or --devices");
+            if (options->hot_lines)
+                return put_hot_lines(*options);
             if (!options->with.empty())
                 return inspect_savings({options->scene, options->size, options->pass, options->device,
                                         options->with, options->budget, options->json});

@@ -7,24 +7,27 @@
 #include "host/forked.hpp"
 #include "host/gl_context.hpp"
 #include "host/json.hpp"
-#include "host/version.hpp"
 #include "lab/device_check.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace {
 
-using platform::HeadlessDevice;
+using host::HeadlessDevice;
 
 /// A driver that needs longer to start hangs.
-constexpr double k_patience_seconds = 30;
+constexpr double k_start_seconds = 30;
 
 std::string told(const HeadlessDevice& device, bool tried) {
     return dump({{"name", device.name},
@@ -33,16 +36,24 @@ std::string told(const HeadlessDevice& device, bool tried) {
                  {"version", device.version},
                  {"reason", device.reason},
                  {"names", device.lasting_names},
+                 {"es", device.es_version},
                  {"tried", tried}});
 }
 
 HeadlessDevice device_of(const Json& json) {
-    return {json.at("name"),     platform::DeviceKind(json.at("kind").get<int>()),
+    return {json.at("name"),     host::DeviceKind(json.at("kind").get<int>()),
             json.at("renderer"), json.at("version"),
-            json.at("reason"),   json.at("names")};
+            json.at("reason"),   json.at("names"),
+            json.at("es")};
 }
 
-/// Lists devices like platform::list_headless_devices; call it before this process has a driver. Fails
+/// Describes a child process that did not end normally.
+std::string why_it_ended(const ForkedResult& run) {
+    return run.timed_out ? fmt::format("the driver does not start within {:.0f} s", k_start_seconds)
+                         : run.crash;
+}
+
+/// Lists devices like host::list_headless_devices; call it before this process has a driver. Fails
 /// (ErrorCode::no_context) if the listing itself crashes or hangs.
 Result<std::vector<HeadlessDevice>> list_devices_apart() {
     std::vector<HeadlessDevice> found;
@@ -50,11 +61,11 @@ Result<std::vector<HeadlessDevice>> list_devices_apart() {
         std::optional<HeadlessDevice> in_hand;
         const auto run = run_forked(
             [&](const Tell& tell) {
-                platform::list_headless_devices(
+                host::list_headless_devices(
                     [&](const HeadlessDevice& device, bool tried) { tell(told(device, tried)); },
                     found.size());
             },
-            {k_patience_seconds},
+            {k_start_seconds},
             [&](std::string_view line) {
                 const Json json = parse_json(line);
                 in_hand = device_of(json);
@@ -65,9 +76,7 @@ Result<std::vector<HeadlessDevice>> list_devices_apart() {
             return fail(run.error());
         if (!run->timed_out && run->crash.empty())
             return found;
-        const std::string what =
-            run->timed_out ? fmt::format("the driver does not start within {:.0f} s", k_patience_seconds)
-                           : run->crash;
+        const std::string what = why_it_ended(*run);
         if (!in_hand)
             return fail(ErrorCode::no_context, "listing OpenGL's devices: " + what);
         in_hand->reason = what;
@@ -75,16 +84,37 @@ Result<std::vector<HeadlessDevice>> list_devices_apart() {
     }
 }
 
-std::string_view name_of(platform::DeviceKind kind) {
+/// Lists Mesa's drivers, each from a process of its own.
+Result<std::vector<HeadlessDevice>> list_mesa_drivers() {
+    std::vector<HeadlessDevice> found;
+    for (const std::string& name : host::mesa_drivers()) {
+        HeadlessDevice device{name, host::DeviceKind::software, {}, {}, {}, {}, {}};
+        const auto run = TRY(run_forked(
+            [&](const Tell& tell) { tell(told(host::describe_mesa_driver(name), true)); }, {k_start_seconds},
+            [&](std::string_view line) { device = device_of(parse_json(line)); }));
+        if (run.timed_out || !run.crash.empty())
+            device.reason = why_it_ended(run);
+        found.push_back(std::move(device));
+    }
+    return found;
+}
+
+Result<std::vector<HeadlessDevice>> list_devices() {
+    std::vector<HeadlessDevice> devices = TRY(list_devices_apart());
+    std::ranges::move(TRY(list_mesa_drivers()), std::back_inserter(devices));
+    return devices;
+}
+
+std::string_view name_of(host::DeviceKind kind) {
     switch (kind) {
-    case platform::DeviceKind::hardware: return "hardware";
-    case platform::DeviceKind::software: return "software";
-    case platform::DeviceKind::unknown: return "unknown";
+    case host::DeviceKind::hardware: return "hardware";
+    case host::DeviceKind::software: return "software";
+    case host::DeviceKind::unknown: return "unknown";
     }
     return "unknown";
 }
 
-Json json_of(const platform::HeadlessDevice& device) {
+Json json_of(const host::HeadlessDevice& device) {
     Json json = {{"name", device.name}, {"kind", name_of(device.kind)}};
     if (device.reason.empty()) {
         json["renderer"] = device.renderer;
@@ -92,23 +122,26 @@ Json json_of(const platform::HeadlessDevice& device) {
     } else {
         json["unusable"] = device.reason;
     }
+    if (!device.es_version.empty())
+        json["es_version"] = device.es_version;
     if (!device.lasting_names.empty())
         json["lasting_names"] = device.lasting_names;
     return json;
 }
 
-std::string to_line(const platform::HeadlessDevice& device) {
+std::string to_line(const host::HeadlessDevice& device) {
     if (!device.reason.empty())
-        return fmt::format("{:<12} unusable: {}\n", device.name, device.reason);
-    std::string text = fmt::format("{:<12} {}, {}, OpenGL {}\n", device.name, name_of(device.kind),
-                                   device.renderer, device.version);
+        return fmt::format("{:<14} unusable: {}\n", device.name, device.reason);
+    std::string text =
+        fmt::format("{:<14} {}, {}, OpenGL {}, {}\n", device.name, name_of(device.kind), device.renderer,
+                    device.version, device.es_version.empty() ? "no OpenGL ES 3.1" : device.es_version);
     if (!device.lasting_names.empty())
-        text += fmt::format("{:<12} also called {}\n", "", fmt::join(device.lasting_names, ", "));
+        text += fmt::format("{:<14} also called {}\n", "", fmt::join(device.lasting_names, ", "));
     return text;
 }
 
-/// All checks take some seconds on a CPU with two cores.
-constexpr double k_self_test_seconds = 120;
+/// All checks take some seconds on a CPU with two cores, but ten times as long if it is busy.
+constexpr double k_self_test_seconds = 300;
 
 lab::DeviceAnswer ask(const lab::DeviceCheck& check) {
     const auto answer = check.ask();
@@ -120,7 +153,7 @@ Json told(const lab::DeviceCheck& check, const lab::DeviceAnswer& answer) {
 }
 
 void ask_all(const HeadlessDevice& device, const Tell& tell) {
-    const auto context = platform::HeadlessContext::create({device.name});
+    const auto context = host::HeadlessContext::create({device.name});
     if (!context) { // it worked when the devices were listed
         tell(dump({{"check", "context"}, {"verdict", "fail"}, {"says", to_string(context.error())}}));
         return;
@@ -156,13 +189,24 @@ std::string line_of(const Json& verdict) {
 
 } // namespace
 
-Result<int> inspect_devices(bool self_test, bool as_json) {
+Result<int> inspect_devices(const std::string& only, bool self_test, bool as_json) {
+    std::vector<HeadlessDevice> devices = TRY(list_devices());
+    const auto is_called = [&](const HeadlessDevice& device) {
+        return device.name == only || std::ranges::count(device.lasting_names, only) > 0;
+    };
+    if (only != "auto") {
+        std::erase_if(devices, [&](const HeadlessDevice& device) { return !is_called(device); });
+        if (devices.empty())
+            return fail(ErrorCode::usage,
+                        fmt::format("--device {}: `tidemark inspect --devices` lists the names", only));
+    }
     Json report = {{"tidemark", k_version}, {"devices", Json::array()}};
     bool failed = false;
-    for (const HeadlessDevice& device : TRY(list_devices_apart())) {
+    for (const HeadlessDevice& device : devices) {
         Json& entry = report["devices"].emplace_back(json_of(device));
         std::string text = to_line(device);
-        if (self_test && device.reason.empty())
+        const bool by_name = host::is_mesa_driver(device.name);
+        if (self_test && device.reason.empty() && (!by_name || only != "auto"))
             entry["checks"] = TRY(verdicts_on(device));
         for (const Json& verdict : entry.value("checks", Json::array())) {
             failed |= is_failure(verdict);

@@ -7,10 +7,9 @@
 #include "host/forked.hpp"
 #include "host/gl_context.hpp"
 #include "host/json.hpp"
-#include "host/version.hpp"
 #include "lab/savings.hpp"
 #include "media/picture_codecs.hpp"
-#include "media/sound_library.hpp"
+#include "media/sound_file.hpp"
 #include "render/gl_context.hpp"
 
 #include <fmt/format.h>
@@ -24,6 +23,8 @@
 #include <string_view>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace {
 
 struct OptionalLibrary {
@@ -47,11 +48,11 @@ struct LibraryCost {
 };
 
 constexpr int k_runs = 5;
-constexpr double k_patience = 30; ///< seconds
+constexpr double k_saving_seconds = 30; ///< seconds
 
 constexpr OptionalLibrary k_optional_libraries[] = {
     {"OpenImageIO", "tidemark_pictures", [] { static_cast<void>(image::picture_codec()); }},
-    {"libsndfile", "libsndfile", [] { static_cast<void>(sound::sound_library()); }},
+    {"libsndfile", "libsndfile", [] { static_cast<void>(sound::load_sound_library()); }},
 };
 
 double peak_mebibytes() {
@@ -74,7 +75,7 @@ Result<LibraryCost> measure_loading(const OptionalLibrary& library, double secon
                 const lab::Elapsed time = watch.elapsed();
                 tell(fmt::format("{} {} {}", time.wall, time.cpu, peak_mebibytes() - before));
             },
-            {k_patience});
+            {k_saving_seconds});
         if (!child)
             return fail(child.error());
         std::istringstream told(child->output);
@@ -304,7 +305,7 @@ Result<int> inspect_savings(const SavingsOptions& options) {
     const auto libraries = load_libraries(options, watch); // before there is a context
     if (!libraries)
         return fail(libraries.error());
-    const auto context = TRY(platform::HeadlessContext::create(options.device));
+    const auto context = TRY(host::HeadlessContext::create(options.device));
     render::RenderOptions target;
     target.extent = extent;
     target.pass = options.pass;

@@ -1,9 +1,12 @@
 // `tidemark lsp`: the language server on standard input and output. One thread, which waits for the editor
 // and for the compiling process.
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/supervision.hpp"
+#include "cli/check.hpp"
 #include "cli/commands.hpp"
+#include "cli/previews.hpp"
 #include "editor/session.hpp"
 #include "host/command_line.hpp"
 #include "host/console.hpp"
@@ -14,7 +17,7 @@
 #include "host/requests.hpp"
 #include "host/scene_report.hpp"
 #include "host/supervision.hpp"
-#include "host/version.hpp"
+#include "lab/fix.hpp"
 #include "lab/instrumented_pass.hpp"
 #include "lab/text_findings.hpp"
 #include "render/compiled_scene.hpp"
@@ -34,11 +37,16 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace tidemark::cli {
+
+using namespace host;
+using host::resolve;
+using host::to_json;
 namespace fs = std::filesystem;
 namespace {
 
@@ -80,7 +88,8 @@ public:
                     "{} has no value{}: it reads as 0 on ShaderToy's site and here, as any value elsewhere",
                     (*text)->word_of(each.what), lab::words_for(each.why)));
         for (const glsl::Divergent& each : glsl::find_divergent(**text, facts, lab::which_have_mipmaps(pass)))
-            add((*text)->spelled((*text)->tree()[each.call].begin), lab::words_for(**text, each));
+            if (!each.harmless)
+                add((*text)->spelled((*text)->tree()[each.call].begin), lab::words_for(**text, each));
         for (const glsl::FloatCounter& each : glsl::miscounting_loops(**text, facts))
             add((*text)->spelled((*text)->tree()[each.loop].begin), lab::words_for(each));
     }
@@ -115,17 +124,18 @@ private:
 
 /// Formats a line for the parent: the diagnostics in the JSON form of an Error.
 std::string line_of(std::string_view kind, const Diagnostics& diagnostics) {
-    return dump(Json{{"kind", kind}, {"found", to_json(Error{.message = {}, .diagnostics = diagnostics})}});
+    return dump(
+        Json{{"kind", kind}, {"found", host::to_json(Error{.message = {}, .diagnostics = diagnostics})}});
 }
 
 /// Runs in the child process. Compiles every pass, even after one that fails, and even if no other pass reads
 /// it; removes uncalled functions first, as capture does. Errors in uncalled functions are hints instead,
 /// because ShaderToy's site compiles them.
-Result<void> examine(const fs::path& path, const scene::UnsavedTexts& texts,
-                     const platform::DeviceChoice& device, const Tell& tell) {
+Result<void> examine(const fs::path& path, const scene::UnsavedTexts& texts, const host::DeviceChoice& device,
+                     const Tell& tell) {
     const scene::Scene scene = TRY(scene::load_scene(path, {.media = {}, .unsaved = texts}));
     Diagnostics problems = scene.warnings;
-    const auto context = platform::HeadlessContext::create(device);
+    const auto context = host::HeadlessContext::create(device);
     if (!context)
         add(problems, {{{}, Severity::warning, "could not compile: " + to_string(context.error())}});
     Hints hints(scene);
@@ -159,9 +169,9 @@ public:
     /// Starts the check with the texts that the editor holds. Call it while the process has no threads and no
     /// context (host/forked.hpp).
     static Result<CompileCheck> start(const fs::path& scene, const lsp::Documents& documents,
-                                      const platform::DeviceChoice& device, const Limits& limits) {
+                                      const host::DeviceChoice& device, const Limits& limits) {
         auto helper = TRY(ForkedHelper::start([&](const std::string&, const Tell& tell) {
-            platform::do_without_full_driver_cache();
+            host::do_without_full_driver_cache();
             if (const auto done = examine(scene, documents.texts(), device, tell); !done)
                 tell(line_of("problems", diagnostics_of(done.error())));
         }));
@@ -207,46 +217,154 @@ private:
     bool ended_ = false;
 };
 
+/// Returns the line for a scene whose error was not measured.
+std::string unmeasured_line(const std::string& why) {
+    return dump(Json{{"why", why}});
+}
+
+/// Runs in a child process of low priority, which does not slow the previews down. Sends the error of the
+/// picture in float, or why there is none, then the fixes.
+Result<void> measure_scene(const fs::path& path, const scene::UnsavedTexts& texts,
+                           const host::DeviceChoice& device, const Tell& tell) {
+    constexpr int k_low_priority = 10;
+    [[maybe_unused]] const int priority = ::nice(k_low_priority);
+    FixOptions options{.scene = {.path = path}, .device = device};
+    options.scene.files.unsaved = texts;
+    const scene::Scene scene = TRY(scene::load_scene(path, options.scene.files));
+    const lab::Promises promises = TRY(promises_of(options.scene, scene));
+    const auto context = TRY(host::HeadlessContext::create(device));
+    const auto measured = [&](const Result<lab::ShownError>& error) {
+        tell(error ? dump(Json{{"rmse", error->rmse}, {"worst", error->worst}, {"pixels", error->pixels}})
+                   : unmeasured_line(error.error().message));
+    };
+    (void)send_fixes(options, scene, promises, tell, measured); // its errors are the compile check's
+    return {};
+}
+
+/// Measures a scene in the background: a separate process that may be ended at any time.
+class Measuring {
+public:
+    /// Starts the measurement of the texts that the editor holds, while the process has no threads and no
+    /// context, like CompileCheck::start.
+    static Result<Measuring> start(const fs::path& scene, const lsp::Documents& documents,
+                                   const host::DeviceChoice& device, const Limits& limits) {
+        auto helper = TRY(ForkedHelper::start([&](const std::string&, const Tell& tell) {
+            host::do_without_full_driver_cache();
+            if (const auto done = measure_scene(scene, documents.texts(), device, tell); !done)
+                tell(unmeasured_line(done.error().message));
+        }));
+        helper.begin({}, limits);
+        return Measuring(scene, std::move(helper), limits);
+    }
+
+    const fs::path& scene() const { return scene_; }
+    int descriptor() const { return helper_.descriptor(); }
+    bool ended() const { return ended_; }
+
+    /// Passes on the lines that have arrived since the last call. Never waits.
+    void look(const Tell& hear) {
+        const auto note = [&](std::string_view line) {
+            heard_ = true;
+            hear(line);
+        };
+        const auto result = helper_.look(note, std::chrono::milliseconds(0));
+        ended_ = result.has_value();
+        if (ended_ && !heard_)
+            hear(unmeasured_line(left_by(*result, limits_).front().message));
+    }
+
+private:
+    Measuring(fs::path scene, ForkedHelper helper, Limits limits)
+        : scene_(std::move(scene)), helper_(std::move(helper)), limits_(std::move(limits)) {}
+
+    fs::path scene_;
+    ForkedHelper helper_;
+    Limits limits_;
+    bool heard_ = false; ///< a line has arrived
+    bool ended_ = false;
+};
+
+/// Returns the fix of an offer's line; its report is without the place that it begins with.
+lsp::MeasuredFix fix_of(const Json& line) {
+    lsp::MeasuredFix fix{line.at("offer").at("cure").get<std::string>(),
+                         std::string(trimmed(line.at("text").get<std::string>())),
+                         {}};
+    for (ChangedFile& file : files_of_offer(line)) {
+        if (fix.report.starts_with(file.file + ":"))
+            fix.report.erase(0, fix.report.find(": ", file.file.size()) + 2);
+        fix.files.push_back({file.file, std::move(file.before), std::move(file.after)});
+    }
+    return fix;
+}
+
+/// Returns the error in the words of a preview's title, in steps of 1/255.
+std::string error_words(const Json& error) {
+    const auto steps = [&](const char* name) {
+        const double value = 255 * error.at(name).get<double>();
+        return value > 0 && value < 0.01 ? "<0.01" : fmt::format("{:.2g}", value);
+    };
+    return fmt::format("error {} of 255, worst {}", steps("rmse"), steps("worst"));
+}
+
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 /// Pause after an edit before a check starts. Keystrokes come closer than this, so texts in between are not
 /// compiled.
 constexpr milliseconds k_quiet{100};
+/// Pause after an edit before the previews get it.
+constexpr milliseconds k_quiet_preview{50};
+/// Pause after the last change before a scene is measured in the background.
+constexpr milliseconds k_rest{2000};
 /// Interval at which the compiling process's time and memory are checked.
 constexpr milliseconds k_look{50};
 
 struct LspOptions {
-    platform::DeviceChoice device{};
+    host::DeviceChoice device{};
     LimitOptions limits;
     double timeout = 30;
+    double measure = 30; ///< seconds; 0: does not measure
 };
 
 class Server {
 public:
-    Server(LspOptions options, Limits limits) : options_(std::move(options)), limits_(std::move(limits)) {}
+    Server(LspOptions options, Limits limits)
+        : options_(std::move(options)), limits_(std::move(limits)),
+          previews_(options_.limits.memory ? std::vector<std::string>{"--memory", *options_.limits.memory}
+                                           : std::vector<std::string>{}) {}
 
     Result<int> run() {
         while (!session_.exit_code()) {
-            std::array<pollfd, 2> inputs{
-                {{STDIN_FILENO, POLLIN, 0}, {check_ ? check_->descriptor() : -1, POLLIN, 0}}};
+            std::vector<pollfd> inputs{{STDIN_FILENO, POLLIN, 0},
+                                       {check_ ? check_->descriptor() : -1, POLLIN, 0},
+                                       {measuring_ ? measuring_->descriptor() : -1, POLLIN, 0}};
+            previews_.add_to(inputs);
             ::poll(inputs.data(), inputs.size(), int(patience().count()));
             if (inputs[0].revents != 0 && !TRY(read()))
                 return 1; // an editor sends `exit` before it closes the stream
             TRY(hear());
             TRY(compile());
+            TRY(measure_rested());
+            TRY(preview());
         }
         return *session_.exit_code();
     }
 
 private:
     milliseconds patience() const {
-        if (check_)
-            return k_look;
-        if (session_.stale().empty())
+        const auto now = Clock::now();
+        auto until = Clock::time_point::max();
+        if (check_ || measuring_ || previews_.waits())
+            until = now + k_look;
+        if (may_measure())
+            until = std::min(until, rested_at_);
+        if (!check_ && !session_.stale().empty())
+            until = std::min(until, quiet_at_);
+        if (send_at_)
+            until = std::min(until, *send_at_);
+        if (until == Clock::time_point::max())
             return milliseconds(-1); // until the editor sends a message
-        const auto left = std::chrono::ceil<milliseconds>(quiet_at_ - Clock::now());
-        return std::max(left, milliseconds(0));
+        return std::max(std::chrono::ceil<milliseconds>(until - now), milliseconds(0));
     }
 
     /// Returns false at the end of the stream. Fails where the stream is not the language server protocol.
@@ -267,11 +385,26 @@ private:
     }
 
     Result<void> receive(const std::string& message) {
-        const int edits = session_.edits();
+        const int edits = session_.edits(), revisions = session_.revisions();
         TRY(put_exact(session_.receive(message)));
         if (session_.edits() != edits)
             quiet_at_ = Clock::now() + k_quiet;
+        if (session_.revisions() != revisions) {
+            send_at_ = Clock::now() + k_quiet_preview;
+            rested_at_ = Clock::now() + k_rest;
+        }
+        for (const lsp::Order& order : session_.take_orders())
+            TRY(put_exact(previews_.obey(order, session_.documents().texts())));
         return {};
+    }
+
+    /// Sends texts to the previews, and passes on what they print.
+    Result<void> preview() {
+        if (send_at_ && Clock::now() >= *send_at_) {
+            send_at_.reset();
+            previews_.send(session_.documents().texts());
+        }
+        return put_exact(previews_.look());
     }
 
     /// Starts a check, or restarts one whose texts are out of date.
@@ -284,6 +417,48 @@ private:
         check_.reset();
         session_.begin(scene);
         check_.emplace(TRY(CompileCheck::start(scene, session_.documents(), options_.device, limits_)));
+        return {};
+    }
+
+    bool may_measure() const {
+        return options_.measure > 0 && !measuring_ && !check_ && session_.stale().empty() &&
+               session_.unmeasured();
+    }
+
+    /// Ends a measurement whose texts have changed, passes on what one has found, and starts one after a
+    /// rest.
+    Result<void> measure_rested() {
+        if (measuring_ && !session_.is_measured(measuring_->scene()))
+            measuring_.reset();
+        std::erase_if(noted_, [&](const fs::path& scene) {
+            if (session_.is_measured(scene))
+                return false;
+            previews_.note(scene, "");
+            return true;
+        });
+        if (measuring_) {
+            std::string told;
+            measuring_->look([&](std::string_view line) {
+                const Json json = parse_json(line);
+                if (json.contains("offer"))
+                    told += session_.show_fix(measuring_->scene(), fix_of(json));
+                else if (!json.contains("remains"))
+                    told += session_.show_error(measuring_->scene(), lsp::Json(json));
+                if (json.contains("rmse")) {
+                    previews_.note(measuring_->scene(), error_words(json));
+                    noted_.insert(measuring_->scene());
+                }
+            });
+            TRY(put_exact(told));
+            if (measuring_->ended())
+                measuring_.reset();
+        }
+        if (!may_measure() || Clock::now() < rested_at_)
+            return {};
+        const fs::path scene = *session_.unmeasured();
+        session_.begin_measuring(scene);
+        measuring_.emplace(TRY(Measuring::start(scene, session_.documents(), options_.device,
+                                                {.seconds = options_.measure, .memory = limits_.memory})));
         return {};
     }
 
@@ -304,7 +479,12 @@ private:
     lsp::Session session_{k_version};
     lsp::MessageReader reader_;
     std::optional<CompileCheck> check_;
+    std::optional<Measuring> measuring_;
+    std::set<fs::path> noted_; ///< scenes whose previews show an error
     Clock::time_point quiet_at_{};
+    Clock::time_point rested_at_{};
+    std::optional<Clock::time_point> send_at_; ///< when the previews get the newest texts
+    Previews previews_;
 };
 
 Result<int> serve(const LspOptions& options) {
@@ -324,6 +504,18 @@ void add_lsp(Command app, Action& chosen) {
         .type_name("SECONDS")
         .check(number<double>("a number of seconds from 0.1", 0.1))
         .capture_default_str();
+    command
+        .add_option("--measure", options->measure,
+                    "Seconds that a scene that rests is measured in the background; 0: not at all")
+        .type_name("SECONDS")
+        .check(number<double>("a number of seconds from 0", 0.0))
+        .capture_default_str();
+    command.add_flag(
+        "--stdio", [] {}, "Uses standard input and output, as it does without this option");
+    command
+        .add_option(
+            "--clientProcessId", [](const std::string&) {}, "Ignored; some editors give it")
+        .group("");
     command.on_call([options, &chosen] { chosen = [options] { return serve(*options); }; });
 }
 

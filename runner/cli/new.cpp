@@ -2,22 +2,62 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "cli/commands.hpp"
-#include "cli/embedded_texts.hpp"
 #include "host/console.hpp"
 #include "host/json.hpp"
-#include "host/version.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace fs = std::filesystem;
+
+/// The files of scenes/, embedded in the program. A new one needs its name in runner/CMakeLists.txt, in the
+/// .in file beside this one, here, and in the table of scenes.
+namespace new_scene {
+extern const std::string_view k_picture, k_orbit, k_march, k_buffers_common, k_buffers_buffer_a,
+    k_buffers_image, k_sound_common, k_sound_sound, k_sound_image;
+}
+
 namespace {
+
+struct TemplateFile {
+    std::string_view name; ///< in the scene's folder; empty: the scene is this file
+    std::string_view text;
+};
+
+struct SceneTemplate {
+    std::string_view flag;    ///< for example --orbit; empty: the default scene
+    std::string_view meaning; ///< of that flag, for --help
+    std::vector<TemplateFile> files;
+
+    bool is_folder() const { return !files.front().name.empty(); }
+};
+
+const std::vector<SceneTemplate>& scene_templates() {
+    using namespace new_scene;
+    static const std::vector<SceneTemplate> templates{
+        {"", "", {{"", k_picture}}},
+        {"--orbit", "A ball on a floor, turned by the mouse (iCamera)", {{"", k_orbit}}},
+        {"--buffers",
+         "Water with feedback: a folder with Buffer A",
+         {{"common.glsl", k_buffers_common},
+          {"buffer_a.glsl", k_buffers_buffer_a},
+          {"image.glsl", k_buffers_image}}},
+        {"--march", "Ray-marched waves, with the library's solvers", {{"", k_march}}},
+        {"--sound",
+         "A tune and its picture: a folder with Sound",
+         {{"common.glsl", k_sound_common}, {"sound.glsl", k_sound_sound}, {"image.glsl", k_sound_image}}},
+    };
+    return templates;
+}
 
 struct NewOptions {
     fs::path name;

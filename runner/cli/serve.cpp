@@ -9,8 +9,8 @@
 #include "host/gl_context.hpp"
 #include "render/frame_plan.hpp"
 #include "web/audience.hpp"
-#include "web/embedded.hpp"
 #include "web/messages.hpp"
+#include "web/page.hpp"
 #include "web/plugin/server.hpp"
 #include "web/request.hpp"
 #include "window/screen.hpp"
@@ -23,12 +23,18 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace tidemark::cli {
+
+using namespace host;
+using namespace window;
+using host::resolve;
+using window::open_editor;
 namespace {
 
-serve::SharedMessage text_message(std::string text) {
-    return std::make_shared<serve::Message>(serve::Message{std::move(text)});
+web::SharedMessage text_message(std::string text) {
+    return std::make_shared<web::Message>(web::Message{std::move(text)});
 }
 
 /// Returns a texture as RGBA bytes, whatever its format.
@@ -48,7 +54,7 @@ image::Image read_target(const gl::RenderTarget& target) {
 class RemoteScreen : public Screen {
 public:
     struct Settings {
-        serve::ServerSettings server;
+        web::ServerSettings server;
         Extent extent;
         int quality = 85;  ///< JPEG's, 1 to 100
         bool once = false; ///< closes when the last client has left
@@ -56,7 +62,7 @@ public:
 
     /// Makes a headless context current and starts to listen. Fails as HeadlessContext and the plug-in do.
     static Result<std::unique_ptr<RemoteScreen>> open(Settings settings) {
-        auto context = TRY(platform::HeadlessContext::create());
+        auto context = TRY(host::HeadlessContext::create());
         TRY(render::check_size(settings.extent));
         std::unique_ptr<RemoteScreen> screen(new RemoteScreen(std::move(settings), std::move(context)));
         TRY(screen->listen());
@@ -77,10 +83,10 @@ public:
 
     bool is_loopback() const { return server_->is_loopback(); }
 
-    Result<platform::SharedContext> create_context() override { return context_.create_context(); }
+    Result<host::SharedContext> create_context() override { return context_.create_context(); }
 
-    std::vector<platform::InputEvent> wait(double seconds) override {
-        serve::Inbox::Content content = inbox_.wait(seconds);
+    std::vector<host::InputEvent> wait(double seconds) override {
+        web::Inbox::Content content = inbox_.wait(seconds);
         woken_at_ = now_seconds();
         was_asked_ |= !content.commands.empty();
         commands_.insert(commands_.end(), std::make_move_iterator(content.commands.begin()),
@@ -89,14 +95,14 @@ public:
     }
 
     void wake() override { inbox_.wake(); }
-    bool take(const platform::InputEvent&) override { return false; }
+    bool take(const host::InputEvent&) override { return false; }
 
-    live::Commands take_commands() override { return std::exchange(commands_, {}); }
+    overlay::Commands take_commands() override { return std::exchange(commands_, {}); }
 
     /// Returns whether the key works in a page. The others have no use there, or must not act on another
     /// machine.
-    bool has(platform::Key key) const override {
-        using platform::Key;
+    bool has(host::Key key) const override {
+        using host::Key;
         switch (key) {
         case Key::space:
         case Key::left:
@@ -117,11 +123,14 @@ public:
         fresh_ |= fresh;
     }
 
-    Result<void> finish(live::Model model, const ShownMoment& moment) override {
+    Result<void> finish(overlay::Model model, const ShownMoment& moment) override {
         was_asked_ = false;
         if (picture_ && (fresh_ || model.large != large_))
             send_picture(model, moment);
-        std::string state = serve::state_text(model, settings_.extent, moment.reads_keyboard);
+        std::string state = web::state_text(model, settings_.extent,
+                                            {.keyboard = moment.reads_keyboard,
+                                             .every_move = moment.follows_pointer,
+                                             .camera = moment.reads_camera});
         if (state != told_)
             audience_.tell("state", text_message(state));
         told_ = std::move(state);
@@ -129,59 +138,59 @@ public:
     }
 
     void set_title(const std::string& title) override {
-        audience_.tell("title", text_message(serve::line_text("title", title)));
+        audience_.tell("title", text_message(web::line_text("title", title)));
     }
 
     void set_clipboard(const std::string& text) override {
-        audience_.tell_steering(text_message(serve::line_text("clipboard", text)));
+        audience_.tell_steering(text_message(web::line_text("clipboard", text)));
     }
 
     void toggle_full_screen() override {}
     bool is_full_screen() const override { return false; }
-    std::optional<platform::WindowPlace> place() const override { return std::nullopt; }
+    std::optional<window::WindowPlace> place() const override { return std::nullopt; }
     std::shared_ptr<void> when_lost(std::function<void(std::string_view what)>) override { return nullptr; }
 
 private:
-    RemoteScreen(Settings settings, platform::HeadlessContext context)
+    RemoteScreen(Settings settings, host::HeadlessContext context)
         : settings_(std::move(settings)), context_(std::move(context)),
           audience_({.send = [this](auto viewer, auto message) { server_->send(viewer, std::move(message)); },
                      .once = settings_.once},
                     inbox_) {}
 
     Result<void> listen() {
-        const serve::ServePlugIn& plug_in = *TRY(serve::load_serve_plug_in());
-        settings_.server.page = serve::k_page;
+        const web::ServePlugIn& plug_in = *TRY(web::load_serve_plug_in());
+        settings_.server.page = web::k_viewer_page;
         server_ = TRY(plug_in.open(settings_.server));
-        encoder_ = std::make_unique<serve::PictureEncoder>(serve::PictureEncoder::Settings{
+        encoder_ = std::make_unique<web::PictureEncoder>(web::PictureEncoder::Settings{
             .encode =
                 [encode = plug_in.encode, quality = settings_.quality](const image::Image& picture) {
                     return encode(picture.extent, picture.bytes, quality);
                 },
-            .done = [this](serve::NumberedPicture picture) { audience_.show(std::move(picture)); }});
+            .done = [this](web::NumberedPicture picture) { audience_.show(std::move(picture)); }});
         server_->start(audience_);
         return {};
     }
 
-    void send_picture(const live::Model& model, const ShownMoment& moment) {
+    void send_picture(const overlay::Model& model, const ShownMoment& moment) {
         // An unchanged picture is only read back, so its time counts from the start of this iteration.
         const double begun = std::exchange(fresh_, false) ? moment.begun : woken_at_;
         large_ = model.large;
-        const live::PictureField* large = large_ ? &model.pictures[*large_] : nullptr;
+        const overlay::PictureField* large = large_ ? &model.pictures[*large_] : nullptr;
         image::Image picture = large ? read_texture(large->texture, large->extent) : read_target(*picture_);
-        serve::PictureHead head{.number = ++pictures_, .seconds = moment.seconds, .frame = moment.frame};
-        for (const live::PictureField& field : model.pictures)
+        web::PictureHead head{.number = ++pictures_, .seconds = moment.seconds, .frame = moment.frame};
+        for (const overlay::PictureField& field : model.pictures)
             head.costs.push_back(field.milliseconds);
         head.draw_ms = (now_seconds() - begun) * 1000;
         encoder_->push({std::move(picture), std::move(head)});
     }
 
     Settings settings_;
-    platform::HeadlessContext context_;
-    serve::Inbox inbox_;
-    serve::Audience audience_;
-    std::unique_ptr<serve::Server> server_;
-    std::unique_ptr<serve::PictureEncoder> encoder_;
-    live::Commands commands_;
+    host::HeadlessContext context_;
+    web::Inbox inbox_;
+    web::Audience audience_;
+    std::unique_ptr<web::Server> server_;
+    std::unique_ptr<web::PictureEncoder> encoder_;
+    overlay::Commands commands_;
     const gl::RenderTarget* picture_ = nullptr; ///< of the scene, between `begin` and `finish`
     bool fresh_ = false;                        ///< it differs from the picture that was sent last
     std::optional<size_t> large_;               ///< the large picture that was sent last
@@ -201,7 +210,18 @@ struct ServeOptions : ViewerOptions {
     std::string token_file;
     int quality = 85;
     bool once = false;
+    std::vector<std::string> ancestors;
+    std::vector<std::string> origins;
 };
+
+/// Checks each value of an option; the error names the option.
+Result<void> check_each(std::string_view option, const std::vector<std::string>& values,
+                        Result<void> (*check)(std::string_view)) {
+    for (const std::string& value : values)
+        if (auto good = check(value); !good)
+            return fail(good.error().code, fmt::format("{}: {}", option, good.error().message));
+    return {};
+}
 
 /// Returns the token. It cannot be a command line argument, because every user of the machine can read those.
 Result<std::string> token_for(const ServeOptions& options) {
@@ -211,9 +231,9 @@ Result<std::string> token_for(const ServeOptions& options) {
     else if (const char* given = std::getenv(k_token_variable))
         token = given;
     else
-        return serve::make_token();
+        return web::make_token();
     token.erase(token.find_last_not_of(" \r\n") + 1);
-    TRY(serve::check_token(token));
+    TRY(web::check_token(token));
     return token;
 }
 
@@ -225,18 +245,22 @@ Result<void> announce(const RemoteScreen& screen) {
     return put(screen.address() + "\n");
 }
 
-Result<int> serve_scene(const ServeOptions& options) {
+Result<int> serve_scene(ServeOptions options) {
     if (options.host.empty())
         return fail(ErrorCode::usage, "--host '': give an address or a name of this machine, as in --host "
                                       "127.0.0.1; 0.0.0.0 stands for all its addresses");
+    const auto editor = TRY(open_editor(options));
     auto frames = TRY(resolve(sized(options.frames, options.scene)));
     const Extent size = frames.state.extent;
     if (std::max(size.width, size.height) > k_largest_picture)
         return fail(ErrorCode::usage,
                     fmt::format("--size {}x{}: pictures sent to a browser have at most {} pixels on a side",
                                 size.width, size.height, k_largest_picture));
-    const serve::ServerSettings server{options.host, uint16_t(options.port), TRY(token_for(options)), {}};
-    auto settings = TRY(resolve(options, std::move(frames)));
+    TRY(check_each("--frame-ancestor", options.ancestors, web::check_ancestor));
+    TRY(check_each("--allow-origin", options.origins, web::check_origin));
+    const web::ServerSettings server{options.host, uint16_t(options.port), TRY(token_for(options)),
+                                     {},           options.ancestors,      options.origins};
+    auto settings = TRY(resolve(options, std::move(frames), editor));
     settings.plain = true; // knobs may change at any time
     settings.controls = true;
     settings.sounds = false;
@@ -270,6 +294,16 @@ void add_serve(Command app, Action& chosen) {
         .check(number<int>("a whole number from 1 to 100", 1, 100))
         .capture_default_str();
     command.add_flag("--once", options->once, "Ends when the last viewer disconnects");
+    command
+        .add_option("--frame-ancestor", options->ancestors,
+                    "Lets pages of that origin, or of that scheme, frame the page, as in vscode-webview:")
+        .type_name("ORIGIN")
+        .repeatable();
+    command
+        .add_option("--allow-origin", options->origins,
+                    "Origin of a forwarded address, as in https://name-8080.example.dev")
+        .type_name("ORIGIN")
+        .repeatable();
     command.on_call([options, &chosen] { chosen = [options] { return serve_scene(*options); }; });
 }
 

@@ -4,7 +4,6 @@
 #include "base/file.hpp"
 #include "cli/changed_files.hpp"
 #include "cli/commands.hpp"
-#include "cli/import.hpp"
 #include "host/console.hpp"
 #include "host/frame_files.hpp"
 #include "host/gl_context.hpp"
@@ -23,6 +22,8 @@
 #include <memory>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace fs = std::filesystem;
 namespace {
 
@@ -101,7 +102,7 @@ Result<void> put_json(const lab::Simplified& found, const Offer& offer, bool wri
                "\n");
 }
 
-Result<void> show(const SimplifyOptions& options, const lab::Simplified& found) {
+Result<void> print_simplified(const SimplifyOptions& options, const lab::Simplified& found) {
     for (const std::string& sentence : found.sentences)
         say(sentence);
     const Offer offer = TRY(offer_of(found.chosen));
@@ -123,7 +124,7 @@ Result<int> simplify(SimplifyOptions options) {
     const OutputPath folder =
         OutputPath::typed_or(options.output, name_after_scene(options.scene.path, "-simplify"))
             .sparing(files_read(scene));
-    const auto context = TRY(platform::HeadlessContext::create(options.device));
+    const auto context = TRY(host::HeadlessContext::create(options.device));
     TRY(prepare_report(folder));
     StudyWatcher watcher(interrupt);
     auto simplified = lab::simplify(scene, request, watcher.watch(), circumstances_of(scene));
@@ -132,7 +133,7 @@ Result<int> simplify(SimplifyOptions options) {
         return Interrupt::k_exit_code;
     lab::Simplified found = TRY(std::move(simplified));
     const fs::path report = TRY(write_findings(folder, found.findings));
-    TRY(show(options, found));
+    TRY(print_simplified(options, found));
     say_report(report);
     return interrupt.requested() ? Interrupt::k_exit_code : 0;
 }

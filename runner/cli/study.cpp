@@ -20,6 +20,8 @@
 #include <memory>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace fs = std::filesystem;
 namespace {
 
@@ -33,7 +35,7 @@ struct StudyOptions {
     std::vector<std::string> reference;
     std::vector<std::string> even;
     std::string baseline;
-    platform::DeviceChoice device{};
+    host::DeviceChoice device{};
     lab::Timing timing;
     bool json = false;
 };
@@ -171,7 +173,7 @@ Result<int> study(const StudyOptions& options) {
         OutputPath::typed_or(options.output, name_after_scene(options.scene.path, "-study"))
             .sparing(files_of_study(options, scene));
     TRY(prepare_report(folder));
-    const auto context = TRY(platform::HeadlessContext::create(options.device));
+    const auto context = TRY(host::HeadlessContext::create(options.device));
     TRY(choose_series(plan, scene, [&] { return !interrupt.requested(); }));
     StudyWatcher watcher(interrupt);
     auto findings = lab::conduct(scene, plan, options.timing, watcher.watch(), circumstances_of(scene));

@@ -10,7 +10,6 @@
 #include "host/json.hpp"
 #include "host/requests.hpp"
 #include "host/supervision.hpp"
-#include "host/version.hpp"
 #include "lab/pixel_trace.hpp"
 #include "render/frame_stepper.hpp"
 #include "render/gl_context.hpp"
@@ -25,6 +24,9 @@
 #include <string>
 
 namespace tidemark::cli {
+
+using namespace host;
+using host::resolve;
 namespace {
 
 struct TraceReport {
@@ -51,7 +53,7 @@ constexpr double k_least_loss = 1;
 
 // -- Values as text
 
-std::string place(const SourceLocation& where) {
+std::string file_and_line(const SourceLocation& where) {
     return fmt::format("{}:{}", where.file, where.line);
 }
 
@@ -96,7 +98,7 @@ std::string head(const TraceReport& report) {
     return fmt::format("{}, frame {}, pixel {},{} of {}x{}; {} operations, {} samples of stochastic "
                        "arithmetic from seed {}\n",
                        report.pass, report.frame, report.request.pixel.x, report.request.pixel.y,
-                       report.extent.width, report.extent.height, report.trace.operations, ir::k_samples,
+                       report.extent.width, report.extent.height, report.trace.operations, proof::k_samples,
                        report.request.seed);
 }
 
@@ -151,13 +153,13 @@ std::string row(const TracedValue& value, size_t component, double fewest) {
 std::string callers(const LineInCall& call) {
     std::string text;
     for (const SourceLocation& where : call.callers)
-        text += fmt::format("{}{}", text.empty() ? "  called at " : ", from ", place(where));
+        text += fmt::format("{}{}", text.empty() ? "  called at " : ", from ", file_and_line(where));
     return text.empty() ? "" : text + "\n";
 }
 
 /// Returns the fewest digits of any real value, at most a threshold above which values are not marked.
 double fewest_of(const std::vector<LineInCall>& calls) {
-    double fewest = ir::k_most_digits - k_least_loss;
+    double fewest = proof::k_most_digits - k_least_loss;
     for (const LineInCall& call : calls)
         for (const TracedValue& value : call.values)
             if (value.kind == TracedValue::Kind::real)
@@ -181,10 +183,10 @@ std::string rows_of(const LineInCall& call, double fewest) {
     return text;
 }
 
-std::string line_text(const TraceReport& report) {
+std::string file_and_line(const TraceReport& report) {
     const auto& calls = report.trace.calls;
     const lab::AuthorLine& asked = *report.trace.asked;
-    std::string text = fmt::format("{}:  {}\n", place(asked.where), asked.text);
+    std::string text = fmt::format("{}:  {}\n", file_and_line(asked.where), asked.text);
     if (calls.empty())
         return text + fmt::format("  the pixel does not reach this line{}\n",
                                   report.request.turns ? " in these iterations" : "");
@@ -213,8 +215,8 @@ std::string section(const std::string& title, const std::vector<TracedLine>& lin
     std::ranges::stable_sort(chosen, [&](const auto* a, const auto* b) { return weight(*a) > weight(*b); });
     std::string text = chosen.empty() ? "" : title + "\n";
     for (size_t i = 0; i < std::min(chosen.size(), k_most_lines); ++i)
-        text += fmt::format("  {}: {}\n      {}\n", place(chosen[i]->line.where), sentence(*chosen[i]),
-                            chosen[i]->line.text);
+        text += fmt::format("  {}: {}\n      {}\n", file_and_line(chosen[i]->line.where),
+                            sentence(*chosen[i]), chosen[i]->line.text);
     if (chosen.size() > k_most_lines)
         text += fmt::format("  and {} more lines\n", chosen.size() - k_most_lines);
     return text;
@@ -261,7 +263,7 @@ double earliness_of(const TracedLine& line) {
 
 std::string summary(const PixelTrace& trace) {
     const auto& lines = trace.lines;
-    const std::string losses = fmt::format("lost digits (a float has {:.1f})", ir::k_most_digits);
+    const std::string losses = fmt::format("lost digits (a float has {:.1f})", proof::k_most_digits);
     const std::string text =
         section(losses, lines, loss_of, lost_words) +
         section("conditions that differ in float and double", lines, mismatches_of, mismatch_words) +
@@ -324,7 +326,7 @@ Json json_of(const LineInCall& call) {
 
 std::string trace_text(const TraceReport& report) {
     std::string text = head(report) + colour(report.trace);
-    return text + (report.trace.asked ? line_text(report) : summary(report.trace));
+    return text + (report.trace.asked ? file_and_line(report) : summary(report.trace));
 }
 
 Json trace_json(const TraceReport& report) {
@@ -337,7 +339,7 @@ Json trace_json(const TraceReport& report) {
                  {"pixel", {report.request.pixel.x, report.request.pixel.y}},
                  {"size", {report.extent.width, report.extent.height}},
                  {"seed", report.request.seed},
-                 {"samples", ir::k_samples},
+                 {"samples", proof::k_samples},
                  {"end", k_ends[size_t(trace.end)]},
                  {"operations", trace.operations},
                  {"colour",
@@ -363,7 +365,7 @@ struct TraceCommand {
     FrameOptions frames;
     std::string pixel, line, turns;
     uint64_t seed = 1;
-    platform::DeviceChoice device{};
+    host::DeviceChoice device{};
     bool json = false;
 };
 
@@ -396,7 +398,7 @@ Result<std::optional<lab::TurnRange>> parse_turns(const std::string& text) {
 Result<TraceReport> trace(const TraceCommand& command, const FrameSequence& frames,
                           const lab::PixelRequest& request) {
     const auto scene = TRY(load(command.scene, frames));
-    const auto context = TRY(platform::HeadlessContext::create(command.device));
+    const auto context = TRY(host::HeadlessContext::create(command.device));
     render::RenderOptions drawing;
     drawing.extent = frames.state.extent;
     drawing.samples = image::SampleType::f32;

@@ -4,7 +4,6 @@
 #include "base/file.hpp"
 #include "cli/changed_files.hpp"
 #include "cli/commands.hpp"
-#include "cli/import.hpp"
 #include "host/console.hpp"
 #include "host/frame_files.hpp"
 #include "host/gl_context.hpp"
@@ -23,6 +22,8 @@
 #include <memory>
 
 namespace tidemark::cli {
+
+using namespace host;
 namespace fs = std::filesystem;
 namespace {
 
@@ -122,7 +123,7 @@ Result<int> tune(TuneOptions options) {
     const OutputPath folder =
         OutputPath::typed_or(options.output, name_after_scene(options.scene.path, "-tune"))
             .sparing(files_read(scene));
-    const auto context = TRY(platform::HeadlessContext::create(options.device));
+    const auto context = TRY(host::HeadlessContext::create(options.device));
     const lab::TuneRequest request = TRY(request_of(options, scene));
     TRY(prepare_report(folder));
     StudyWatcher watcher(interrupt);

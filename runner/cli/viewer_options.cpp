@@ -7,13 +7,18 @@
 #include "host/gl_context.hpp"
 #include "render/renderer.hpp"
 #include "render/sound_renderer.hpp"
-#include "window/rehearsal.hpp"
 #include "window/screen.hpp"
+#include "window/stage.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 namespace tidemark::cli {
+
+using namespace host;
+using namespace window;
+using host::resolve;
+using window::open_editor;
 namespace {
 
 constexpr Extent k_played{16, 16};
@@ -27,7 +32,7 @@ void play(SceneRequest request, const HeldTexts& held, const std::string& pass) 
     request.sets = held.sets;
     request.defines = held.defines;
     request.knobs_may_go = true;
-    const auto context = platform::HeadlessContext::create();
+    const auto context = host::HeadlessContext::create();
     if (!context)
         return;
     auto scene = load(request);
@@ -70,14 +75,35 @@ void add_viewer_options(Command command, ViewerOptions& options) {
         .excludes("--input");
     command.option("--fps").description(
         "Highest frame rate; with --record or --input also the time step: iTime = frame / F");
+    command.add_flag("--editor", options.editor,
+                     "Draws the unsaved texts of an editor, which `tidemark lsp` sends on standard input");
     add_memory_option(command, options.limits);
 }
 
-Result<Viewer::Settings> resolve(const ViewerOptions& options, FrameSequence frames) {
+Result<std::shared_ptr<EditorTexts>> open_editor(ViewerOptions& options) {
+    if (!options.editor)
+        return nullptr;
+    if (options.scene.path == "-")
+        return fail(ErrorCode::usage, "--editor: standard input cannot hold the scene, too");
+    auto editor = TRY(EditorTexts::open());
+    options.scene.files.unsaved = editor->shared();
+    return editor;
+}
+
+Result<Viewer::Settings> resolve(const ViewerOptions& options, FrameSequence frames,
+                                 const std::shared_ptr<EditorTexts>& editor, bool rehearses) {
     const auto limits = TRY(resolve(options.limits));
     Viewer::Settings settings{options.scene, std::move(frames)};
-    settings.rehearsal = Rehearsal::start(
-        [&](const HeldTexts& held) { play(options.scene, held, options.frames.pass); }, limits.memory);
+    settings.editor = editor;
+    if (rehearses)
+        settings.rehearsal = Rehearsal::start(
+            [&](const HeldTexts& held) {
+                SceneRequest scene = options.scene;
+                if (editor)
+                    scene.files.unsaved = editor->shared();
+                play(std::move(scene), held, options.frames.pass);
+            },
+            limits.memory);
     settings.record = OutputPath::typed(options.record);
     // A recording must be reproducible, so its date advances with iTime.
     if (options.frames.date || options.by_frames())
@@ -87,24 +113,56 @@ Result<Viewer::Settings> resolve(const ViewerOptions& options, FrameSequence fra
     return settings;
 }
 
-Result<int> show(Viewer::Settings settings, const OpenScreen& open_screen) {
+Result<int> show(std::optional<Viewer::Settings> first, const OpenScreen& open_screen,
+                 const NextScene& next) {
     Interrupt interrupt;
-    while (true) {
+    std::unique_ptr<Screen> held; // between two scenes
+    const OpenScreen open = [&](const std::string& title) -> Result<std::unique_ptr<Screen>> {
+        if (!held)
+            return open_screen(title);
+        held->enter();
+        return std::move(held);
+    };
+    const auto choose = [&](const Viewer::Leave& leave) {
+        const Interrupt::Waking waking(interrupt, [&] { held->wake(); });
+        return next(leave, *held, interrupt);
+    };
+    if (!first) {
+        held = TRY(open_screen("tidemark"));
+        first = TRY(choose({}));
+    }
+    while (first) {
+        Viewer::Settings& settings = *first;
         const double opened = now_seconds();
         auto opened_viewer = [&] { // opening a camera may take long; Ctrl-C ends it
             const Interrupt::Immediate immediate(interrupt);
-            return Viewer::open(settings, open_screen);
+            return Viewer::open(settings, open);
         }();
-        auto viewer = TRY(std::move(opened_viewer));
-        const Interrupt::Waking waking(interrupt, [&] { viewer.wake(); });
-        auto outcome = viewer.run(interrupt);
-        if (viewer.busy()) {
+        if (!opened_viewer && settings.in_gallery && held) {
+            say(opened_viewer.error());
+            first = TRY(choose({}));
+            continue;
+        }
+        std::optional<Viewer> viewer = TRY(std::move(opened_viewer));
+        const auto outcome_of = [&] {
+            const Interrupt::Waking waking(interrupt, [&] { viewer->wake(); });
+            return viewer->run(interrupt);
+        };
+        auto outcome = outcome_of();
+        if (viewer->busy() && !viewer->leave()) {
             if (!outcome)
                 say(outcome.error());
             finish_diagnostics(true);
             ::_exit(outcome ? *outcome : exit_code(outcome.error().code));
         }
-        if (!viewer.was_reset())
+        if (outcome && viewer->leave() && next) {
+            const Viewer::Leave leave = *viewer->leave();
+            held = viewer->release_screen();
+            viewer.reset();
+            first = TRY(choose(leave));
+            continue;
+        }
+        if (!viewer->was_reset())
             return outcome;
         if (const std::string why = why_not_again(settings, now_seconds() - opened); !why.empty()) {
             outcome.error().message += "; " + why;
@@ -112,9 +170,10 @@ Result<int> show(Viewer::Settings settings, const OpenScreen& open_screen) {
         }
         outcome.error().message += "; opening the window again";
         say(outcome.error());
-        settings.left = viewer.state();
-        settings.scene = viewer.request();
+        settings.left = viewer->state();
+        settings.scene = viewer->request();
     }
+    return interrupt.requested() ? Interrupt::k_exit_code : 0;
 }
 
 } // namespace tidemark::cli

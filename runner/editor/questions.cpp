@@ -84,14 +84,6 @@ std::string of_knob(const scene::Knob& knob) {
     return text + ".\n";
 }
 
-std::string signature(const glsl::BuiltinFunction& function, const glsl::BuiltinOverload& overload) {
-    std::string parameters;
-    for (const glsl::BuiltinParameter& parameter : overload.parameters)
-        parameters += fmt::format("{}{}{}", parameters.empty() ? "" : ", ", parameter.written ? "out " : "",
-                                  parameter.type);
-    return fmt::format("{} {}({})", overload.result, function.name, parameters);
-}
-
 /// Signatures in one hover text; functions of vectors have one for each vector size.
 constexpr size_t k_most_signatures = 8;
 
@@ -228,74 +220,6 @@ Answer document_symbols(const Question& asked) {
     return symbols;
 }
 
-using text::Token;
-
-std::optional<Token> knob_at(const Workspace& workspace, const std::vector<Token>& tokens, size_t offset) {
-    const auto word = word_at(tokens, offset);
-    return word && workspace.knob(word->text) ? word : std::nullopt;
-}
-
-/// Returns the tokens that use the name; after a dot it is a member and does not count.
-std::vector<const Token*> uses_of(const std::vector<Token>& tokens, std::string_view name) {
-    std::vector<const Token*> uses;
-    for (size_t i = 0; i < tokens.size(); ++i)
-        if (tokens[i].kind == text::TokenKind::identifier && tokens[i].is(name) &&
-            (i == 0 || !tokens[i - 1].is(".")))
-            uses.push_back(&tokens[i]);
-    return uses;
-}
-
-constexpr std::string_view k_entry_points[] = {"main",        "mainImage", "mainSound",
-                                               "mainCubemap", "mainHit",   "mainVR"};
-
-/// Returns the reason why a knob cannot have that name; empty: it can.
-std::string why_not(const Workspace& workspace, const std::string& name) {
-    const auto tokens = text::tokenize(name);
-    if (tokens.size() != 1 || tokens.front().kind != text::TokenKind::identifier ||
-        tokens.front().text.size() != name.size())
-        return "it is not a GLSL name";
-    if (name.starts_with("gl_") || name.find("__") != name.npos || glsl::find_builtin(name) ||
-        glsl::is_keyword(name) || glsl::is_one_of(name, glsl::k_reserved_words) || glsl::value_type(name) ||
-        scene::is_host_uniform(name) || name.starts_with("tidemark_") ||
-        glsl::is_one_of(name, k_entry_points))
-        return "the name is reserved by GLSL or the host";
-    for (const SourceFile& file : workspace.files)
-        if (!uses_of(text::tokenize(file.text), name).empty())
-            return fmt::format("'{}' has that name already", file.path.filename().string());
-    return {};
-}
-
-/// Returns the range of the knob's name at an offset; null without a knob there.
-Answer renamed_range(const Question& asked) {
-    const std::string& text = asked.workspace.files.front().text;
-    const auto tokens = text::tokenize(text);
-    const auto knob = knob_at(asked.workspace, tokens, asked.offset());
-    return knob ? Lines(text, asked.encoding).range(knob->begin, knob->end()) : Json();
-}
-
-/// Returns a WorkspaceEdit. Fails without a knob there, or where the name is not valid or is used in the
-/// scene already.
-Answer rename_knob(const Question& asked) {
-    const auto name = asked.params.at("newName").get<std::string>();
-    const auto tokens = text::tokenize(asked.workspace.files.front().text);
-    const auto knob = knob_at(asked.workspace, tokens, asked.offset());
-    if (!knob)
-        return refuse(ErrorNumber::request_failed,
-                      "only knobs (#iUniform) can be renamed: there is no knob here");
-    if (const std::string why = why_not(asked.workspace, name); !why.empty())
-        return refuse(ErrorNumber::request_failed,
-                      fmt::format("'{}' cannot be called '{}': {}", knob->text, name, why));
-    Json changes = Json::object();
-    for (const SourceFile& file : asked.workspace.files) {
-        const Lines lines(file.text, asked.encoding);
-        const auto words = text::tokenize(file.text);
-        for (const Token* use : uses_of(words, knob->text))
-            changes[asked.documents.uri_of(file.path)].push_back(
-                {{"range", lines.range(use->begin, use->end())}, {"newText", name}});
-    }
-    return Json{{"changes", std::move(changes)}};
-}
-
 Answer hover(const Question& asked) {
     const std::string text = hover_text(asked.workspace, asked.offset(), asked.documents);
     return text.empty() ? Json() : Json{{"contents", {{"kind", "markdown"}, {"value", text}}}};
@@ -308,10 +232,107 @@ constexpr std::pair<std::string_view, AnswerTo> k_questions[] = {
     {"textDocument/documentColor", document_colours},
     {"textDocument/colorPresentation", colour_presentations},
     {"textDocument/prepareRename", renamed_range},
-    {"textDocument/rename", rename_knob},
+    {"textDocument/rename", rename},
+    {"textDocument/references", references},
+    {"textDocument/documentHighlight", highlights},
+    {"textDocument/completion", completions},
+    {"textDocument/signatureHelp", signature_help},
+    {"textDocument/semanticTokens/full", semantic_tokens},
+    {"textDocument/foldingRange", folding_ranges},
+    {"textDocument/codeAction", code_actions},
 };
 
 } // namespace
+
+std::string signature(const glsl::BuiltinFunction& function, const glsl::BuiltinOverload& overload) {
+    std::string parameters;
+    for (const glsl::BuiltinParameter& parameter : overload.parameters)
+        parameters += fmt::format("{}{}{}", parameters.empty() ? "" : ", ", parameter.written ? "out " : "",
+                                  parameter.type);
+    return fmt::format("{} {}({})", overload.result, function.name, parameters);
+}
+
+std::string describe_builtin(std::string_view name) {
+    const glsl::BuiltinFunction* const function = glsl::find_builtin(name);
+    return function ? of_builtin(*function) : "";
+}
+
+std::string describe_host(std::string_view name) {
+    return of_host(name);
+}
+
+/// Returns the SignatureHelp for the call around the cursor; null outside of calls.
+Answer signature_help(const Question& asked) {
+    const SourceFile& file = asked.workspace.files.front();
+    const auto tokens = text::tokenize(file.text);
+    const size_t offset = asked.offset();
+    size_t i = size_t(std::ranges::lower_bound(tokens, offset, {}, &text::Token::begin) - tokens.begin());
+    int depth = 0;
+    size_t commas = 0;
+    bool found = false;
+    while (i-- > 0) {
+        const int nesting = glsl::nesting(tokens[i].text);
+        if (tokens[i].is(";") || tokens[i].is("{") || tokens[i].is("}"))
+            return Json();
+        depth += nesting;
+        if (depth > 0 && tokens[i].is("(") && i > 0 && tokens[i - 1].kind == text::TokenKind::identifier) {
+            found = true;
+            break;
+        }
+        if (depth > 0) { // a bracket without a callee: its commas do not count
+            depth = 0;
+            commas = 0;
+        }
+        commas += depth == 0 && tokens[i].is(",") ? 1 : 0;
+    }
+    if (!found)
+        return Json();
+    const std::string_view name = tokens[i - 1].text;
+    Json signatures = Json::array();
+    std::optional<size_t> active;
+    const auto add = [&](const std::string& label, const std::string& about) {
+        const size_t open = label.find('('), close = label.rfind(')');
+        Json parameters = Json::array();
+        int nesting = 0;
+        size_t begin = open + 1;
+        for (size_t at = open + 1; open != label.npos && close != label.npos && at <= close; ++at) {
+            nesting += at < close ? glsl::nesting(std::string_view(label).substr(at, 1)) : 0;
+            if (nesting != 0 || (at < close && label[at] != ','))
+                continue;
+            while (begin < at && label[begin] == ' ')
+                ++begin;
+            if (begin < at)
+                parameters.push_back({{"label", label.substr(begin, at - begin)}});
+            begin = at + 1;
+        }
+        if (!active && (parameters.size() > commas || (parameters.empty() && commas == 0)))
+            active = signatures.size();
+        Json signature{{"label", label}, {"parameters", std::move(parameters)}};
+        if (!about.empty())
+            signature["documentation"] = {{"kind", "markdown"}, {"value", about}};
+        signatures.push_back(std::move(signature));
+    };
+    for (const size_t beside : asked.workspace.files_beside(0))
+        for (const Symbol& symbol : asked.workspace.files[beside].symbols)
+            if (symbol.name == name &&
+                (symbol.kind == Symbol::Kind::function ||
+                 (symbol.kind == Symbol::Kind::macro && symbol.signature.find('(') != std::string::npos)))
+                add(symbol.signature, symbol.comment);
+    if (const glsl::BuiltinFunction* function = signatures.empty() ? glsl::find_builtin(name) : nullptr)
+        for (const glsl::BuiltinOverload& overload : glsl::overloads_of(*function)) {
+            std::string about;
+            if (function->domain)
+                for (const glsl::UndefinedWhere& where : function->domain->undefined)
+                    if (!where.fault.empty())
+                        about += fmt::format("Undefined {}.\n", where.fault);
+            add(signature(*function, overload), about);
+        }
+    if (signatures.empty())
+        return Json();
+    return Json{{"signatures", std::move(signatures)},
+                {"activeSignature", active.value_or(0)},
+                {"activeParameter", commas}};
+}
 
 tl::unexpected<Refusal> refuse(ErrorNumber number, std::string message) {
     return tl::unexpected<Refusal>(Refusal{number, std::move(message)});

@@ -189,29 +189,48 @@ bool offers_utf8(const Json& params) {
     return std::ranges::find(offered, Json("utf-8")) != offered.end();
 }
 
+constexpr std::string_view k_execute = "workspace/executeCommand";
+/// Editors ignore notifications of this form that they do not know.
+constexpr std::string_view k_measured = "$/tidemark/measured";
+constexpr std::pair<std::string_view, Order::Kind> k_commands[] = {
+    {"tidemark.openPreview", Order::Kind::open_preview},
+    {"tidemark.openWindow", Order::Kind::open_window},
+    {"tidemark.closePreview", Order::Kind::close_preview},
+};
+
 /// Returns the member, or null if the object does not have it.
 Json member(const Json& object, const char* name) {
     return object.is_object() && object.contains(name) ? object[name] : Json();
 }
 
+/// Returns the texts of a member that is a text or a list of texts; none if it is missing.
+std::vector<std::string> texts_of(const Json& object, const char* name) {
+    const Json given = member(object, name);
+    if (given.is_null())
+        return {};
+    return given.is_array() ? given.get<std::vector<std::string>>() : std::vector{given.get<std::string>()};
+}
+
 } // namespace
 
-std::vector<Json> DiagnosticBoard::show(const fs::path& scene, const fs::path& main, const Verdict& verdict,
-                                        const Documents& documents, Encoding encoding) {
+std::vector<Json> DiagnosticBoard::show(From from, const fs::path& scene, const fs::path& main,
+                                        const Verdict& verdict, const Documents& documents,
+                                        Encoding encoding) {
     Files files = by_file(verdict, Translator(documents, main, encoding));
     std::set<fs::path> touched{main}; // an empty list clears the file
-    for (const auto* each : {&scenes_[scene], &files})
+    Files& shown = scenes_[{scene, from}];
+    for (const auto* each : {&shown, &files})
         for (const auto& [file, list] : *each)
             touched.insert(file);
-    scenes_[scene] = std::move(files);
+    shown = std::move(files);
     return publish(touched, documents);
 }
 
-std::vector<Json> DiagnosticBoard::forget(const fs::path& scene, const Documents& documents) {
+std::vector<Json> DiagnosticBoard::forget(From from, const fs::path& scene, const Documents& documents) {
     std::set<fs::path> touched;
-    for (const auto& [file, list] : scenes_[scene])
+    for (const auto& [file, list] : scenes_[{scene, from}])
         touched.insert(file);
-    scenes_.erase(scene);
+    scenes_.erase({scene, from});
     return publish(touched, documents);
 }
 
@@ -220,7 +239,7 @@ std::vector<Json> DiagnosticBoard::publish(const std::set<fs::path>& touched,
     std::vector<Json> notifications;
     for (const fs::path& file : touched) {
         Json list = Json::array();
-        for (const auto& [scene, files] : scenes_)
+        for (const auto& [key, files] : scenes_)
             if (const auto found = files.find(file); found != files.end())
                 for (const Json& diagnostic : found->second)
                     if (std::ranges::find(list, diagnostic) == list.end())
@@ -253,6 +272,8 @@ std::string Session::answer(const Json& message) {
     try { // a member is missing or has another type
         if (!asks)
             return notified(method, params);
+        if (method == k_execute && phase_ == Phase::running)
+            return command(id, params);
         Answer result = request(method, params);
         return framed(result ? response(id, *std::move(result))
                              : error_response(id, result.error().number, result.error().message));
@@ -263,6 +284,39 @@ std::string Session::answer(const Json& message) {
     }
 }
 
+/// Notes a command for the owner of the session; returns a response only if it is refused.
+std::string Session::command(const Json& id, const Json& params) {
+    const auto refused = [&](ErrorNumber number, const std::string& why) {
+        return framed(error_response(id, number, why));
+    };
+    const auto name = params.at("command").get<std::string>();
+    const auto known = std::ranges::find(k_commands, name, &std::pair<std::string_view, Order::Kind>::first);
+    if (known == std::end(k_commands))
+        return refused(ErrorNumber::invalid_params, fmt::format("there is no command '{}'", name));
+    const Json arguments = params.value("arguments", Json::array());
+    if (arguments.empty() && !recent_.empty()) {
+        orders_.push_back({known->second, id, recent_, {}, {}});
+        return "";
+    }
+    const std::string uri = arguments.at(0);
+    const auto path = path_of_uri(uri);
+    if (!path)
+        return refused(ErrorNumber::invalid_params,
+                       fmt::format("{} names no file of this machine: save it first", uri));
+    const fs::path file = canonical_name(*path);
+    const auto open = scenes_.find(file);
+    const auto scene = open != scenes_.end() ? std::optional(open->second) : scene_of(file, documents_);
+    if (!scene)
+        return refused(ErrorNumber::request_failed,
+                       fmt::format("'{}' is no scene: it has no mainImage, and no scene beside or above it "
+                                   "includes it",
+                                   file.filename().string()));
+    const Json options = arguments.size() > 1 ? arguments[1] : Json();
+    orders_.push_back(
+        {known->second, id, *scene, texts_of(options, "ancestor"), texts_of(options, "origin")});
+    return "";
+}
+
 Answer Session::request(const std::string& method, const Json& params) {
     if (method == "initialize")
         return initialize(params);
@@ -270,6 +324,8 @@ Answer Session::request(const std::string& method, const Json& params) {
         return refuse(ErrorNumber::not_initialized, "`initialize` must come first");
     if (phase_ == Phase::shut_down)
         return refuse(ErrorNumber::invalid_request, "after `shutdown` only `exit` is allowed");
+    if (method == "completionItem/resolve")
+        return resolved_completion(params);
     if (method != "shutdown")
         return ask(method, params);
     phase_ = Phase::shut_down;
@@ -285,7 +341,16 @@ Answer Session::ask(const std::string& method, const Json& params) const {
         if (workspace.files.front().path.extension() ==
             ".json") // its text is no GLSL: it has diagnostics alone
             return Json();
-        return question({workspace, params, documents_, encoding_});
+        const Question asked{workspace, params, documents_, encoding_};
+        Answer answer = question(asked);
+        const auto scene = scenes_.find(workspace.files.front().path);
+        if (method != "textDocument/codeAction" || !answer || scene == scenes_.end())
+            return answer;
+        if (const auto found = measured_.find(scene->second);
+            found != measured_.end() && found->second.texts == texts_of_scene(scene->second))
+            for (Json& action : fix_actions(asked, found->second.fixes, versioned_edits_))
+                answer->push_back(std::move(action));
+        return answer;
     });
 }
 
@@ -294,22 +359,28 @@ std::string Session::notified(const std::string& method, const Json& params) {
         exit_code_ = phase_ == Phase::shut_down ? 0 : 1;
     if (phase_ != Phase::running)
         return "";
+    std::string told;
     if (method == "textDocument/didOpen")
-        return open(params);
-    if (method == "textDocument/didChange")
-        return change(params);
-    if (method == "textDocument/didClose")
-        return close(params);
-    if (method == "textDocument/didSave" || method == "workspace/didChangeWatchedFiles")
+        told = open(params);
+    else if (method == "textDocument/didChange")
+        told = change(params);
+    else if (method == "textDocument/didClose")
+        told = close(params);
+    else if (method == "textDocument/didSave" || method == "workspace/didChangeWatchedFiles")
         saved();
-    return "";
+    return told + drop_outdated();
 }
 
 Answer Session::initialize(const Json& params) {
     if (phase_ != Phase::fresh)
         return refuse(ErrorNumber::invalid_request, "`initialize` may come only once");
     encoding_ = offers_utf8(params.is_object() ? params : Json::object()) ? Encoding::utf8 : Encoding::utf16;
+    const auto k_versioned = "/capabilities/workspace/workspaceEdit/documentChanges"_json_pointer;
+    versioned_edits_ = params.is_object() && params.value(k_versioned, false);
     phase_ = Phase::running;
+    Json commands = Json::array();
+    for (const auto& [name, kind] : k_commands)
+        commands.push_back(name);
     constexpr int k_whole_texts = 1;
     return Json{{"serverInfo", {{"name", "tidemark"}, {"version", version_}}},
                 {"capabilities",
@@ -319,7 +390,16 @@ Answer Session::initialize(const Json& params) {
                   {"definitionProvider", true},
                   {"documentSymbolProvider", true},
                   {"colorProvider", true},
-                  {"renameProvider", {{"prepareProvider", true}}}}}};
+                  {"renameProvider", {{"prepareProvider", true}}},
+                  {"referencesProvider", true},
+                  {"documentHighlightProvider", true},
+                  {"completionProvider",
+                   {{"triggerCharacters", {".", "#", "\"", "<", "/", ":"}}, {"resolveProvider", true}}},
+                  {"signatureHelpProvider", {{"triggerCharacters", {"(", ","}}}},
+                  {"semanticTokensProvider", {{"legend", semantic_legend()}, {"full", true}}},
+                  {"foldingRangeProvider", true},
+                  {"codeActionProvider", {{"codeActionKinds", Json::array({"quickfix"})}}},
+                  {"executeCommandProvider", {{"commands", std::move(commands)}}}}}};
 }
 
 tl::expected<Workspace, Refusal> Session::workspace_of(const Json& params) const {
@@ -342,6 +422,7 @@ std::string Session::open(const Json& params) {
         return ""; // a text without a file has no scene
     documents_.hold(*file, {document.at("uri"), document.value("version", 0)},
                     document.at("text").get<std::string>());
+    ++revisions_;
     return take_up(*file);
 }
 
@@ -354,6 +435,7 @@ std::string Session::change(const Json& params) {
     documents_.hold(*file, {document["uri"], document.value("version", 0)},
                     changes.back().at("text").get<std::string>());
     ++edits_;
+    ++revisions_;
     return take_up(*file);
 }
 
@@ -362,6 +444,7 @@ std::string Session::close(const Json& params) {
     const auto known = file ? scenes_.find(*file) : scenes_.end();
     if (file)
         documents_.release(*file);
+    ++revisions_;
     if (known == scenes_.end())
         return "";
     const fs::path scene = known->second;
@@ -380,7 +463,9 @@ void Session::saved() {
 std::string Session::take_up(const fs::path& file) {
     const auto scene = scene_of(file, documents_);
     const fs::path before = std::exchange(scenes_[file], scene.value_or(scenes_[file]));
-    if (scenes_[file].empty())
+    recent_ = scenes_[file];
+    recent_compiles_ = false;
+    if (recent_.empty())
         scenes_.erase(file);
     note_files(file);
     return before.empty() || !scene || *scene == before ? "" : leave(before);
@@ -406,14 +491,73 @@ std::string Session::leave(const fs::path& scene) {
     }
     stale_.erase(scene);
     files_of_.erase(scene);
-    return joined(board_.forget(scene, documents_));
+    if (recent_ == scene)
+        recent_.clear();
+    measured_.erase(scene);
+    return joined(board_.forget(DiagnosticBoard::From::compiler, scene, documents_)) +
+           joined(board_.forget(DiagnosticBoard::From::measurement, scene, documents_));
 }
 
 std::string Session::conclude(const fs::path& scene, const Verdict& verdict) {
     const auto open = std::ranges::find_if(scenes_, [&](const auto& each) { return each.second == scene; });
     if (open == scenes_.end())
         return ""; // closed in the meantime
-    return joined(board_.show(scene, open->first, verdict, documents_, encoding_));
+    if (scene == recent_)
+        recent_compiles_ = std::ranges::none_of(
+            verdict.problems, [](const Diagnostic& each) { return each.severity == Severity::error; });
+    return joined(
+        board_.show(DiagnosticBoard::From::compiler, scene, open->first, verdict, documents_, encoding_));
+}
+
+std::optional<fs::path> Session::unmeasured() const {
+    const bool wanted = recent_compiles_ && !recent_.empty() && !measured_.contains(recent_);
+    return wanted ? std::optional(recent_) : std::nullopt;
+}
+
+/// Returns the texts of the scene's files.
+std::map<fs::path, std::string> Session::texts_of_scene(const fs::path& scene) const {
+    std::map<fs::path, std::string> texts;
+    const auto known = files_of_.find(scene);
+    for (const fs::path& file : known == files_of_.end() ? files_of(scene, documents_) : known->second)
+        texts[file] = documents_.text_of(file).value_or("");
+    return texts;
+}
+
+void Session::begin_measuring(const fs::path& scene) {
+    measured_[scene] = {texts_of_scene(scene)};
+}
+
+/// Forgets what was measured in scenes that may have other texts now and do.
+std::string Session::drop_outdated() {
+    std::string told;
+    for (const fs::path& scene : stale_) {
+        const auto found = measured_.find(scene);
+        if (found == measured_.end() || found->second.texts == texts_of_scene(scene))
+            continue;
+        measured_.erase(found);
+        told += joined(board_.forget(DiagnosticBoard::From::measurement, scene, documents_));
+        told += framed(notification(k_measured, {{"scene", scene.string()}}));
+    }
+    return told;
+}
+
+std::string Session::show_error(const fs::path& scene, Json error) const {
+    if (!measured_.contains(scene))
+        return ""; // its texts have changed
+    error["scene"] = scene.string();
+    return framed(notification(k_measured, std::move(error)));
+}
+
+std::string Session::show_fix(const fs::path& scene, MeasuredFix fix) {
+    const auto open = std::ranges::find_if(scenes_, [&](const auto& each) { return each.second == scene; });
+    const auto found = measured_.find(scene);
+    if (open == scenes_.end() || found == measured_.end())
+        return "";
+    for (MeasuredFix::File& file : fix.files)
+        file.name = canonical_name(file.name);
+    found->second.fixes.push_back(std::move(fix));
+    return joined(board_.show(DiagnosticBoard::From::measurement, scene, open->first,
+                              {.hints = fix_hints(found->second.fixes, documents_)}, documents_, encoding_));
 }
 
 } // namespace tidemark::lsp

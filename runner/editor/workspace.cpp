@@ -6,9 +6,11 @@
 #include "scene/load_scene.hpp"
 #include "scene/names.hpp"
 #include "shader/token_reading.hpp"
+#include "shader/vocabulary.hpp"
 
 #include <algorithm>
 #include <initializer_list>
+#include <map>
 
 namespace tidemark::lsp {
 namespace fs = std::filesystem;
@@ -129,7 +131,7 @@ private:
         bool constant = false;
         while (at < end && is_qualifier(tokens()[at].text))
             constant |= tokens()[at++].is("const");
-        if (at + 1 >= end || tokens()[at].kind != TokenKind::identifier)
+        if (at + 1 >= end || tokens()[at].kind != TokenKind::identifier || tokens()[at].is("precision"))
             return;
         if (tokens()[at].is("struct")) {
             add(Kind::structure, first, at + 1, at + 2, end);
@@ -241,6 +243,11 @@ void add_file(Workspace& workspace, const fs::path& path, const Documents& docum
     workspace.files.push_back({file, *std::move(text), std::move(symbols)});
 }
 
+bool lies_in(const fs::path& file, const fs::path& folder) {
+    const fs::path inside = file.lexically_relative(canonical_name(folder));
+    return !folder.empty() && !inside.empty() && *inside.begin() != "..";
+}
+
 } // namespace
 
 std::string comment_above(std::string_view text, size_t offset) {
@@ -283,6 +290,43 @@ std::string leading_comment(std::string_view text) {
     return joined(std::vector(lines.begin(), end));
 }
 
+bool ends_in_comment(std::string_view text) {
+    bool line = false, block = false;
+    for (size_t i = 0; i < text.size(); ++i) {
+        const std::string_view two = text.substr(i, 2);
+        if (line)
+            line = text[i] != '\n';
+        else if (block && two == "*/")
+            block = false, ++i;
+        else if (!block && two == "//")
+            line = true;
+        else if (!block && two == "/*")
+            block = true, ++i;
+    }
+    return line || block;
+}
+
+std::string with_closed_brackets(const std::string& text, std::string_view before) {
+    const auto open_in = [](std::string_view part) {
+        std::string open;
+        for (const Token& token : text::tokenize(part)) {
+            const int nesting = glsl::nesting(token.text);
+            if (nesting > 0)
+                open += token.text;
+            else if (nesting < 0 && !open.empty())
+                open.pop_back();
+        }
+        return open;
+    };
+    if (open_in(text).empty())
+        return text;
+    std::string result(before);
+    const std::string open = open_in(before);
+    for (auto bracket = open.rbegin(); bracket != open.rend(); ++bracket)
+        result += *bracket == '(' ? ")" : *bracket == '[' ? "]" : ";}";
+    return result;
+}
+
 std::vector<Symbol> outline(std::string_view text) {
     return Outliner(text).run();
 }
@@ -308,6 +352,7 @@ Workspace look_around(const fs::path& file, const std::optional<fs::path>& scene
     add_file(workspace, file, documents);
     if (!scene)
         return workspace;
+    workspace.knows_scene = true;
     auto loaded = scene::load_scene(*scene, {.media = {}, .unsaved = documents.texts()});
     if (!loaded)
         return workspace;
@@ -315,17 +360,47 @@ Workspace look_around(const fs::path& file, const std::optional<fs::path>& scene
         if (scene::is_shader_file(each))
             add_file(workspace, each, documents);
     workspace.knobs = std::move(loaded->knobs);
+    std::map<std::string, std::optional<size_t>> index_of;
+    const auto add_files = [&](const text::MappedText& text, std::set<size_t>& files) {
+        for (int line = 1; line <= text.line_count(); ++line) {
+            const std::string name = text.lines().locate(line).file;
+            const auto [known, is_new] = index_of.try_emplace(name);
+            if (is_new && !name.empty()) {
+                const auto found =
+                    std::ranges::find(workspace.files, canonical_name(name), &SourceFile::path);
+                if (found != workspace.files.end())
+                    known->second = size_t(found - workspace.files.begin());
+            }
+            if (known->second)
+                files.insert(*known->second);
+        }
+    };
+    std::set<size_t> common;
+    add_files(loaded->common, common);
+    for (const scene::Pass& pass : loaded->passes) {
+        std::set<size_t> files = common;
+        add_files(pass.text, files);
+        workspace.passes.emplace_back(files.begin(), files.end());
+    }
     return workspace;
+}
+
+std::vector<size_t> Workspace::files_beside(size_t file) const {
+    std::set<size_t> beside{file};
+    for (const std::vector<size_t>& pass : passes)
+        if (std::ranges::find(pass, file) != pass.end())
+            beside.insert(pass.begin(), pass.end());
+    return {beside.begin(), beside.end()};
+}
+
+bool Workspace::is_library(const fs::path& file) const {
+    return lies_in(canonical_name(file), library);
 }
 
 bool Workspace::may_read(const fs::path& file) const {
     const fs::path wanted = canonical_name(file);
-    const auto lies_in = [&](const fs::path& folder) {
-        const fs::path inside = wanted.lexically_relative(canonical_name(folder));
-        return !folder.empty() && !inside.empty() && *inside.begin() != "..";
-    };
-    return std::ranges::find(files, wanted, &SourceFile::path) != files.end() || lies_in(library) ||
-           lies_in(files.front().path.parent_path());
+    return std::ranges::find(files, wanted, &SourceFile::path) != files.end() || lies_in(wanted, library) ||
+           lies_in(wanted, files.front().path.parent_path());
 }
 
 std::set<fs::path> files_of(const fs::path& scene, const Documents& documents) {

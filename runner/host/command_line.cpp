@@ -1,7 +1,5 @@
 #include "host/command_line.hpp"
 
-#include "host/help_formatter.hpp"
-
 #include <CLI/CLI.hpp>
 
 #include <cassert>
@@ -9,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 namespace {
 
 /// Wraps a CLI11 validator without its name, which the help would print.
@@ -17,24 +15,33 @@ ValueCheck check_of(const CLI::Validator& validator) {
     return [validator](const std::string& text) { return validator(text); };
 }
 
+class HelpFormatter : public CLI::Formatter {
+public:
+    std::string make_option_opts(const CLI::Option* option) const override { return value_words(*option); }
+};
+
 } // namespace
 
-std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
+void format_help(CLI::App& app) {
+    app.formatter(std::make_shared<HelpFormatter>());
+}
+
+std::string value_words(const CLI::Option& option) {
     std::string text;
-    if (option->get_type_size() != 0) {
-        if (!option->get_type_name().empty())
-            text += " " + option->get_type_name();
-        if (!option->get_default_str().empty())
-            text += "=" + option->get_default_str();
-        if (option->get_expected_max() == CLI::detail::expected_max_vector_size)
+    if (option.get_type_size() != 0) {
+        if (!option.get_type_name().empty())
+            text += " " + option.get_type_name();
+        if (!option.get_default_str().empty())
+            text += "=" + option.get_default_str();
+        if (option.get_expected_max() == CLI::detail::expected_max_vector_size)
             text += " ...";
-        else if (option->get_expected_min() > 1)
-            text += " x " + std::to_string(option->get_expected());
-        if (option->get_required())
+        else if (option.get_expected_min() > 1)
+            text += " x " + std::to_string(option.get_expected());
+        if (option.get_required())
             text += " REQUIRED";
     }
     for (const auto& [heading, others] :
-         {std::pair{" Needs:", option->get_needs()}, std::pair{" Excludes:", option->get_excludes()}}) {
+         {std::pair{" Needs:", option.get_needs()}, std::pair{" Excludes:", option.get_excludes()}}) {
         if (!others.empty())
             text += heading;
         for (const CLI::Option* other : others)
@@ -116,6 +123,13 @@ Option Option::repeatable() const {
 }
 Option Option::each(std::function<void(std::string)> function) const {
     return Option(option_->each(std::move(function)));
+}
+
+std::vector<std::string> Option::texts() const {
+    return option_->results();
+}
+void Option::add_text(const std::string& text) const {
+    option_->add_result(text);
 }
 
 std::string Command::name() const {
@@ -216,4 +230,4 @@ void fail_for_missing(const std::string& name) {
     throw CLI::RequiredError(name);
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

@@ -21,7 +21,7 @@ class App;
 class Option;
 } // namespace CLI
 
-namespace tidemark::cli {
+namespace tidemark::host {
 
 /// Checks the text of a value: returns what to give instead, or an empty string if the value is valid.
 using ValueCheck = std::function<std::string(const std::string&)>;
@@ -77,6 +77,12 @@ public:
     /// Calls `function` with each value while the command line is parsed.
     Option each(std::function<void(std::string)> function) const;
 
+    /// Returns the texts of its values so far.
+    std::vector<std::string> texts() const;
+    /// Adds a value as if the user had given it. To be called from a check of an option that was added before
+    /// this one, because values are read in that order.
+    void add_text(const std::string& text) const;
+
     bool operator==(const Option&) const = default;
 
 private:
@@ -123,6 +129,13 @@ private:
     CLI::App* app_;
 };
 
+/// Returns an option's value, its default and the options it needs or excludes, for the help and the manual
+/// pages: the same with every version of CLI11 (2.1 writes `NAME=DEFAULT`, 2.4 `NAME [DEFAULT]`).
+std::string value_words(const CLI::Option& option);
+
+/// Makes the help of `app` write options with `value_words`.
+void format_help(CLI::App& app);
+
 /// Parses `words` with the options that `declare` adds. The error message is CLI11's, except for --help and
 /// --version.
 Result<void> parse_words(const std::function<void(Command)>& declare, std::vector<std::string> words);
@@ -131,4 +144,4 @@ Result<void> parse_words(const std::function<void(Command)>& declare, std::vecto
 /// `on_call`.
 [[noreturn]] void fail_for_missing(const std::string& name);
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

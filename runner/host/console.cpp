@@ -12,7 +12,9 @@
 #include <cstdio>
 #include <mutex>
 
-namespace tidemark::cli {
+namespace tidemark::host {
+
+const char* const k_version = TIDEMARK_VERSION;
 namespace {
 
 std::atomic<bool> words_are_wanted{true};
@@ -122,4 +124,4 @@ SlowNotice::SlowNotice(std::string message, std::chrono::milliseconds delay)
               say(message);
       }) {}
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

@@ -11,7 +11,10 @@
 #include <string_view>
 #include <thread>
 
-namespace tidemark::cli {
+namespace tidemark::host {
+
+/// The version of the program, from CMake's project().
+extern const char* const k_version;
 
 /// Writes a line to standard error, without characters that would control the terminal (base/encoding.hpp).
 /// A closed standard error is not an error.
@@ -76,4 +79,4 @@ private:
     std::jthread thread_;
 };
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

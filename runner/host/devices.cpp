@@ -12,9 +12,24 @@
 #include <cstdlib>
 #include <regex>
 
-namespace tidemark::platform {
+namespace tidemark::host {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view k_es_prefix = "es:";
+
+}
+
+DeviceName split_device_name(std::string_view name) {
+    const bool es = name.starts_with(k_es_prefix);
+    return {std::string(name.substr(es ? k_es_prefix.size() : 0)), es};
+}
+
+std::string with_es(std::string_view name) {
+    return std::string(k_es_prefix) + split_device_name(name).name;
+}
 
 std::optional<std::string> pci_name(const fs::path& file, const fs::path& device_numbers) {
     struct stat facts {};
@@ -103,4 +118,4 @@ void do_without_full_driver_cache() {
             ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
 }
 
-} // namespace tidemark::platform
+} // namespace tidemark::host

@@ -1,3 +1,5 @@
+// OpenGL devices: the user's choice, permanent names, the order of attempts, Mesa's shader cache.
+//
 // The user's choice of a device, from `--device` and `--require-gpu`.
 #pragma once
 
@@ -6,14 +8,24 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-namespace tidemark::platform {
+namespace tidemark::host {
 
 struct DeviceChoice {
     std::string name = "auto";
     bool gpu_only = false; ///< fail rather than draw on the CPU
 };
+
+/// A device's name without its prefix. `es:NAME` is the device NAME with OpenGL ES.
+struct DeviceName {
+    std::string name;
+    bool es = false;
+};
+DeviceName split_device_name(std::string_view name);
+/// Returns the name of the same device with OpenGL ES, also for a name that has the prefix.
+std::string with_es(std::string_view name);
 
 // Permanent names of a graphics card, which other programs use too: its address on the PCI bus, its UUID,
 // CUDA's number. EGL's order (device:N) is EGL's alone and changes when cards are added.
@@ -46,4 +58,4 @@ std::vector<std::string> order_to_try(const std::vector<bool>& device_is_softwar
 /// has no room for the index that Mesa maps. Leaves no file there.
 void do_without_full_driver_cache();
 
-} // namespace tidemark::platform
+} // namespace tidemark::host

@@ -9,7 +9,6 @@
 #include "host/console.hpp"
 #include "host/json.hpp"
 #include "host/requests.hpp"
-#include "host/version.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,7 +18,7 @@
 #include <span>
 #include <utility>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 namespace {
 
 Rule rule_of(ErrorCode code) {
@@ -219,4 +218,4 @@ void finish_diagnostics(bool even_empty) {
         say_to_programs(dump(sarif_log(std::exchange(sink().waiting, {})), 2));
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

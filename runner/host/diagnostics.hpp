@@ -1,3 +1,5 @@
+// Diagnostics for other programs (--diagnostics): the finding and the output forms.
+//
 // A diagnostic for other programs, with the rule that found it and the end of the token that it is about.
 #pragma once
 
@@ -7,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 
 /// The check that finds a diagnostic: loading a scene, or a probe.
 struct Rule {
@@ -51,4 +53,4 @@ void say(const Finding& finding);
 /// found. Call it once per process, before it ends.
 void finish_diagnostics(bool even_empty);
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

@@ -3,8 +3,8 @@
 #include "base/encoding.hpp"
 #include "base/file.hpp"
 #include "base/overloaded.hpp"
+#include "host/console.hpp"
 #include "host/scene_report.hpp"
-#include "host/version.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,7 +14,7 @@
 #include <fstream>
 #include <type_traits>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 namespace {
 
 /// 64 bits: the probability that two of 1e8 different frames get the same hash is 3e-4.
@@ -231,4 +231,4 @@ std::string Fingerprint::differences(const Fingerprint& other) const {
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 
 class Fingerprint {
 public:
@@ -56,4 +56,4 @@ private:
     std::vector<std::pair<std::string, std::string>> parts_; ///< name, hash
 };
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

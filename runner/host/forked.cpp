@@ -22,7 +22,7 @@
 #include <limits>
 #include <utility>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 namespace {
 
 constexpr uint64_t k_kibi = 1024;
@@ -311,4 +311,4 @@ Result<ForkedResult> run_forked(const std::function<void(const Tell&)>& work, co
     return helper->ask({}, limits, hear);
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

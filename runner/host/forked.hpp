@@ -1,3 +1,5 @@
+// Work in child processes with limits of time and memory, and the measurement of memory.
+//
 // Memory of processes: parses and formats sizes, and measures the machine's memory and that of a process and
 // its descendants.
 #pragma once
@@ -14,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 
 /// Returns the memory of the machine, or the container's limit if that is lower, in bytes; 0: unknown.
 uint64_t machine_memory();
@@ -102,4 +104,4 @@ private:
     int answer_ = -1;   ///< reads from the child
 };
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

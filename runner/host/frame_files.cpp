@@ -10,7 +10,7 @@
 #include <new>
 #include <system_error>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 namespace fs = std::filesystem;
 namespace {
 
@@ -125,13 +125,8 @@ std::string name_after_scene(const fs::path& scene, std::string_view ending) {
     if (named.empty() || named == "." || named.filename() == "..")
         named = fs::weakly_canonical(scene, ignored);
     std::string stem = named == "-" ? "stdin" : named.stem().string(); // a scene from standard input
-    if (stem.size() + ending.size() > k_longest) {
-        size_t length = k_longest - ending.size();
-        // Inside a UTF-8 character.
-        while (length > 0 && (static_cast<unsigned char>(stem[length]) & 0xc0u) == 0x80)
-            --length;
-        stem.resize(length);
-    }
+    if (stem.size() + ending.size() > k_longest)
+        stem.resize(begin_of_character(stem, k_longest - ending.size()));
     return stem.append(ending);
 }
 
@@ -262,4 +257,4 @@ void FrameWriter::write(const FrameFile& frame, std::unique_lock<std::mutex>& lo
     changed_.notify_all();
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

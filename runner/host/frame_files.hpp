@@ -1,3 +1,5 @@
+// Files of frames: their names, existing sequences, and writing them on worker threads.
+//
 // File names for frames: `out/wave.%04d.png`, `out/wave.####.png`, one name for one picture or a video, and
 // `sky_{}.png` for the six faces of a cube.
 #pragma once
@@ -19,7 +21,7 @@
 #include <thread>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 
 /// Names of the cube's faces, in OpenGL's order.
 inline constexpr std::array<std::string_view, 6> k_face_names{"px", "nx", "py", "ny", "pz", "nz"};
@@ -137,4 +139,4 @@ private:
     std::vector<std::thread> workers_;
 };
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

@@ -1,7 +1,7 @@
 #include "host/gl_context.hpp"
 
-#include "base/software_renderer.hpp"
 #include "base/supervision.hpp"
+#include "render/gl_context.hpp"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -11,9 +11,41 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <utility>
 
-namespace tidemark::platform {
+namespace tidemark::host {
+
+namespace {
+
+/// An interface of OpenGL, and the least version that a context must have.
+struct Interface {
+    EGLenum api;
+    EGLint major, minor;
+    std::string_view name;
+};
+constexpr Interface k_desktop{EGL_OPENGL_API, 4, 5, "OpenGL 4.5 core"};
+/// Any core profile: to find out which version a driver has that lacks 4.5.
+constexpr Interface k_any_desktop{EGL_OPENGL_API, 3, 2, "OpenGL"};
+/// 3.1 has program interfaces, which list the uniforms, and sets uniforms of programs.
+constexpr Interface k_es{EGL_OPENGL_ES_API, 3, 1, "OpenGL ES 3.1"};
+
+std::vector<EGLint> context_attributes(const Interface& wanted, DebugContext debug, ResetNotice notice) {
+    std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION, wanted.major, EGL_CONTEXT_MINOR_VERSION,
+                                   wanted.minor};
+    if (wanted.api == EGL_OPENGL_API)
+        attributes.insert(attributes.end(),
+                          {EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT});
+    if (debug == DebugContext::yes)
+        attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
+    if (notice == ResetNotice::yes)
+        attributes.insert(attributes.end(),
+                          {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, reset_strategy(notice)});
+    attributes.push_back(EGL_NONE);
+    return attributes;
+}
+
+} // namespace
 
 int reset_strategy(ResetNotice notice) {
     return notice == ResetNotice::yes ? EGL_LOSE_CONTEXT_ON_RESET : EGL_NO_RESET_NOTIFICATION;
@@ -26,20 +58,15 @@ Result<SharedContext> SharedContext::create(void* display, void* first, void* su
     eglQueryContext(display, first, EGL_CONFIG_ID, &wanted[1]);
     if (wanted[1] != 0)
         eglChooseConfig(display, wanted, &config, 1, &count);
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                 4,
-                                 EGL_CONTEXT_MINOR_VERSION,
-                                 5,
-                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                 EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
-                                 reset_strategy(notice),
-                                 EGL_NONE};
-    eglBindAPI(EGL_OPENGL_API); // each thread has its own setting
+    EGLint api = EGL_OPENGL_API;
+    eglQueryContext(display, first, EGL_CONTEXT_CLIENT_TYPE, &api);
+    const std::vector<EGLint> attributes =
+        context_attributes(api == EGL_OPENGL_ES_API ? k_es : k_desktop, DebugContext::no, notice);
+    eglBindAPI(EGLenum(api)); // each thread has its own setting
     SharedContext made;
     made.display_ = display;
     made.window_ = surface;
-    made.context_ = eglCreateContext(display, config, first, attributes);
+    made.context_ = eglCreateContext(display, config, first, attributes.data());
     if (made.context_)
         return made;
     return fail(
@@ -190,6 +217,35 @@ struct Place {
     DeviceKind kind = DeviceKind::unknown;
 };
 
+/// A driver of Mesa that draws on the CPU. The environment selects it, before EGL is first called.
+struct MesaDriver {
+    std::string_view name;
+    std::array<std::pair<const char*, const char*>, 2> environment;
+    std::string_view package; ///< Debian's
+};
+
+constexpr MesaDriver k_mesa_drivers[] = {
+    {"mesa:llvmpipe", {{{"GALLIUM_DRIVER", "llvmpipe"}, {"LIBGL_ALWAYS_SOFTWARE", "1"}}}, "libgl1-mesa-dri"},
+    {"mesa:softpipe", {{{"GALLIUM_DRIVER", "softpipe"}, {"LIBGL_ALWAYS_SOFTWARE", "1"}}}, "libgl1-mesa-dri"},
+    {"mesa:zink",
+     {{{"MESA_LOADER_DRIVER_OVERRIDE", "zink"}, {"LIBGL_ALWAYS_SOFTWARE", "1"}}},
+     "mesa-vulkan-drivers"},
+};
+
+const MesaDriver* find_mesa_driver(std::string_view name) {
+    const auto found = std::ranges::find(k_mesa_drivers, name, &MesaDriver::name);
+    return found == std::end(k_mesa_drivers) ? nullptr : found;
+}
+
+/// Lets Mesa load this driver, in this process and its children, and returns the place where it draws.
+Place select(const MesaDriver& driver) {
+    for (const auto& [name, value] : driver.environment)
+        ::setenv(name, value, 1);
+    // Vulkan's loader looks for a Wayland display, whose library prints an error if this is not set.
+    ::setenv("XDG_RUNTIME_DIR", "/tmp", 0);
+    return {std::string(driver.name), EGL_PLATFORM_SURFACELESS_MESA, nullptr, DeviceKind::software};
+}
+
 /// Returns every place, in EGL's order.
 std::vector<Place> list_places() {
     std::vector<Place> places{{"surfaceless", EGL_PLATFORM_SURFACELESS_MESA}};
@@ -233,43 +289,75 @@ struct CurrentContext {
     bool make_current() const { return eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context); }
 };
 
-using ContextOrReason = tl::expected<std::unique_ptr<CurrentContext>, std::string>;
-
-EGLContext create_context(EGLDisplay display, DebugContext debug, ResetNotice notice) {
-    const EGLint attributes[] = {
-        EGL_CONTEXT_MAJOR_VERSION,
-        4,
-        EGL_CONTEXT_MINOR_VERSION,
-        5,
-        EGL_CONTEXT_OPENGL_PROFILE_MASK,
-        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-        EGL_CONTEXT_OPENGL_DEBUG,
-        debug == DebugContext::yes ? EGL_TRUE : EGL_FALSE,
-        EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
-        reset_strategy(notice),
-        EGL_NONE,
+/// Why a place has no context.
+struct NoContext {
+    enum class Kind {
+        no_driver, ///< no driver offers the place, or it does not start
+        too_old,   ///< there is a driver, but without the interface that is wanted
+        unsuited   ///< it has the interface, but cannot be used
     };
-    return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+    Kind kind = Kind::no_driver;
+    std::string reason;
+};
+
+using ContextOrReason = tl::expected<std::unique_ptr<CurrentContext>, NoContext>;
+
+tl::unexpected<NoContext> no_context(NoContext::Kind kind, std::string reason) {
+    return tl::unexpected(NoContext{kind, std::move(reason)});
+}
+
+EGLContext create_context(EGLDisplay display, const Interface& wanted, DebugContext debug,
+                          ResetNotice notice) {
+    const std::vector<EGLint> attributes = context_attributes(wanted, debug, notice);
+    eglBindAPI(wanted.api);
+    return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+}
+
+std::string gl_string(GLenum name) {
+    const GLubyte* text = glGetString(name);
+    return text ? reinterpret_cast<const char*>(text) : "";
+}
+
+/// Returns the GL_VERSION of a context of that kind; empty if the driver makes none.
+std::string version_offered(EGLDisplay display, const Interface& wanted) {
+    const EGLContext made = create_context(display, wanted, DebugContext::no, ResetNotice::no);
+    if (made == EGL_NO_CONTEXT)
+        return {};
+    const CurrentContext context(display, made, ResetNotice::no);
+    return context.make_current() ? gl_string(GL_VERSION) : std::string();
+}
+
+/// Says which interfaces the driver has instead of the one that it lacks.
+std::string what_is_missing(EGLDisplay display, const Interface& wanted) {
+    const std::string error(last_egl_error());
+    const std::string desktop = version_offered(display, k_any_desktop);
+    const std::string es = wanted.api == EGL_OPENGL_ES_API ? "" : version_offered(display, k_es);
+    std::string text = fmt::format("the driver has no {} ({})", wanted.name, error);
+    if (!desktop.empty())
+        text += fmt::format(", only OpenGL {}", desktop);
+    if (!es.empty())
+        text += fmt::format("; it has {}: `check --portable` and `capture --es` use that", es);
+    return text;
 }
 
 /// Makes a context that reports driver resets, if the driver has such contexts.
-ContextOrReason make_context(const Place& place, DebugContext debug) {
+ContextOrReason make_context(const Place& place, DebugContext debug, const Interface& wanted = k_desktop) {
     const Doing starting(fmt::format("starting OpenGL on '{}'", place.name), Doing::Kind::start);
     const auto display = open_display(place);
     if (!display)
-        return tl::unexpected(display.error());
-    eglBindAPI(EGL_OPENGL_API);
+        return no_context(NoContext::Kind::no_driver, display.error());
     const bool offered =
         has_word(eglQueryString(*display, EGL_EXTENSIONS), "EGL_EXT_create_context_robustness");
     auto notice = offered ? ResetNotice::yes : ResetNotice::no;
-    EGLContext made = create_context(*display, debug, notice);
+    EGLContext made = create_context(*display, wanted, debug, notice);
     if (made == EGL_NO_CONTEXT && offered)
-        made = create_context(*display, debug, notice = ResetNotice::no);
+        made = create_context(*display, wanted, debug, notice = ResetNotice::no);
     if (made == EGL_NO_CONTEXT)
-        return tl::unexpected(fmt::format("the driver has no OpenGL 4.5 core ({})", last_egl_error()));
+        return no_context(NoContext::Kind::too_old, what_is_missing(*display, wanted));
     auto context = std::make_unique<CurrentContext>(*display, made, notice);
     if (!context->make_current())
-        return tl::unexpected(fmt::format("the driver cannot draw without a window ({})", last_egl_error()));
+        return no_context(NoContext::Kind::unsuited,
+                          fmt::format("the driver cannot draw without a window ({})", last_egl_error()));
     return context;
 }
 
@@ -304,41 +392,72 @@ std::vector<Place> places_to_try(const std::vector<Place>& places, std::string_v
     return chosen;
 }
 
-tl::unexpected<Error> unknown_device(std::string_view device, const std::vector<Place>& places) {
+/// Returns all names for `create`, with the permanent ones.
+std::vector<std::string> names_of(const std::vector<Place>& places) {
     std::vector<std::string> names{"auto"};
     for (const Place& place : places) {
         names.push_back(place.name);
         std::ranges::move(lasting_names(place.device), std::back_inserter(names));
     }
+    std::ranges::move(mesa_drivers(), std::back_inserter(names));
+    return names;
+}
+
+tl::unexpected<Error> unknown_device(std::string_view device, const std::vector<Place>& places) {
     return fail(ErrorCode::usage,
-                fmt::format("unknown device '{}'; there are {}", device, fmt::join(names, ", ")));
+                fmt::format("unknown device '{}'; there are {}", device, fmt::join(names_of(places), ", ")));
 }
 
-tl::unexpected<Error> no_context(const std::vector<std::string>& tried) {
+/// The places that were tried, each with the reason why it has no context.
+using Tried = std::vector<std::pair<std::string, NoContext>>;
+
+std::string reasons_of(const Tried& tried) {
+    std::string text;
+    for (const auto& [place, error] : tried)
+        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", place, error.reason);
+    return text;
+}
+
+/// Returns whether a driver was found, but without the interface that is wanted.
+bool has_old_driver(const Tried& tried) {
+    return std::ranges::any_of(tried,
+                               [](const auto& each) { return each.second.kind == NoContext::Kind::too_old; });
+}
+
+tl::unexpected<Error> no_place(const Interface& wanted, const Tried& tried) {
     return fail(ErrorCode::no_context,
-                fmt::format("no OpenGL 4.5 context without a window: {}. Install a driver (Debian's "
-                            "libgl1-mesa-dri draws on the CPU; a graphics card needs its vendor's EGL "
-                            "driver); `tidemark inspect --devices` lists what there is",
-                            fmt::join(tried, "; ")));
+                fmt::format("no {} context without a window: {}.{} `tidemark inspect --devices` lists what "
+                            "there is",
+                            wanted.api == EGL_OPENGL_ES_API ? "OpenGL ES 3.1" : "OpenGL 4.5",
+                            reasons_of(tried),
+                            has_old_driver(tried)
+                                ? ""
+                                : " Install a driver (Debian's libgl1-mesa-dri draws on the CPU; a graphics "
+                                  "card needs its vendor's EGL driver);"));
 }
 
-tl::unexpected<Error> no_gpu(const std::vector<std::string>& tried) {
+tl::unexpected<Error> no_mesa_driver(const MesaDriver& driver, const Tried& tried) {
+    return fail(ErrorCode::no_context,
+                fmt::format("{}.{} `tidemark inspect --devices` lists what there is", reasons_of(tried),
+                            has_old_driver(tried)
+                                ? std::string()
+                                : fmt::format(" It is part of Debian's {};", driver.package)));
+}
+
+tl::unexpected<Error> no_gpu(const Tried& tried) {
     return fail(ErrorCode::no_context,
                 fmt::format("no graphics card can draw: {}. Check that the vendor's EGL driver is installed "
                             "and works; without --require-gpu the CPU draws",
-                            fmt::join(tried, "; ")));
-}
-
-std::string gl_string(GLenum name) {
-    const GLubyte* text = glGetString(name);
-    return text ? reinterpret_cast<const char*>(text) : "";
+                            reasons_of(tried)));
 }
 
 HeadlessDevice describe(const Place& place) {
-    HeadlessDevice device{place.name, place.kind, {}, {}, {}, lasting_names(place.device)};
+    HeadlessDevice device{place.name, place.kind, {}, {}, {}, lasting_names(place.device), {}};
+    if (const auto display = open_display(place))
+        device.es_version = version_offered(*display, k_es);
     const ContextOrReason context = make_context(place, DebugContext::no);
     if (!context) {
-        device.reason = context.error();
+        device.reason = context.error().reason;
         return device;
     }
     if (device.kind == DeviceKind::unknown)
@@ -346,7 +465,7 @@ HeadlessDevice describe(const Place& place) {
     device.renderer = gl_string(GL_RENDERER);
     device.version = gl_string(GL_VERSION);
     // The renderer's name decides: with a display, Mesa 25 reports llvmpipe's surfaceless device as hardware.
-    if (is_software_renderer(device.renderer))
+    if (gl::is_software_renderer(device.renderer))
         device.kind = DeviceKind::software;
     return device;
 }
@@ -364,21 +483,27 @@ HeadlessContext& HeadlessContext::operator=(HeadlessContext&&) noexcept = defaul
 HeadlessContext::~HeadlessContext() = default;
 
 Result<HeadlessContext> HeadlessContext::create(const DeviceChoice& choice, DebugContext debug) {
-    const std::vector<Place> places = list_places();
-    const std::vector<Place> chosen = places_to_try(places, choice.name);
+    const auto [name, es] = split_device_name(choice.name);
+    const MesaDriver* const driver = find_mesa_driver(name);
+    const std::vector<Place> places = driver ? std::vector{select(*driver)} : list_places();
+    const std::vector<Place> chosen = places_to_try(places, name);
     if (chosen.empty())
-        return unknown_device(choice.name, places);
-    std::vector<std::string> tried;
+        return unknown_device(name, places);
+    const Interface& wanted = es ? k_es : k_desktop;
+    Tried tried;
     for (const Place& place : chosen) {
-        ContextOrReason context = make_context(place, debug);
+        ContextOrReason context = make_context(place, debug, wanted);
         // EGL may list a card and still give a CPU renderer: the renderer's own name decides.
-        if (context && choice.gpu_only && is_software_renderer(gl_string(GL_RENDERER)))
-            context = tl::unexpected(fmt::format("draws on the CPU ({})", gl_string(GL_RENDERER)));
+        if (context && choice.gpu_only && gl::is_software_renderer(gl_string(GL_RENDERER)))
+            context = no_context(NoContext::Kind::unsuited,
+                                 fmt::format("draws on the CPU ({})", gl_string(GL_RENDERER)));
         if (context)
             return HeadlessContext(std::make_unique<State>(State{std::move(*context), place.name}));
-        tried.push_back(fmt::format("{}: {}", place.name, context.error()));
+        tried.emplace_back(place.name, context.error());
     }
-    return choice.gpu_only ? no_gpu(tried) : no_context(tried);
+    if (choice.gpu_only)
+        return no_gpu(tried);
+    return driver ? no_mesa_driver(*driver, tried) : no_place(wanted, tried);
 }
 
 Result<void> HeadlessContext::make_current() {
@@ -397,15 +522,23 @@ const std::string& HeadlessContext::device() const {
     return state_->device;
 }
 
-std::vector<HeadlessDevice> list_headless_devices() {
-    std::vector<HeadlessDevice> devices;
-    list_headless_devices(
-        [&](const HeadlessDevice& device, bool tried) {
-            if (tried)
-                devices.push_back(device);
-        },
-        0);
-    return devices;
+std::vector<std::string> device_names() {
+    return names_of(list_places());
+}
+
+std::vector<std::string> mesa_drivers() {
+    std::vector<std::string> names;
+    for (const MesaDriver& driver : k_mesa_drivers)
+        names.emplace_back(driver.name);
+    return names;
+}
+
+bool is_mesa_driver(std::string_view name) {
+    return find_mesa_driver(name) != nullptr;
+}
+
+HeadlessDevice describe_mesa_driver(const std::string& name) {
+    return describe(select(*find_mesa_driver(name)));
 }
 
 void list_headless_devices(const std::function<void(const HeadlessDevice&, bool tried)>& seen,
@@ -416,9 +549,9 @@ void list_headless_devices(const std::function<void(const HeadlessDevice&, bool 
             --skipped;
             continue;
         }
-        seen({place.name, place.kind, {}, {}, {}, {}}, false);
+        seen({place.name, place.kind, {}, {}, {}, {}, {}}, false);
         seen(describe(place), true);
     }
 }
 
-} // namespace tidemark::platform
+} // namespace tidemark::host

@@ -1,3 +1,5 @@
+// OpenGL contexts through EGL: headless ones, and second ones that share textures.
+//
 // A second OpenGL context that shares textures and programs with a first one, a window's or a headless one,
 // so that a thread can prepare what is shown later.
 #pragma once
@@ -8,9 +10,10 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
-namespace tidemark::platform {
+namespace tidemark::host {
 
 /// Whether a context reports that the driver was reset. Contexts that share must be alike in that.
 enum class ResetNotice { no, yes };
@@ -63,8 +66,8 @@ private:
     void* read_;
 };
 
-// Makes an OpenGL 4.5 core context with no window and no surface, through EGL. Takes the name of a device;
-// the context is current on the calling thread. Draws nothing and prints nothing.
+// Makes an OpenGL 4.5 core context, or one of OpenGL ES, with no window and no surface, through EGL. Takes
+// the name of a device; the context is current on the calling thread. Draws nothing and prints nothing.
 
 /// Whether the driver reports explanations of errors (GL_KHR_debug); costs time in every GL call.
 enum class DebugContext { no, yes };
@@ -72,7 +75,8 @@ enum class DebugContext { no, yes };
 class HeadlessContext {
 public:
     /// The choice's name is "surfaceless", "device:N" (in EGL's order), "display" (the X or Wayland display),
-    /// a permanent name (HeadlessDevice::lasting_names), or "auto", which tries them all (order_to_try).
+    /// a permanent name (HeadlessDevice::lasting_names), a driver of Mesa (mesa_drivers), or "auto", which
+    /// tries the places (order_to_try). A name with_es makes a context of OpenGL ES 3.1 or later (gl::is_es).
     /// Fails with ErrorCode::usage on any other name; with ErrorCode::no_context, and the reason for each
     /// place tried, if there is none.
     static Result<HeadlessContext> create(const DeviceChoice& choice = {},
@@ -105,13 +109,23 @@ struct HeadlessDevice {
     std::string version;                      ///< GL_VERSION; empty if there is no context
     std::string reason;                       ///< why there is no context; empty if there is one
     std::vector<std::string> lasting_names{}; ///< `pci:…`, `uuid:…`, `cuda:N`: names for `create` too
+    std::string es_version{}; ///< GL_VERSION of a context with OpenGL ES; empty if there is none
 };
 
-/// Lists every place, in EGL's order, after making a context there. The current context stays current.
-std::vector<HeadlessDevice> list_headless_devices();
-/// The same, without the first `skipped` places. Calls `seen` twice for each: with its name before the try,
-/// and with the result after it.
+/// Returns all names for `create` on this machine, from "auto" to Mesa's drivers. Starts no driver.
+std::vector<std::string> device_names();
+
+/// Lists every place but the first `skipped`, in EGL's order, after making a context there. Calls `seen`
+/// twice for each: with its name before the try, and with the result after it. The current context stays
+/// current.
 void list_headless_devices(const std::function<void(const HeadlessDevice&, bool tried)>& seen,
                            size_t skipped);
 
-} // namespace tidemark::platform
+/// Returns names for `create` of Mesa's drivers that draw on the CPU, such as "mesa:zink". A process can use
+/// one driver of Mesa only: that of its first context.
+std::vector<std::string> mesa_drivers();
+bool is_mesa_driver(std::string_view name);
+/// Returns a driver of that list, after making a context with it. Call it in a process without one.
+HeadlessDevice describe_mesa_driver(const std::string& name);
+
+} // namespace tidemark::host

@@ -4,9 +4,11 @@
 
 #include "base/extent.hpp"
 
+#include <string>
 #include <variant>
+#include <vector>
 
-namespace tidemark::platform {
+namespace tidemark::host {
 
 enum class Button { left, right, middle };
 
@@ -149,8 +151,14 @@ struct FocusLost {
     bool operator==(const FocusLost&) const = default;
 };
 
+/// Files that were dragged from another program and dropped on the window.
+struct FilesDropped {
+    std::vector<std::string> paths;
+    bool operator==(const FilesDropped&) const = default;
+};
+
 using InputEvent =
     std::variant<PointerMoved, ButtonPressed, ButtonReleased, WheelTurned, KeyPressed, KeyReleased, TextTyped,
-                 FramebufferResized, RedrawNeeded, CloseRequested, FocusLost>;
+                 FramebufferResized, RedrawNeeded, CloseRequested, FocusLost, FilesDropped>;
 
-} // namespace tidemark::platform
+} // namespace tidemark::host

@@ -10,16 +10,14 @@
 #include <algorithm>
 #include <optional>
 
-namespace tidemark::cli {
-
-using platform::Button;
+namespace tidemark::host {
 
 bool Controls::handle(const ControlEvent& event, double height) {
     height_ = height;
     return std::visit([this](const auto& happened) { return take(happened); }, event);
 }
 
-bool Controls::take(const platform::PointerMoved& event) {
+bool Controls::take(const PointerMoved& event) {
     const double dx = event.at.x - pointer_.x;
     const double dy = event.at.y - pointer_.y;
     pointer_ = event.at;
@@ -32,7 +30,7 @@ bool Controls::take(const platform::PointerMoved& event) {
     return turning_ || panning_;
 }
 
-bool Controls::take(const platform::ButtonPressed& event) {
+bool Controls::take(const ButtonPressed& event) {
     pointer_ = event.at;
     if (event.button == Button::left) {
         turning_ = true;
@@ -45,7 +43,7 @@ bool Controls::take(const platform::ButtonPressed& event) {
     return true;
 }
 
-bool Controls::take(const platform::ButtonReleased& event) {
+bool Controls::take(const ButtonReleased& event) {
     if (event.button == Button::left) {
         turning_ = false;
         mouse_.release();
@@ -57,18 +55,18 @@ bool Controls::take(const platform::ButtonReleased& event) {
     return true;
 }
 
-bool Controls::take(const platform::WheelTurned& event) {
+bool Controls::take(const WheelTurned& event) {
     camera_.zoom(event.up);
     return true;
 }
 
-bool Controls::take(const platform::KeyPressed& event) {
-    keyboard_.press(platform::js_key_code(event.key));
+bool Controls::take(const KeyPressed& event) {
+    keyboard_.press(js_key_code(event.key));
     return true;
 }
 
-bool Controls::take(const platform::KeyReleased& event) {
-    keyboard_.release(platform::js_key_code(event.key));
+bool Controls::take(const KeyReleased& event) {
+    keyboard_.release(js_key_code(event.key));
     return true;
 }
 
@@ -79,6 +77,12 @@ bool Controls::take(const CameraReset&) {
 
 bool Controls::take(const KnobTurned& event) {
     scene::set(knobs_, event.setting);
+    return true;
+}
+
+bool Controls::take(const PointerFollowed& event) {
+    pointer_ = event.at;
+    mouse_.position = glm::floor(glm::dvec2(event.at.x, event.at.y)) + 0.0; // -0 + 0 is 0
     return true;
 }
 
@@ -127,8 +131,6 @@ void Controls::frame_drawn() {
 
 namespace {
 
-using platform::Button;
-
 constexpr std::pair<std::string_view, Button> k_buttons[] = {
     {"left", Button::left}, {"middle", Button::middle}, {"right", Button::right}};
 
@@ -149,7 +151,7 @@ bool take_number(std::string_view& line, T& number, T least, T most) {
     return read && number >= least && number <= most;
 }
 
-bool take_position(std::string_view& line, platform::PointerPosition& at) {
+bool take_position(std::string_view& line, PointerPosition& at) {
     return take_number(line, at.x, -k_farthest_pixel, k_farthest_pixel) &&
            take_number(line, at.y, -k_farthest_pixel, k_farthest_pixel);
 }
@@ -178,25 +180,24 @@ constexpr std::pair<std::string_view, int> k_key_names[] = {
 std::optional<int> key_of_name(std::string_view name) {
     const std::string lower = lower_case(std::string(name));
     if (lower.size() == 1 && lower[0] >= 'a' && lower[0] <= 'z')
-        return lower[0] - 'a' + platform::js_key_code(platform::Key::a);
+        return lower[0] - 'a' + js_key_code(Key::a);
     const auto* const known =
         std::ranges::find(k_key_names, std::string_view(lower), &std::pair<std::string_view, int>::first);
     if (known != std::end(k_key_names))
         return known->second;
     const auto function =
         lower.starts_with('f') ? number_from<int>(std::string_view(lower).substr(1)) : std::nullopt;
-    return function && *function >= 1 && *function <= 24
-               ? std::optional(platform::js_key_code(platform::Key::f1) + *function - 1)
-               : std::nullopt;
+    return function && *function >= 1 && *function <= 24 ? std::optional(js_key_code(Key::f1) + *function - 1)
+                                                         : std::nullopt;
 }
 
 /// Takes a key's code or name.
-bool take_key(std::string_view& line, platform::Key& key) {
+bool take_key(std::string_view& line, Key& key) {
     std::string_view word = take_word(line);
     const auto code = number_from<int>(word) ? number_from<int>(word) : key_of_name(word);
     if (!code || *code < 1 || *code > 255)
         return false;
-    key = platform::Key(*code);
+    key = Key(*code);
     return true;
 }
 
@@ -226,35 +227,37 @@ std::optional<ControlEvent> event_if(Take&& take) {
 constexpr Kind k_kinds[] = {
     {"press", "press left|middle|right X Y",
      [](std::string_view& line) {
-         return event_if<platform::ButtonPressed>([&](platform::ButtonPressed& event) {
+         return event_if<ButtonPressed>([&](ButtonPressed& event) {
              return take_button(line, event.button) && take_position(line, event.at);
          });
      }},
     {"release", "release left|middle|right",
      [](std::string_view& line) {
-         return event_if<platform::ButtonReleased>(
-             [&](platform::ButtonReleased& event) { return take_button(line, event.button); });
+         return event_if<ButtonReleased>(
+             [&](ButtonReleased& event) { return take_button(line, event.button); });
      }},
     {"move", "move X Y",
      [](std::string_view& line) {
-         return event_if<platform::PointerMoved>(
-             [&](platform::PointerMoved& event) { return take_position(line, event.at); });
+         return event_if<PointerMoved>([&](PointerMoved& event) { return take_position(line, event.at); });
+     }},
+    {"point", "point X Y",
+     [](std::string_view& line) {
+         return event_if<PointerFollowed>(
+             [&](PointerFollowed& event) { return take_position(line, event.at); });
      }},
     {"wheel", "wheel UP",
      [](std::string_view& line) {
-         return event_if<platform::WheelTurned>([&](platform::WheelTurned& event) {
+         return event_if<WheelTurned>([&](WheelTurned& event) {
              return take_number(line, event.up, -k_farthest_pixel, k_farthest_pixel);
          });
      }},
     {"keydown", "keydown KEY (a name as in a, space, left or F1, or a code from 1 to 255)",
      [](std::string_view& line) {
-         return event_if<platform::KeyPressed>(
-             [&](platform::KeyPressed& event) { return take_key(line, event.key); });
+         return event_if<KeyPressed>([&](KeyPressed& event) { return take_key(line, event.key); });
      }},
     {"keyup", "keyup KEY (a name as in a, space, left or F1, or a code from 1 to 255)",
      [](std::string_view& line) {
-         return event_if<platform::KeyReleased>(
-             [&](platform::KeyReleased& event) { return take_key(line, event.key); });
+         return event_if<KeyReleased>([&](KeyReleased& event) { return take_key(line, event.key); });
      }},
     {"camera", "camera reset",
      [](std::string_view& line) {
@@ -283,7 +286,8 @@ Result<TimedEvent> parse_line(std::string_view line) {
                                     [&](const Kind& known) { return known.name == name; });
     if (kind == std::end(k_kinds))
         return refuse(fmt::format(
-            "unknown event '{}': give press, release, move, wheel, keydown, keyup, set or camera", name));
+            "unknown event '{}': give press, release, move, point, wheel, keydown, keyup, set or camera",
+            name));
     const auto event = kind->take(rest);
     if (!event || !take_word(rest).empty())
         return refuse(fmt::format("give it as `{} {}`", timed.frame, kind->form));
@@ -299,23 +303,24 @@ std::string_view name_of(Button button) {
 
 /// Formats an event as in its line.
 struct Wording {
-    std::string operator()(const platform::ButtonPressed& event) const {
+    std::string operator()(const ButtonPressed& event) const {
         return fmt::format("press {} {} {}", name_of(event.button), event.at.x, event.at.y);
     }
-    std::string operator()(const platform::ButtonReleased& event) const {
+    std::string operator()(const ButtonReleased& event) const {
         return fmt::format("release {}", name_of(event.button));
     }
-    std::string operator()(const platform::PointerMoved& event) const {
+    std::string operator()(const PointerMoved& event) const {
         return fmt::format("move {} {}", event.at.x, event.at.y);
     }
-    std::string operator()(const platform::WheelTurned& event) const {
-        return fmt::format("wheel {}", event.up);
+    std::string operator()(const PointerFollowed& event) const {
+        return fmt::format("point {} {}", event.at.x, event.at.y);
     }
-    std::string operator()(const platform::KeyPressed& event) const {
-        return fmt::format("keydown {}", platform::js_key_code(event.key));
+    std::string operator()(const WheelTurned& event) const { return fmt::format("wheel {}", event.up); }
+    std::string operator()(const KeyPressed& event) const {
+        return fmt::format("keydown {}", js_key_code(event.key));
     }
-    std::string operator()(const platform::KeyReleased& event) const {
-        return fmt::format("keyup {}", platform::js_key_code(event.key));
+    std::string operator()(const KeyReleased& event) const {
+        return fmt::format("keyup {}", js_key_code(event.key));
     }
     std::string operator()(const CameraReset&) const { return "camera reset"; }
     std::string operator()(const KnobTurned& event) const {
@@ -411,4 +416,4 @@ void Replay::fill(render::FrameState& state) {
     controls_.fill(state);
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

@@ -1,3 +1,5 @@
+// Input of the user: its effect on a scene, and recordings of it.
+//
 // User input to a scene, converted to its uniforms: mouse, keyboard, orbit camera and knobs, from a window or
 // from a recording.
 #pragma once
@@ -13,7 +15,7 @@
 #include <variant>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 
 /// Resets the orbit camera to its initial position.
 struct CameraReset {
@@ -26,10 +28,15 @@ struct KnobTurned {
     bool operator==(const KnobTurned&) const = default;
 };
 
+/// The pointer without a button, over a scene whose mouse follows it: texts of other hosts.
+struct PointerFollowed {
+    PointerPosition at;
+    bool operator==(const PointerFollowed&) const = default;
+};
+
 /// Every event that a scene can react to.
-using ControlEvent =
-    std::variant<platform::PointerMoved, platform::ButtonPressed, platform::ButtonReleased,
-                 platform::WheelTurned, platform::KeyPressed, platform::KeyReleased, CameraReset, KnobTurned>;
+using ControlEvent = std::variant<PointerMoved, ButtonPressed, ButtonReleased, WheelTurned, KeyPressed,
+                                  KeyReleased, CameraReset, KnobTurned, PointerFollowed>;
 
 class Controls {
 public:
@@ -41,6 +48,7 @@ public:
 
     /// Sets the mouse, the keys, the camera, and the knobs that were changed.
     void fill(render::FrameState& state) const;
+    void place_camera(const render::OrbitCamera& camera) { camera_ = camera; }
     /// Takes mouse, camera and knobs from `state`, with all buttons released.
     void adopt(const render::FrameState& state);
     /// Scales the mouse position to a new picture size, so that it stays at the same relative place.
@@ -54,21 +62,22 @@ public:
     void frame_drawn();
 
 private:
-    bool take(const platform::PointerMoved& event);
-    bool take(const platform::ButtonPressed& event);
-    bool take(const platform::ButtonReleased& event);
-    bool take(const platform::WheelTurned& event);
-    bool take(const platform::KeyPressed& event);
-    bool take(const platform::KeyReleased& event);
+    bool take(const PointerMoved& event);
+    bool take(const ButtonPressed& event);
+    bool take(const ButtonReleased& event);
+    bool take(const WheelTurned& event);
+    bool take(const KeyPressed& event);
+    bool take(const KeyReleased& event);
     bool take(const CameraReset&);
     bool take(const KnobTurned& event);
+    bool take(const PointerFollowed& event);
 
     render::OrbitCamera initial_camera_;
     render::OrbitCamera camera_;
     render::Mouse mouse_;
     render::Keyboard keyboard_;
     std::vector<scene::KnobSetting> knobs_; ///< held values, one per knob
-    platform::PointerPosition pointer_{};
+    PointerPosition pointer_{};
     double height_ = 1;
     bool turning_ = false;
     bool panning_ = false;
@@ -94,6 +103,7 @@ using InputScript = std::vector<TimedEvent>;
 ///     FRAME press left|middle|right X Y       FRAME move X Y       FRAME keydown KEY
 ///     FRAME release left|middle|right         FRAME wheel UP       FRAME keyup KEY
 ///     FRAME camera reset                      FRAME set NAME=VALUE
+///     FRAME point X Y                         (without a button, for scenes whose mouse follows the pointer)
 ///
 /// Errors (ErrorCode::load) have their place in `file`.
 Result<InputScript> parse_input_script(std::string_view text, const std::string& file);
@@ -135,4 +145,4 @@ private:
     int frame_ = 0;   ///< the frame that the controls are ready for
 };
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

@@ -8,7 +8,7 @@
 #include <limits>
 #include <tuple>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 
 std::string dump(const Json& json, int indent) {
     return json.dump(indent, ' ', false, Json::error_handler_t::replace);
@@ -162,4 +162,4 @@ Json run_numbers(const render::FrameState& state) {
     return json;
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 
 using Json = nlohmann::ordered_json;
 
@@ -42,4 +42,4 @@ Result<render::FrameState> frame_state_of(const Json& json);
 /// Returns the numbers that hold for a whole run, by name: `{"fps": 60}`.
 Json run_numbers(const render::FrameState& state);
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

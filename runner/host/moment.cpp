@@ -1,7 +1,7 @@
 #include "host/moment.hpp"
 
 #include "base/encoding.hpp"
-#include "host/version.hpp"
+#include "host/console.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 namespace {
 
 /// The largest width or height of a picture, in pixels.
@@ -154,4 +154,4 @@ std::vector<std::pair<std::string, std::string>> metadata_of(const scene::Scene&
     return metadata;
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

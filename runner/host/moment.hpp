@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 
 struct Moment {
     SceneRequest scene;
@@ -48,4 +48,4 @@ inline constexpr const char* k_moment = "Moment";
 /// frame with its mouse and camera in the options' format, the program, and the moment that `--like` reads.
 std::vector<std::pair<std::string, std::string>> metadata_of(const scene::Scene& scene, const Moment& moment);
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

@@ -1,3 +1,5 @@
+// Fields of the overlay, as plain values: definitions, errors, knobs, views, magnifier, pictures, time.
+//
 // A `#define` or `const` that is one number, as a field that can be edited.
 #pragma once
 
@@ -13,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tidemark::live {
+namespace tidemark::overlay {
 
 struct DefinitionField {
     std::string name;
@@ -127,7 +129,7 @@ struct PixelValue {
 struct MagnifierField {
     using Colour = std::array<unsigned char, 3>;
 
-    platform::PointerPosition pointer{};          ///< in the window
+    host::PointerPosition pointer{};              ///< in the window
     int x = 0;                                    ///< in the picture, from the left
     int y = 0;                                    ///< from the bottom
     Extent cells{};                               ///< odd sizes: pixel x,y is in the middle
@@ -180,10 +182,101 @@ struct TimeField {
 /// Returns the end of a bar, in seconds: 10, doubled until the time and the loop's end fit.
 double bar_end(const TimeField& time);
 
+/// The volume of a scene's sound.
+struct SoundField {
+    double volume = 1; ///< 0 to 1
+    bool muted = false;
+
+    double heard() const { return muted ? 0 : volume; }
+    bool operator==(const SoundField&) const = default;
+};
+
+/// A view that the user kept.
+struct ViewField {
+    std::string name;
+    std::string label;    ///< `2.500 s, height = 2`
+    unsigned texture = 0; ///< name of a two-dimensional OpenGL texture; 0: no thumbnail
+    Extent extent{};      ///< of that texture
+
+    bool operator==(const ViewField&) const = default;
+};
+
+/// A scene in the gallery.
+struct GalleryField {
+    std::string name;
+    std::string error{};  ///< why it has no thumbnail; empty: it has one, or is still to be drawn
+    unsigned texture = 0; ///< name of a two-dimensional OpenGL texture; 0: none yet
+    Extent extent{};      ///< of that texture
+};
+
+// Lenses: one number per pixel instead of the picture. All texts are ready to be shown.
+
+/// An entry of a lens's legend.
+struct LegendField {
+    std::optional<std::array<unsigned char, 3>> box{}; ///< its colour, sRGB
+    std::string words;
+};
+
+/// The legend of the lens on show, or the reason why there is none.
+struct LensField {
+    std::string title;
+    std::string basis{}; ///< unit, and how the numbers are found
+    /// Colours of the bar from its low end to its high end; empty: the lens has no bar.
+    std::vector<std::array<unsigned char, 3>> bar{};
+    std::string low{}, high{};    ///< numbers at the bar's ends
+    std::optional<double> mark{}; ///< place of the pixel under the pointer on the bar, 0 to 1
+    std::string pointer{};        ///< the number of that pixel; empty: there is none
+    std::vector<LegendField> entries{};
+    std::string refusal{};  ///< why the scene has no such numbers; empty: it has
+    std::string progress{}; ///< what is still being drawn; empty: nothing
+};
+
+/// A lens in the list of the controls.
+struct LensChoice {
+    std::string name;
+    std::string description;
+    std::string refusal{}; ///< known reason why the scene has no such numbers; empty: none is known
+    bool takes_line = false, needs_line = false;
+    std::string second{}; ///< label of what may follow the line; empty: nothing
+};
+
+/// The list of lenses and the fields beside it.
+struct LensChooser {
+    std::vector<LensChoice> choices{};
+    std::optional<size_t> chosen{}; ///< none: off
+    std::string place{};            ///< LINE or FILE:LINE
+    std::string variable{};         ///< of `value`: a name; of `branch`: a number
+};
+
+/// A line of the text and its share of the work.
+struct HotLineField {
+    SourceLocation where;
+    std::string text;
+    double share = 0;          ///< 0 to 1
+    std::string share_words{}; ///< in per cent
+};
+
+struct HotLinesField {
+    bool open = false; ///< they are counted only while they are shown
+    std::vector<HotLineField> lines{};
+    std::string note{}; ///< for which frame, or why there are none
+};
+
+/// Error and time of the last values of a knob that is being turned.
+struct FrontField {
+    struct Point {
+        std::string value;
+        double milliseconds = 0; ///< to draw a frame in float
+        double error = 0;        ///< RMSE against double, in steps of 1/255
+    };
+    std::string knob;
+    std::vector<Point> points{}; ///< the newest last
+};
+
 /// A short message over the picture.
 struct MessageField {
     std::string text;
     double opacity = 1; ///< below 1 while it fades
 };
 
-} // namespace tidemark::live
+} // namespace tidemark::overlay

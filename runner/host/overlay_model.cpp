@@ -10,21 +10,18 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
-namespace tidemark::live {
+namespace tidemark::overlay {
 using scene::Knob;
 using scene::KnobType;
 namespace {
-
-bool begins_character(char byte) {
-    return (static_cast<unsigned char>(byte) & 0xC0) != 0x80;
-}
 
 /// Returns the byte offset of the character with that index (from 0) in UTF-8.
 size_t byte_of(std::string_view text, size_t character) {
     size_t i = 0;
     for (; i < text.size(); ++i)
-        if (begins_character(text[i]) && character-- == 0)
+        if (!continues_character(text[i]) && character-- == 0)
             break;
     return i;
 }
@@ -62,16 +59,15 @@ void keep_changing(const std::vector<DefinitionField>& before, std::vector<Defin
 std::string text_of(const DefinitionField& field) {
     if (field.whole)
         return fmt::format("{:.0f}", field.value);
-    const std::string text = fmt::format("{}", field.value);
-    return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+    return float_literal(fmt::format("{}", field.value));
 }
 
 Excerpt excerpt_of(std::string_view line, int column, size_t most) {
     std::string text(line);
     std::ranges::replace(text, '\t', ' ');
     const size_t before = std::min(text.size(), size_t(std::max(column - 1, 0)));
-    const auto place =
-        size_t(std::count_if(text.begin(), text.begin() + std::ptrdiff_t(before), begins_character));
+    const auto place = size_t(
+        std::count_if(text.begin(), text.begin() + std::ptrdiff_t(before), std::not_fn(continues_character)));
     const size_t first = place < most ? 0 : place - most / 2;
     const size_t begin = byte_of(text, first);
     text = text.substr(begin, byte_of(std::string_view(text).substr(begin), most));
@@ -138,22 +134,22 @@ double bar_end(const TimeField& time) {
     return end;
 }
 
-bool EventOwner::take(const platform::InputEvent& event, const Wishes& wishes) {
+bool EventOwner::take(const host::InputEvent& event, const Wishes& wishes) {
     return std::visit(
         Overloaded{
-            [&](const platform::PointerMoved&) { return !buttons_.empty(); },
-            [&](const platform::ButtonPressed& pressed) {
+            [&](const host::PointerMoved&) { return !buttons_.empty(); },
+            [&](const host::ButtonPressed& pressed) {
                 return wishes.pointer && buttons_.insert(pressed.button).second;
             },
-            [&](const platform::ButtonReleased& released) { return buttons_.erase(released.button) > 0; },
-            [&](const platform::WheelTurned&) { return wishes.pointer; },
-            [&](const platform::KeyPressed& pressed) {
+            [&](const host::ButtonReleased& released) { return buttons_.erase(released.button) > 0; },
+            [&](const host::WheelTurned&) { return wishes.pointer; },
+            [&](const host::KeyPressed& pressed) {
                 if (wishes.text)
                     keys_.insert(pressed.key);
                 return wishes.text;
             },
-            [&](const platform::KeyReleased& released) { return keys_.erase(released.key) > 0; },
-            [&](const platform::TextTyped&) { return wishes.text; },
+            [&](const host::KeyReleased& released) { return keys_.erase(released.key) > 0; },
+            [&](const host::TextTyped&) { return wishes.text; },
             [](const auto&) { return false; },
         },
         event);
@@ -164,4 +160,4 @@ void EventOwner::release_all() {
     keys_.clear();
 }
 
-} // namespace tidemark::live
+} // namespace tidemark::overlay

@@ -2,7 +2,6 @@
 
 #include "base/error.hpp"
 #include "base/measurement.hpp"
-#include "base/software_renderer.hpp"
 #include "host/scene_report.hpp"
 #include "render/gl_context.hpp"
 
@@ -18,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 namespace {
 
 using render::Renderer;
@@ -36,7 +35,7 @@ constexpr double k_longest_timing_ms = 10'000;
 /// affect it.
 using ElapsedClock = double lab::Elapsed::*;
 ElapsedClock clock_of(const TrialPlan& plan) {
-    const bool in_software = is_software_renderer(gl::query_capabilities().renderer);
+    const bool in_software = gl::is_software_renderer(gl::query_capabilities().renderer);
     return in_software && !plan.in_window ? &lab::Elapsed::cpu : &lab::Elapsed::wall;
 }
 
@@ -193,4 +192,4 @@ Result<Trial> choose_program(const scene::Scene& scene, const render::RenderOpti
     return trial;
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

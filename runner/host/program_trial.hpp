@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 
 /// The frames and limits of a trial.
 struct TrialPlan {
@@ -45,4 +45,4 @@ bool worth_trying(const render::Renderer& renderer, glsl::Specialise how);
 Result<Trial> choose_program(const scene::Scene& scene, const render::RenderOptions& options,
                              const TrialPlan& plan);
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

@@ -5,6 +5,7 @@
 #include "host/console.hpp"
 #include "host/diagnostics.hpp"
 #include "host/forked.hpp"
+#include "host/presets.hpp"
 #include "shader/definitions.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@
 #include <concepts>
 #include <utility>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 namespace {
 
 /// The limit for all ranges together.
@@ -391,6 +392,7 @@ void add_scene_options(Command command, SceneRequest& request) {
         .required()
         .check([&request](const std::string& path) { return read_scene_of_input(request, path); })
         .each(place_diagnostics);
+    add_preset_option(command, request.path);
     command.add_option("--set", request.sets, "Value of a knob (#iUniform)")
         .type_name("NAME=VALUE")
         .repeatable();
@@ -430,10 +432,14 @@ void add_precision_options(Command command, SceneRequest& request) {
         .needs(precision);
 }
 
-void add_device_options(Command command, platform::DeviceChoice& device) {
+void add_device_options(Command command, DeviceChoice& device) {
     command
         .add_option("--device", device.name, "Device to draw with: a name from `tidemark inspect --devices`")
         .type_name("NAME")
+        .check([](const std::string& name) -> std::string {
+            return split_device_name(name).es ? "es: is for --devices of compare; capture and view have --es"
+                                              : "";
+        })
         .capture_default_str();
     command.add_flag("--require-gpu", device.gpu_only,
                      "Fails if the CPU would draw instead of a graphics card");
@@ -579,4 +585,4 @@ Result<Limits> resolve(const LimitOptions& options) {
     });
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 
 /// A scene and the changes that options make to it. The texts are checked when the scene is loaded.
 struct SceneRequest {
@@ -113,7 +113,7 @@ void add_file_options(Command command, SceneRequest& request);
 void add_precision_options(Command command, SceneRequest& request);
 
 /// Adds --device and --require-gpu, for every command that draws without a window.
-void add_device_options(Command command, platform::DeviceChoice& device);
+void add_device_options(Command command, DeviceChoice& device);
 
 /// The frame options as they were typed.
 struct FrameOptions {
@@ -166,4 +166,4 @@ void add_limit_options(Command app, LimitOptions& options);
 /// Returns the limits; without --memory, half of the machine's memory.
 Result<Limits> resolve(const LimitOptions& options);
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

@@ -1,10 +1,12 @@
 #include "host/scene_report.hpp"
 
 #include "base/encoding.hpp"
+#include "host/console.hpp"
 #include "host/json.hpp"
-#include "host/version.hpp"
 #include "media/image.hpp"
+#include "media/sound_file.hpp"
 #include "render/gl_program.hpp"
+#include "render/sound_renderer.hpp"
 #include "scene/host_uniforms.hpp"
 #include "shader/definitions.hpp"
 #include "shader/driver_log.hpp"
@@ -19,7 +21,7 @@
 
 #include <algorithm>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 namespace {
 
 std::vector<double> components_of(const scene::Knob& knob, const scene::KnobValue& value) {
@@ -191,6 +193,36 @@ Json files_of(const scene::Scene& scene) {
     return files;
 }
 
+Json sounds_of(const scene::Scene& scene) {
+    Json sounds = Json::array();
+    for (const render::HeardChannel& channel : render::heard_channels(scene)) {
+        Json& json = sounds.emplace_back(Json{{"channel", channel.name}, {"file", channel.file.string()}});
+        const auto sound = render::read_sound_of(channel);
+        if (!sound)
+            json["error"] = sound.error().message;
+        else if (*sound)
+            json.update({{"seconds", (*sound)->data.duration()},
+                         {"rate", (*sound)->data.rate},
+                         {"channels", (*sound)->data.channels}});
+        else
+            json["seconds"] = 0;
+    }
+    return sounds;
+}
+
+std::string sound_lines(const scene::Scene& scene) {
+    std::string text;
+    for (const Json& json : sounds_of(scene)) {
+        const std::string about = json.contains("error") ? json["error"].get<std::string>()
+                                  : json.contains("channels")
+                                      ? fmt::format("{:.3f} s, {}", json["seconds"].get<double>(),
+                                                    sound::rate_words(json["rate"], json["channels"]))
+                                      : "no audio track";
+        text += fmt::format("  sound     {}: {}\n", json["channel"].get<std::string>(), about);
+    }
+    return text;
+}
+
 Json knobs_of(const scene::Scene& scene) {
     Json knobs = Json::array();
     for (const scene::Knob& knob : scene.knobs) {
@@ -245,6 +277,7 @@ Json what_files_say(const scene::Scene& scene) {
     }
     if (scene.size)
         json["size"] = {scene.size->width, scene.size->height};
+    json["sounds"] = sounds_of(scene);
     json["knobs"] = knobs_of(scene);
     json["definitions"] = definitions_of(scene);
     return json;
@@ -260,7 +293,7 @@ std::string lines_of_files(const scene::Scene& scene) {
             if (is_chosen(pass.channels[i]))
                 text += fmt::format("  iChannel{} {}\n", i, describe(scene, pass.channels[i]));
     }
-    return text + knob_lines(scene) + definition_lines(scene);
+    return text + sound_lines(scene) + knob_lines(scene) + definition_lines(scene);
 }
 
 SceneFacts facts_of(const render::Renderer& renderer) {
@@ -373,4 +406,4 @@ void add_site_refusals(const scene::Scene& scene, std::vector<Diagnostic>& found
     }
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

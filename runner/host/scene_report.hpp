@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 
 /// Returns the name of a channel's input: a pass, a file, or the input's type.
 std::string describe(const scene::Scene& scene, const scene::Channel& channel);
@@ -26,6 +26,11 @@ nlohmann::ordered_json files_of(const scene::Scene& scene);
 nlohmann::ordered_json knobs_of(const scene::Scene& scene);
 /// Lists each knob with its type, value and range.
 std::string knob_lines(const scene::Scene& scene);
+
+/// Return the length, rate and channels of each channel that reads a sound file or a video. They decode the
+/// files.
+nlohmann::ordered_json sounds_of(const scene::Scene& scene);
+std::string sound_lines(const scene::Scene& scene);
 
 /// Return the names that --define and --vary accept, with their values.
 nlohmann::ordered_json definitions_of(const scene::Scene& scene);
@@ -47,8 +52,8 @@ struct SceneFacts {
     std::vector<PassFacts> passes;     ///< in drawing order
     std::vector<std::string> uniforms; ///< active in any pass, knobs and channels included
     std::vector<std::string> left_out; ///< texts for users, one per kind
-    /// Active uniforms that have a value because other hosts know their names: the name, and ours for the
-    /// value or its meaning.
+    /// Active uniforms that have a value because their names are those of other hosts: the name, and our name
+    /// for the value, or its meaning.
     std::vector<std::pair<std::string, std::string>> other_names;
 };
 
@@ -100,4 +105,4 @@ std::string trace_command(const SceneRequest& scene, const FrameSequence& sequen
 void add_site_refusals(const scene::Scene& scene, std::vector<Diagnostic>& found,
                        const std::function<void(const std::string& pass)>& compiling = {});
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

@@ -1,7 +1,7 @@
 #include "host/study_support.hpp"
 
 #include "base/encoding.hpp"
-#include "host/version.hpp"
+#include "host/console.hpp"
 #include "lab/outcome.hpp"
 #include "lab/study_report.hpp"
 #include "lab/work_precision.hpp"
@@ -17,7 +17,7 @@
 #include <span>
 #include <thread>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 namespace {
 
 OutputPath report_folder(const OutputPath& folder, bool complete) {
@@ -136,4 +136,4 @@ Result<lab::SearchRequest> search_request(const SearchOptions& options, const sc
     return request;
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

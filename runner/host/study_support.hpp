@@ -18,7 +18,7 @@
 #include <memory>
 #include <string>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 
 /// Prints progress for each part of the study, and cancels it on Ctrl-C or after a driver error. A context
 /// must be current.
@@ -72,7 +72,7 @@ struct SearchOptions {
     std::string output; ///< folder of the report
     bool write = false;
     bool json = false;
-    platform::DeviceChoice device{};
+    DeviceChoice device{};
 };
 
 /// Adds all options except the scene and the goal, as the last options of a command.
@@ -81,4 +81,4 @@ void add_search_options(Command command, SearchOptions& options);
 /// Returns the request with views, size and seconds; the caller adds the goal.
 Result<lab::SearchRequest> search_request(const SearchOptions& options, const scene::Scene& scene);
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

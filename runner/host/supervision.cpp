@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 namespace {
 
 /// The first message comes after this time, the following ones at this interval.
@@ -247,7 +247,7 @@ private:
     pid_t child_;
     Limits limits_;
     const DoingPage* page_;
-    bool requested_ = false; ///< the child was asked to end
+    bool requested_ = false; ///< the child was sent a request to end
     std::optional<Clock::time_point> give_up_at_{};
     unsigned looks_ = 0;
     std::vector<pid_t> family_; ///< descendants of the child at the last refresh
@@ -434,4 +434,4 @@ std::optional<int> supervise(const Limits& limits) {
     return std::nullopt;
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

@@ -1,4 +1,6 @@
-// Ctrl-C as a flag: the first request asks to stop after the current work, the second one ends the process.
+// Ends of a process: Ctrl-C, time limits, unexpected exceptions, and a supervisor for crashes.
+//
+// Ctrl-C as a flag: the first request stops after the current work, the second one ends the process.
 #pragma once
 
 #include "host/forked.hpp"
@@ -15,7 +17,7 @@
 #include <string>
 #include <thread>
 
-namespace tidemark::cli {
+namespace tidemark::host {
 
 /// Handles SIGINT, SIGTERM and SIGHUP while it lives. Construct it before any other thread, so that the
 /// threads inherit its signal mask.
@@ -164,4 +166,4 @@ std::optional<int> supervise(const Limits& limits);
 /// Returns for example "the driver crashed (SIGSEGV) compiling Image of 'a.glsl'"; `doing` may be empty.
 std::string crash_text(int signal, const std::string& doing);
 
-} // namespace tidemark::cli
+} // namespace tidemark::host

@@ -20,7 +20,7 @@
 namespace tidemark::lab {
 namespace {
 
-ProvedHits none(std::string why) {
+ProvedHits no_hits(std::string why) {
     return {.why_not = std::move(why)};
 }
 
@@ -31,7 +31,8 @@ Standard standard_of(const PassFunction& function, const std::vector<Setting>& s
     standard.method = fmt::format(
         "{} the distance that {}:{} tests{}, proved from the text by interval "
         "arithmetic on every piece of a ray, in real arithmetic on rays set up in double",
-        views.front().surface == ir::Surface::zero ? "first zeros of" : "first places below the threshold of",
+        views.front().surface == proof::Surface::zero ? "first zeros of"
+                                                      : "first places below the threshold of",
         where.file, where.line, settings.empty() ? "" : fmt::format(" with {}", to_string(settings)));
     double squares = 0;
     size_t looked_at = 0, unknown = 0;
@@ -56,7 +57,7 @@ Result<ProvedHits> proved_hits(const scene::Scene& scene, const Study& study, co
     const size_t image = set.image_index();
     const auto function = PassFunction::create(set, set.passes[image]);
     if (!function)
-        return none("the text cannot be analysed: " + function.error().message);
+        return no_hits("the text cannot be analysed: " + function.error().message);
     if (function->loops().empty())
         return ProvedHits{{}, "no ray-marching loop found in Image", false};
     auto renderer =
@@ -69,10 +70,10 @@ Result<ProvedHits> proved_hits(const scene::Scene& scene, const Study& study, co
         auto hits = true_hits({*function, renderer, image, inputs_of(state)},
                               study.proof_seconds / double(study.views.size()), keep_going);
         if (!hits)
-            return none("interrupted");
+            return no_hits("interrupted");
         if (double(hits->unknown) > k_most_blind * double(hits->looked_at))
-            return none(fmt::format("{} of {} rays cannot be decided by proof from the text", hits->unknown,
-                                    hits->looked_at));
+            return no_hits(fmt::format("{} of {} rays cannot be decided by proof from the text",
+                                       hits->unknown, hits->looked_at));
         truth.views.push_back(hits->hits);
         truth.footprints.push_back(plain_footprint(study.extent));
         views.push_back(*std::move(hits));
@@ -368,7 +369,15 @@ private:
         watch_.begin("points split by error source", set().points.size());
         const Sight true_sight{truth_.pictures, truth_.hits};
         const std::optional<Share> model = model_share(true_sight);
+        const Stopwatch clock;
         for (size_t i = 0; i < set().points.size() && going(); ++i) {
+            if (i > 0 && clock.elapsed().wall * 1e-3 * double(i + 1) / double(i) > timing_.budget) {
+                remark(
+                    fmt::format("the errors of {} settings are not split by source: it takes longer than the "
+                                "time budget",
+                                set().points.size() - i));
+                break;
+            }
             WorkPrecision& point = set().points[i];
             Recipe recipe{point.point.settings, study().precision};
             const Sight* before = &sights_[i];

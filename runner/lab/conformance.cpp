@@ -170,10 +170,6 @@ std::vector<fs::path> conformance_projects(const fs::path& folder) {
     return projects;
 }
 
-Result<std::string> convention_of(const fs::path& project) {
-    return TRY(read_expected(project)).value("convention", "");
-}
-
 Result<void> conforms(const fs::path& project, render::RenderOptions options) {
     try {
         return is_drawn_as_expected(project, std::move(options));

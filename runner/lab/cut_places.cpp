@@ -75,9 +75,9 @@ std::optional<std::vector<glsl::BufferSampler>> samplers_of(const scene::Pass& p
     return samplers;
 }
 
-class Finder {
+class PlaceFinder {
 public:
-    Finder(const scene::Scene& scene, const std::vector<View>& views, const KeepGoing& keep_going)
+    PlaceFinder(const scene::Scene& scene, const std::vector<View>& views, const KeepGoing& keep_going)
         : scene_(scene), views_(views), keep_going_(keep_going) {}
 
     Result<CutPlaces> run(Extent extent) {
@@ -88,7 +88,8 @@ public:
         for (const auto& [pass, followed] : followed_)
             if (scene_.passes[pass].kind == scene::PassKind::buffer)
                 add_half_size(pass);
-        std::ranges::stable_sort(found_.cuts, std::greater<>(), &glsl::Cut::work);
+        std::ranges::stable_sort(found_.cuts, std::greater<>(),
+                                 [](const glsl::Cut& cut) { return std::pair(cut.keeps_values, cut.work); });
         return std::move(found_);
     }
 
@@ -209,7 +210,7 @@ std::pair<int, int> end_of(const glsl::Wrap& wrap) {
 
 Result<CutPlaces> find_cuts(const scene::Scene& scene, const std::vector<View>& views, Extent extent,
                             const KeepGoing& keep_going) {
-    return Finder(scene, views, keep_going).run(extent);
+    return PlaceFinder(scene, views, keep_going).run(extent);
 }
 
 bool is_inside(const glsl::Cure& inner, const glsl::Cure& outer) {

@@ -33,13 +33,15 @@ std::span<const DeviceCheck> device_checks();
 
 // The check functions, by subject.
 
-// Numbers (device_numbers.cpp, device_numbers.cpp).
+// Numbers, and how long they take (device_numbers.cpp).
 Result<DeviceAnswer> ask_special_values();
 Result<DeviceAnswer> ask_arithmetic();
 Result<DeviceAnswer> ask_contraction();
 Result<DeviceAnswer> ask_doubles();
 Result<DeviceAnswer> ask_functions();
 Result<DeviceAnswer> ask_large_sines();
+/// Measures the weights of operations and keeps them for the lens `cost` (lab/lens.hpp).
+Result<DeviceAnswer> ask_weights();
 
 // Drawing (device_drawing.cpp).
 Result<DeviceAnswer> ask_read_back();
@@ -81,9 +83,6 @@ double ulps_between(double truth, float got);
 
 /// Returns the folder's subfolders, one project each, sorted by name.
 std::vector<std::filesystem::path> conformance_projects(const std::filesystem::path& folder);
-
-/// Returns the name of the rule that the project checks.
-Result<std::string> convention_of(const std::filesystem::path& project);
 
 /// Draws the project in its own size and sample type. Fails with the first pixel or sound sample that differs
 /// from the rule, or if the project cannot be read or compiled.

@@ -1,8 +1,9 @@
 #include "base/error.hpp"
 #include "base/measurement.hpp"
-#include "base/software_renderer.hpp"
 #include "lab/device_check.hpp"
+#include "lab/device_difference.hpp"
 #include "lab/work_precision.hpp"
+#include "media/comparison.hpp"
 #include "render/exposure.hpp"
 #include "render/gl_context.hpp"
 #include "render/gl_sync.hpp"
@@ -11,7 +12,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
 
 namespace tidemark::lab {
 
@@ -25,6 +31,7 @@ std::span<const DeviceCheck> device_checks() {
         {"tiles", ask_tiles},           {"program-cache", ask_program_cache},
         {"reset", ask_reset},           {"loops", ask_loops},
         {"timer", ask_timer},           {"conformance", ask_conformance},
+        {"weights", ask_weights},
     };
     return k_checks;
 }
@@ -243,10 +250,191 @@ Result<DeviceAnswer> ask_reset() {
     if (gl::tells_resets())
         return DeviceAnswer{Verdict::pass,
                             "the driver reports resets, so pictures that a reset damaged are discarded"};
-    if (is_software_renderer(gl::query_capabilities().renderer))
+    if (gl::is_software_renderer(gl::query_capabilities().renderer))
         return DeviceAnswer{Verdict::pass, "the CPU draws: there is no GPU driver to be reset"};
     return DeviceAnswer{Verdict::warn,
                         "the driver does not report resets: pictures drawn after one may be wrong"};
+}
+
+// Pictures of two devices (lab/device_difference.hpp).
+
+namespace {
+
+/// Numbers of a buffer are the same within this part of their size: what the next pass makes of them is
+/// unknown.
+constexpr double k_same_number = 1e-5;
+
+double shown_level(float sample) {
+    return std::isnan(sample) ? 0.0 : std::clamp(double(sample), 0.0, 1.0);
+}
+
+bool differs(float left, float right, double limit, PictureKind kind) {
+    if (kind == PictureKind::image)
+        return std::isnan(left) != std::isnan(right) ||
+               std::abs(shown_level(left) - shown_level(right)) > limit;
+    if (!std::isfinite(left) || !std::isfinite(right))
+        return std::isnan(left) != std::isnan(right) || (!std::isnan(left) && left != right);
+    const double size = std::max({1.0, std::abs(double(left)), std::abs(double(right))});
+    return std::abs(double(left) - double(right)) > limit * size;
+}
+
+/// Returns Image as a file of 8 bits has it.
+image::Image as_bytes(const image::Image& image) {
+    image::Image result(image.extent, 3, image::SampleType::u8);
+    for (size_t pixel = 0; pixel < image.extent.pixels(); ++pixel)
+        for (size_t channel = 0; channel < 3; ++channel)
+            result.u8()[pixel * 3 + channel] = uint8_t(
+                std::lround(255 * shown_level(image.f32()[pixel * size_t(image.channels) + channel])));
+    return result;
+}
+
+/// Returns whether each colour could come from a file of 8 bits.
+bool has_bytes_alone(const image::Image& image) {
+    constexpr double k_exact = 1e-4;
+    const auto samples = image.f32();
+    for (size_t i = 0; i < samples.size(); ++i) {
+        const double level = 255 * double(samples[i]);
+        if (int(i % size_t(image.channels)) < 3 && !(std::abs(level - std::round(level)) < k_exact))
+            return false;
+    }
+    return true;
+}
+
+/// Resamples one dimension from `from` to `to` numbers, `stride` apart, each interpolated between the two
+/// nearest.
+std::vector<double> halved(const std::vector<double>& values, size_t stride, size_t from, size_t to) {
+    const size_t blocks = values.size() / (stride * from);
+    std::vector<double> result(blocks * stride * to);
+    for (size_t block = 0; block < blocks; ++block)
+        for (size_t i = 0; i < to; ++i) {
+            const double place = (double(i) + 0.5) * double(from) / double(to) - 0.5;
+            const size_t low = size_t(std::max(place, 0.0)), high = std::min(low + 1, from - 1);
+            const double part = std::max(place, 0.0) - double(low);
+            for (size_t k = 0; k < stride; ++k)
+                result[(block * to + i) * stride + k] =
+                    (1 - part) * values[(block * from + low) * stride + k] +
+                    part * values[(block * from + high) * stride + k];
+        }
+    return result;
+}
+
+/// Makes the levels of a texture of bytes, each from the one before, in RGBA.
+void make_exact_levels(const gl::Texture& texture) {
+    std::vector<double> level;
+    for (const float sample : gl::read_level(texture, 0))
+        level.push_back(std::round(255.0 * double(sample)));
+    auto [width, height, layers] = gl::level_size(texture, 0);
+    for (int number = 1; number < texture.levels; ++number) {
+        const auto [w, h, d] = gl::level_size(texture, number);
+        level = halved(level, 4, size_t(width), size_t(w));
+        level = halved(level, 4 * size_t(w), size_t(height), size_t(h));
+        if (texture.target == GL_TEXTURE_3D)
+            level = halved(level, 4 * size_t(w) * size_t(h), size_t(layers), size_t(d));
+        std::vector<uint8_t> bytes;
+        for (double& sample : level)
+            bytes.push_back(uint8_t(sample = std::nearbyint(sample)));
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        if (texture.target == GL_TEXTURE_2D)
+            glTextureSubImage2D(texture.id(), number, 0, 0, w, h, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
+        else
+            glTextureSubImage3D(texture.id(), number, 0, 0, 0, w, h, d, GL_RGBA, GL_UNSIGNED_BYTE,
+                                bytes.data());
+        width = w, height = h, layers = d;
+    }
+}
+
+} // namespace
+
+double same_pixel(PictureKind kind) {
+    return kind == PictureKind::image ? k_same_pixel : k_same_number;
+}
+
+Mask differing(const image::Image& left, const image::Image& right, double limit, PictureKind kind) {
+    Mask mask(left.extent.pixels());
+    const auto a = left.f32(), b = right.f32();
+    const size_t channels = kind == PictureKind::image ? 3 : 4;
+    for (size_t pixel = 0; pixel < mask.size(); ++pixel)
+        for (size_t channel = 0; channel < channels && !mask[pixel]; ++channel)
+            mask[pixel] = differs(a[pixel * size_t(left.channels) + channel],
+                                  b[pixel * size_t(right.channels) + channel], limit, kind);
+    return mask;
+}
+
+image::Image comparable(const image::Image& here, const image::Image& there) {
+    image::Image result = here;
+    if (has_bytes_alone(there))
+        for (float& sample : result.f32())
+            sample = float(std::lround(255 * shown_level(sample))) / 255;
+    return result;
+}
+
+const image::Image* picture_of(const std::vector<PassPicture>& passes, std::string_view name) {
+    const auto found = std::ranges::find(passes, name, &PassPicture::pass);
+    return found == passes.end() ? nullptr : &found->picture;
+}
+
+bool use_pictures(const render::Renderer& renderer, size_t pass, const std::vector<PassPicture>& there) {
+    bool used = false;
+    std::vector<size_t> drawn;
+    for (const render::PlannedPass& planned : renderer.plan().passes) {
+        if (planned.pass == pass)
+            break;
+        drawn.push_back(planned.pass);
+    }
+    for (int unit = 0; unit < scene::k_channel_count; ++unit) {
+        const size_t* const source =
+            scene::source_pass(renderer.scene().passes[pass].channels[size_t(unit)].input);
+        const gl::Texture* const texture = source ? renderer.texture_at(pass, unit) : nullptr;
+        if (!texture || std::ranges::find(drawn, *source) == drawn.end())
+            continue;
+        const image::Image* const picture = picture_of(there, renderer.scene().passes[*source].name);
+        if (!picture || picture->channels != 4 || picture->extent != texture->extent)
+            continue;
+        gl::upload(*texture, 0, GL_RGBA, GL_FLOAT, std::as_bytes(picture->f32()));
+        gl::make_mipmaps(*texture);
+        used = true;
+    }
+    return used;
+}
+
+ExactMipmaps::ExactMipmaps(const render::Renderer& renderer, size_t pass) {
+    for (int unit = 0; unit < scene::k_channel_count; ++unit) {
+        const gl::Texture* const texture = renderer.texture_at(pass, unit);
+        if (texture && texture->levels > 1 && !texture->es &&
+            (texture->internal_format == GL_RGBA8 || texture->internal_format == GL_R8))
+            textures_.push_back(texture);
+    }
+}
+
+void ExactMipmaps::use(bool exact) {
+    if (exact == exact_)
+        return;
+    exact_ = exact;
+    for (const gl::Texture* const texture : textures_)
+        exact ? make_exact_levels(*texture) : gl::make_mipmaps(*texture);
+}
+
+Result<DeviceDifference> compare_devices(const image::Image& here, const image::Image& there) {
+    DeviceDifference result;
+    const image::PictureMetrics metrics = TRY(image::measure(as_bytes(here), as_bytes(there)));
+    result.pixels = metrics.samples.pixels;
+    result.largest = metrics.samples.largest;
+    result.psnr = metrics.samples.psnr;
+    result.flip = metrics.flip;
+    result.equal = metrics.samples.equal();
+    result.differing =
+        std::ranges::count(differing(comparable(here, there), there, k_same_pixel, PictureKind::image), true);
+    const auto a = here.f32(), b = there.f32();
+    for (size_t pixel = 0; pixel < result.pixels; ++pixel) {
+        bool left_finite = true, right_finite = true;
+        for (size_t channel = 0; channel < 3; ++channel) {
+            left_finite &= std::isfinite(a[pixel * size_t(here.channels) + channel]);
+            right_finite &= std::isfinite(b[pixel * size_t(there.channels) + channel]);
+        }
+        result.not_finite_here += !left_finite && right_finite;
+        result.not_finite_there += left_finite && !right_finite;
+    }
+    return result;
 }
 
 } // namespace tidemark::lab

@@ -46,9 +46,9 @@ Finding found_in_text(Finding::Kind kind, std::string sentence, std::optional<gl
     return finding;
 }
 
-class Finder {
+class FindingsCollector {
 public:
-    Finder(ProbeBench& bench, const std::vector<PassText>& texts) : bench_(bench), texts_(texts) {}
+    FindingsCollector(ProbeBench& bench, const std::vector<PassText>& texts) : bench_(bench), texts_(texts) {}
 
     Result<CurableFindings> run() {
         for (const auto ask : k_finite_probes) {
@@ -174,7 +174,7 @@ void add_miscounting(CurableFindings& found, const PassText& pass) {
 void add_divergent(CurableFindings& found, const PassText& pass, const scene::Pass& of) {
     for (const glsl::Divergent& each : glsl::find_divergent(*pass.text, pass.facts, which_have_mipmaps(of)))
         if (const std::string place = place_of(*pass.text, pass.text->tree()[each.call].begin);
-            !place.empty()) {
+            !place.empty() && !each.harmless) {
             Finding finding{Finding::Kind::divergence, place + ": " + words_for(*pass.text, each), {}, {}};
             for (const auto propose : {glsl::hoisted_derivative, glsl::base_level})
                 if (auto cure = propose(*pass.text, pass.facts, each))
@@ -231,7 +231,8 @@ private:
         if (!bench_.has_hits())
             return {};
         const double percent = TRY(most_running_out(bench_, usual_views())).percent;
-        if (percent <= bench_.promises().most_exhausted_percent)
+        if (percent <=
+            most_allowed(bench_, bench_.promises().most_exhausted_percent, "most_exhausted_percent"))
             return {};
         const auto lines = lines_of(*pass.function, pass.function->loops().front());
         std::vector<glsl::Cure> cures;
@@ -267,7 +268,7 @@ private:
 };
 
 /// Most expressions to try one by one; after these all are tried at once.
-constexpr size_t k_most_alone = 6;
+constexpr size_t k_most_alone_cures = 6;
 
 /// Returns changes of all passes that are equal in real arithmetic; those in Common only once.
 std::vector<glsl::Cure> equal_texts(const std::vector<PassText>& texts) {
@@ -291,7 +292,7 @@ void add_rounding(ProbeBench& bench, CurableFindings& found, const std::vector<P
         return;
     if (cures.size() > 1) {
         glsl::Cure all = all_of(cures);
-        cures.resize(std::min(cures.size(), k_most_alone));
+        cures.resize(std::min(cures.size(), k_most_alone_cures));
         cures.push_back(std::move(all));
     }
     found.all.push_back(
@@ -323,7 +324,7 @@ Result<CurableFindings> find_curable(ProbeBench& bench, bool hashes) {
     if (!written || !linked)
         return CurableFindings{
             {}, {}, "the text cannot be analysed: " + to_string((written ? linked : written).error())};
-    CurableFindings found = TRY(Finder(bench, *linked).run());
+    CurableFindings found = TRY(FindingsCollector(bench, *linked).run());
     for (const PassText& pass : *written) {
         add_without_value(found, pass);
         add_miscounting(found, pass);

@@ -41,7 +41,7 @@ constexpr double k_most_left = 0.5;
 constexpr Extent k_timed_extent{320, 180};
 constexpr int k_timed_frames = 5;
 
-bool is_finite(std::span<const float> pixel) {
+bool is_finite_pixel(std::span<const float> pixel) {
     return std::ranges::all_of(pixel, [](float sample) { return std::isfinite(sample); });
 }
 
@@ -54,7 +54,7 @@ double count_not_finite(const std::vector<PassPicture>& passes) {
     size_t count = 0;
     for (const PassPicture& pass : passes)
         for (size_t i = 0; i < pass.picture.extent.pixels(); ++i)
-            count += !is_finite(pixel_of(pass.picture, i));
+            count += !is_finite_pixel(pixel_of(pass.picture, i));
     return double(count);
 }
 
@@ -79,8 +79,10 @@ Result<double> count_miscounting(ProbeBench& bench) {
 
 Result<double> count_divergent(ProbeBench& bench) {
     return count_in_texts(bench, [&](const PassText& pass) {
-        return glsl::find_divergent(*pass.text, pass.facts,
-                                    which_have_mipmaps(bench.scene().passes[pass.pass]));
+        auto found =
+            glsl::find_divergent(*pass.text, pass.facts, which_have_mipmaps(bench.scene().passes[pass.pass]));
+        std::erase_if(found, &glsl::Divergent::harmless);
+        return found;
     });
 }
 
@@ -150,23 +152,26 @@ bool is_of_rays(Kind kind) {
 
 /// Returns whether the fault is fixed. For rays the probes' limits suffice: the last wrong rays are a matter
 /// of silhouettes, and of run time.
-bool is_mended(Kind kind, const Fault& fault, const Promises& promises) {
+bool is_mended(Kind kind, const Fault& fault, const ProbeBench& bench) {
     if (!(fault.after < fault.before))
         return false;
     if (kind == Kind::rounding)
         return fault.after <= k_most_left * fault.before;
     if (!is_of_rays(kind))
         return true;
-    return fault.after <= (kind == Kind::first_hit ? k_most_wrong_percent : promises.most_exhausted_percent);
+    return fault.after <=
+           (kind == Kind::first_hit
+                ? k_most_wrong_percent
+                : most_allowed(bench, bench.promises().most_exhausted_percent, "most_exhausted_percent"));
 }
 
 /// Adds the pixels of one pass in one situation; returns false if a finite pixel has become non-finite.
 bool compare(const image::Image& before, const image::Image& after, Judgement& judgement) {
     for (size_t i = 0; i < before.extent.pixels(); ++i) {
         const auto left = pixel_of(before, i), right = pixel_of(after, i);
-        if (!is_finite(left))
+        if (!is_finite_pixel(left))
             continue;
-        if (!is_finite(right))
+        if (!is_finite_pixel(right))
             return false;
         ++judgement.compared;
         judgement.changed += std::memcmp(left.data(), right.data(), left.size_bytes()) != 0;
@@ -296,6 +301,30 @@ Result<InBoth> DrawnScene::in_both(const FrameState& state) {
     return in_both_.emplace_back(state, InBoth{std::move(floats), std::move(doubles)}).second;
 }
 
+Result<ShownError> DrawnScene::shown_error() {
+    ShownError error;
+    double squares = 0;
+    size_t samples = 0;
+    for (const double seconds : {0.0, 1.0, 10.0}) {
+        const auto [floats, doubles] = TRY(in_both(state_at(seconds)));
+        error.pixels += floats.extent.pixels();
+        for (size_t pixel = 0; pixel < floats.extent.pixels(); ++pixel)
+            for (size_t i = 0; i < 3; ++i) {
+                const double one = pixel_of(floats, pixel)[i], other = pixel_of(doubles, pixel)[i];
+                if (!std::isfinite(one) || !std::isfinite(other))
+                    continue;
+                const double gap = std::abs(std::clamp(one, 0.0, 1.0) - std::clamp(other, 0.0, 1.0));
+                squares += gap * gap;
+                error.worst = std::max(error.worst, gap);
+                ++samples;
+            }
+    }
+    if (samples == 0)
+        return fail(ErrorCode::check_failed, "no colour of the picture is finite");
+    error.rmse = std::sqrt(squares / double(samples));
+    return error;
+}
+
 Result<double> DrawnScene::fault(const Finding& finding, const std::vector<PictureView>& views) {
     if (finding.kind == Kind::not_finite)
         return count_not_finite(*TRY(passes(*finding.where)));
@@ -333,7 +362,7 @@ Result<std::optional<Judgement>> judge(DrawnScene& before, DrawnScene& after, co
     std::optional<Judgement> none;
     Judgement judgement{{name_of(finding.kind), TRY(before.fault(finding, views)), 0}};
     judgement.fault.after = TRY(after.fault(finding, views));
-    if (!is_mended(finding.kind, judgement.fault, before.bench().promises()))
+    if (!is_mended(finding.kind, judgement.fault, before.bench()))
         return none;
     std::vector<FrameState> states = usual_moments();
     if (finding.where)
@@ -377,6 +406,8 @@ public:
           now_(std::make_unique<DrawnScene>(scene, promises)) {}
 
     Result<void> run() {
+        if (mending_.measured)
+            mending_.measured(now_->shown_error());
         TRY(now_->bench().compiled()); // a compile error is the result
         for (int round = 0; round < k_most_rounds; ++round) {
             refused_.clear();
@@ -395,6 +426,15 @@ public:
 private:
     /// Reports what the probes of `check` find in the fixed scene and no fix exists for.
     Result<void> report_others() {
+        std::optional<Result<Answer>> hashes; // run at most once
+        const auto ask = [&](const Probe& probe) {
+            if (probe.name != "hashes")
+                return probe.ask(now_->bench());
+            if (!hashes)
+                hashes = probe.ask(now_->bench());
+            return *hashes;
+        };
+        const Probe& of_hashes = *std::ranges::find(all_probes(), "hashes", &Probe::name);
         for (const Probe& probe : all_probes()) {
             if (promises_.skip.contains(std::string(probe.name)))
                 continue;
@@ -402,14 +442,14 @@ private:
                     return each.probe == probe.name && refused_kinds_.contains(each.kind);
                 }))
                 continue;
-            const auto answer = probe.ask(now_->bench());
+            const auto answer = ask(probe);
             if (!answer || (answer->verdict != Verdict::fail && answer->verdict != Verdict::warn))
                 continue;
             const bool of_sines = probe.name == "hashes" || probe.name == "sine" || probe.name == "rounding";
-            const bool hashes = of_sines && !mending_.hashes && has_hashes();
+            const bool mendable = of_sines && !mending_.hashes && has_any(ask(of_hashes));
             mending_.remains({fmt::format("{}: {}", probe.name, answer->sentence),
-                              hashes ? "--hashes replaces them, which gives another picture"
-                                     : "no fix is known for this probe's findings"});
+                              mendable ? "--hashes replaces them, which gives another picture"
+                                       : "no fix is known for this probe's findings"});
         }
         return {};
     }
@@ -430,8 +470,7 @@ private:
         return mended;
     }
 
-    bool has_hashes() {
-        const auto answer = ask_hashes(now_->bench());
+    static bool has_any(const Result<Answer>& answer) {
         return answer && answer->verdict != Verdict::pass && answer->verdict != Verdict::not_applicable;
     }
 

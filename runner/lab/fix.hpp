@@ -1,3 +1,6 @@
+// Fixes for `check --fix`: the faults that may be fixed, the judgement of a fix, and the loop over all of
+// them.
+//
 // Finds faults in a scene for which fixes of the text may be known: places and candidate changes. It judges
 // none of them. A context must be current.
 #pragma once
@@ -78,6 +81,13 @@ struct InBoth {
     double gap(size_t sample) const { return double(floats.f32()[sample]) - double(doubles.f32()[sample]); }
 };
 
+/// How far pictures in float are from those in double, as shown: colours are clamped to 0 to 1.
+struct ShownError {
+    double rmse = 0;   ///< over the colours that are finite in both
+    double worst = 0;  ///< largest difference of such a colour
+    size_t pixels = 0; ///< compared, in all pictures
+};
+
 /// The pictures of a scene in the situations that fixes are judged in, kept after they are drawn.
 class DrawnScene {
 public:
@@ -86,6 +96,9 @@ public:
     ProbeBench& bench() { return bench_; }
     /// Returns Image in float and in double. Fails if the scene cannot be promoted.
     Result<InBoth> in_both(const FrameState& state);
+    /// Returns the error of Image over three ordinary moments: 0, 1 and 10 s. Fails as `in_both`, or if no
+    /// colour is finite.
+    Result<ShownError> shown_error();
     /// Returns all passes in a situation; the pictures stay valid as long as this object.
     Result<const std::vector<PassPicture>*> passes(const FrameState& state);
     /// Returns the amount of the fault. Fails if the scene does not compile.
@@ -122,6 +135,9 @@ struct Remaining {
 
 struct Mending {
     bool hashes = false; ///< also fix hashes of large sines, which changes the picture
+    /// Called first, with the error of the unchanged scene (DrawnScene::shown_error). Empty: it is not
+    /// measured.
+    std::function<void(const Result<ShownError>& error)> measured{};
     /// Returns whether the files can be changed by all of `cures`, the new one last.
     std::function<bool(std::span<const glsl::Cure> cures)> can_be_written;
     /// Called with each fix; the last of `cures` is the new one.

@@ -66,6 +66,23 @@ image::Image StandIn::picture() const {
     return image;
 }
 
+Result<VariedPictures> draw_varied(const PassPreview& preview, const glsl::Variation& varied,
+                                   std::span<const glsl::VariationMode> modes) {
+    auto stand_in = TRY(StandIn::link(preview, varied.text, "a variation of the text"));
+    const auto drawn = [&](int mode) {
+        stand_in.set(varied.mode_uniform, mode);
+        stand_in.draw(preview);
+        return stand_in.picture();
+    };
+    VariedPictures pictures;
+    for (const glsl::VariationMode& mode : modes)
+        pictures.others.push_back(drawn(mode.number));
+    if (varied.mode_uniform.empty())
+        stand_in.draw_own(preview);
+    pictures.plain = varied.mode_uniform.empty() ? stand_in.picture() : drawn(0);
+    return pictures;
+}
+
 namespace {
 
 struct Drawn {

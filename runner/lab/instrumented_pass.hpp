@@ -1,3 +1,6 @@
+// Instrumented texts drawn in place of a pass: the buffer they write, drawing them, reading pixels, loops
+// that the driver cuts.
+//
 // A buffer of 32-bit words that instrumented texts write (shader/watch.hpp,
 // shader/domain_watch.hpp). A context must be current.
 #pragma once
@@ -7,12 +10,14 @@
 #include "render/frame_stepper.hpp"
 #include "render/gl_textures.hpp"
 #include "render/renderer.hpp"
+#include "shader/variation.hpp"
 #include "shader/watch.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,6 +66,15 @@ private:
     gl::Program program_;
     gl::RenderTarget target_;
 };
+
+/// Pictures of a varied text: unchanged, and in each mode.
+struct VariedPictures {
+    image::Image plain;
+    std::vector<image::Image> others;
+};
+/// Fails if the driver refuses the text.
+Result<VariedPictures> draw_varied(const PassPreview& preview, const glsl::Variation& varied,
+                                   std::span<const glsl::VariationMode> modes);
 
 // Draws an instrumented text in place of a pass, for one pixel or for the whole picture, and reads what it
 // recorded. A context must be current.

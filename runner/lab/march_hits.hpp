@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -30,7 +31,7 @@ struct ProvedRay {
         unknown_texture, ///< the march reads a texture whose texels are not available
         unfaithful       ///< the loop carries more than the place on the ray
     } outcome = Outcome::undecided;
-    ir::FirstHit::Reason reason = ir::FirstHit::Reason::none;
+    proof::FirstHit::Reason reason = proof::FirstHit::Reason::none;
     uint64_t evaluations = 0;
     size_t turns = 0; ///< of the march
     /// The march steps over its first hit in its last step.
@@ -49,8 +50,9 @@ struct ProvedRay {
 inline constexpr double k_same_end = 0.01;
 
 /// Proves the ray of a pixel, with the pass's textures; nullopt if it enters no marching loop.
-std::optional<ProvedRay> prove_ray(const PassFunction& function, const ir::FloatEvaluator& pixel,
-                                   const ir::TextureSet& textures, glm::ivec2 at, uint64_t most_evaluations);
+std::optional<ProvedRay> prove_ray(const PassFunction& function, const proof::FloatEvaluator& pixel,
+                                   const proof::TextureSet& textures, glm::ivec2 at,
+                                   uint64_t most_evaluations);
 
 struct RayCounts {
     size_t rays = 0; ///< number of rays that entered a loop
@@ -59,16 +61,16 @@ struct RayCounts {
     size_t within_last_step = 0; ///< of those that step over
     size_t went_past = 0;        ///< of those that miss
     size_t at_base_level = 0;
-    std::array<size_t, ir::k_reasons> reasons{}; ///< of the undecided rays
-    std::optional<size_t> wrong_loop{};          ///< of the first ray that steps over or misses
-    std::vector<double> evaluations{};           ///< of the rays for which a proof was tried
+    std::array<size_t, proof::k_reasons> reasons{}; ///< of the undecided rays
+    std::optional<size_t> wrong_loop{};             ///< of the first ray that steps over or misses
+    std::vector<double> evaluations{};              ///< of the rays for which a proof was tried
 
     void add(const ProvedRay& ray);
     size_t decided() const { return agree + step_over + miss; }
     /// Returns whether most of the wrong rays are those of steps that are too long, not too few.
     bool steps_too_long() const { return step_over + went_past >= miss - went_past; }
     /// Returns the most common reason of the undecided rays.
-    ir::FirstHit::Reason commonest() const;
+    proof::FirstHit::Reason commonest() const;
 };
 
 // Proves the place at which each ray of a picture first hits the surface, from the scene's own text: the
@@ -77,7 +79,7 @@ struct RayCounts {
 // threshold.
 
 struct TrueHits {
-    ir::Surface surface = ir::Surface::zero;
+    proof::Surface surface = proof::Surface::zero;
     /// NaN: not searched, or not known; -1: no hit up to the march's limit, or no loop is entered.
     Hits hits;
     size_t looked_at = 0;
@@ -94,7 +96,26 @@ std::optional<TrueHits> true_hits(const DrawnPass& drawn, double seconds, const 
 // is checked against the picture and against the pass evaluated on the CPU. Needs a current context.
 
 /// Returns the place of a marching loop in its author's text.
-glsl::MarchLines lines_of(const PassFunction& image, const ir::MarchingLoop& loop);
+glsl::MarchLines lines_of(const PassFunction& image, const proof::MarchingLoop& loop);
+
+/// Returns each marching loop of the text once: one that is called from several places is inlined several
+/// times.
+std::vector<glsl::MarchLines> marches_of(const PassFunction& image);
+
+/// Rewrites Common and the text of a pass, as their authors wrote them, to one text with a mainHit.
+using RewriteText = std::function<Result<text::MappedText>(const glsl::ParsedText&, const glsl::TreeFacts&)>;
+
+/// Name of the pass that with_pass_copy adds.
+inline constexpr std::string_view k_copied_pass = "copy of a pass";
+/// Returns the scene with a copy of a buffer before the buffer itself, so that it reads the same pictures: of
+/// this frame from earlier passes, of the last frame from the buffer itself and from later ones.
+scene::Scene with_pass_copy(const scene::Scene& scene, size_t pass);
+/// Returns the scene with the rewritten text of a pass with a mainImage, of kind hit, in the place of Image.
+/// A buffer stays as it is; its copy gets the rewritten text, which has TIDEMARK_ALL_BITS defined if the
+/// buffer stores floats.
+Result<scene::Scene> with_hit_text(const scene::Scene& scene, size_t pass, const RewriteText& rewrite);
+/// Returns the name of the pass that with_hit_text rewrote; empty for Image.
+std::string_view rewritten_pass(const scene::Scene& scene, size_t pass);
 
 struct Recording {
     scene::Scene scene; ///< its Image is of kind hit; its last knob is glsl::k_record_knob

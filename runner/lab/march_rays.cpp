@@ -14,27 +14,27 @@
 namespace tidemark::lab {
 
 InputRanges::InputRanges(const DrawnPass& drawn) : drawn_(&drawn) {
-    const ir::Function& function = drawn.function.function();
+    const proof::Function& function = drawn.function.function();
     const auto frame = drawn.function.frame<double>(drawn.renderer, drawn.pass, drawn.inputs);
     for (size_t cell = 0; cell < function.cells.size(); ++cell) {
-        const ir::Point<double>& point = frame.memory()[cell];
-        const bool real = function.cells[cell] == ir::Scalar::real;
-        memory_.push_back(real ? ir::IntervalSystem::number(point.real)
-                               : ir::IntervalSystem::constant(point.bits, function.cells[cell]));
+        const proof::Point<double>& point = frame.memory()[cell];
+        const bool real = function.cells[cell] == proof::Scalar::real;
+        memory_.push_back(real ? proof::IntervalSystem::number(point.real)
+                               : proof::IntervalSystem::constant(point.bits, function.cells[cell]));
     }
 }
 
-void InputRanges::set(std::string_view name, std::span<const ir::Interval> ranges) {
-    const ir::Variable* variable = drawn_->function.function().find(name);
+void InputRanges::set(std::string_view name, std::span<const proof::Interval> ranges) {
+    const proof::Variable* variable = drawn_->function.function().find(name);
     for (size_t i = 0; variable && i < std::min<size_t>(ranges.size(), variable->size); ++i)
         memory_[variable->first + i] = ranges[i];
 }
-void InputRanges::set(std::string_view name, const ir::Interval& range) {
+void InputRanges::set(std::string_view name, const proof::Interval& range) {
     set(name, std::array{range});
 }
 
-void InputRanges::set_place(const ir::Interval& x, const ir::Interval& y) {
-    set("gl_FragCoord", std::array<ir::Interval, 4>{{x, y, {0.5, 0.5}, {1, 1}}});
+void InputRanges::set_place(const proof::Interval& x, const proof::Interval& y) {
+    set("gl_FragCoord", std::array<proof::Interval, 4>{{x, y, {0.5, 0.5}, {1, 1}}});
 }
 
 namespace {
@@ -51,10 +51,10 @@ std::vector<double> value_at(scene::HostValue value, const DrawnPass& drawn, dou
     return {all.begin(), all.end()};
 }
 
-std::vector<ir::Interval> ranges_over(const ir::Interval& time, const scene::HostUniform& row,
-                                      const DrawnPass& drawn) {
+std::vector<proof::Interval> ranges_over(const proof::Interval& time, const scene::HostUniform& row,
+                                         const DrawnPass& drawn) {
     const scene::RangeOverTime& over = row.over_time;
-    std::vector<ir::Interval> ranges;
+    std::vector<proof::Interval> ranges;
     switch (over.kind) {
     case scene::RangeOverTime::Kind::constant: break;
     case scene::RangeOverTime::Kind::between_ends: {
@@ -63,7 +63,7 @@ std::vector<ir::Interval> ranges_over(const ir::Interval& time, const scene::Hos
             ranges.push_back({std::min(low[i], high[i]), std::max(low[i], high[i])});
         // A channel without playback stays at 0, a file starts again, and silence is 10 s ahead of iTime.
         if (row.value == scene::HostValue::channel_time)
-            for (ir::Interval& range : ranges)
+            for (proof::Interval& range : ranges)
                 range = {std::min(0.0, range.low), std::max(0.0, range.high) + 10};
         break;
     }
@@ -75,25 +75,25 @@ std::vector<ir::Interval> ranges_over(const ir::Interval& time, const scene::Hos
 }
 
 /// Returns whether a variable is `iCh0` or `iChannel`: sizes and times of channels, which follow their files.
-bool is_channel_struct(const ir::Variable& variable) {
+bool is_channel_struct(const proof::Variable& variable) {
     const auto names = std::span(scene::k_channel_structs);
-    return variable.kind == ir::Variable::Kind::uniform &&
+    return variable.kind == proof::Variable::Kind::uniform &&
            (variable.name == "iChannel" || std::ranges::find(names, variable.name) != names.end());
 }
 
 } // namespace
 
-void InputRanges::set_to_anything(const ir::Variable& variable) {
+void InputRanges::set_to_anything(const proof::Variable& variable) {
     const auto& cells = drawn_->function.function().cells;
     for (size_t i = variable.first; i < size_t(variable.first) + variable.size; ++i)
-        if (cells[i] == ir::Scalar::real)
-            memory_[i] = ir::everything(false);
+        if (cells[i] == proof::Scalar::real)
+            memory_[i] = proof::everything(false);
 }
 
-void InputRanges::set_time(const ir::Interval& time) {
+void InputRanges::set_time(const proof::Interval& time) {
     const auto names = drawn_->renderer.names_of(drawn_->pass);
-    for (const ir::Variable& variable : drawn_->function.function().variables) {
-        const scene::HostUniform* row = variable.kind == ir::Variable::Kind::uniform
+    for (const proof::Variable& variable : drawn_->function.function().variables) {
+        const scene::HostUniform* row = variable.kind == proof::Variable::Kind::uniform
                                             ? scene::find_host_uniform(variable.name, names.other_hosts)
                                             : nullptr;
         if (is_channel_struct(variable))
@@ -107,14 +107,14 @@ void InputRanges::turn_knobs() {
     for (const scene::Knob& knob : drawn_->renderer.scene().knobs) {
         if (!knob.range)
             continue;
-        std::array<ir::Interval, 4> ranges;
+        std::array<proof::Interval, 4> ranges;
         for (size_t i = 0; i < ranges.size(); ++i)
             ranges[i] = {knob.range->low[i], knob.range->high[i]};
         set(knob.name, ranges);
     }
 }
 
-std::optional<ir::Interval> changing(const DrawnPass& drawn, const std::string& sampler) {
+std::optional<proof::Interval> changing(const DrawnPass& drawn, const std::string& sampler) {
     const scene::Pass& pass = drawn.renderer.scene().passes[drawn.pass];
     const auto name = std::ranges::find(scene::k_channel_names, sampler);
     const auto channel = size_t(name - scene::k_channel_names.begin());
@@ -122,9 +122,9 @@ std::optional<ir::Interval> changing(const DrawnPass& drawn, const std::string& 
         return std::nullopt;
     switch (scene::traits_of(pass.channels[channel].input).changes) {
     case scene::Changes::never: return std::nullopt;
-    case scene::Changes::with_passes: return ir::everything(false);
+    case scene::Changes::with_passes: return proof::everything(false);
     case scene::Changes::with_clock:
-    case scene::Changes::with_keys: return ir::Interval{0, 1};
+    case scene::Changes::with_keys: return proof::Interval{0, 1};
     }
     return std::nullopt;
 }
@@ -139,67 +139,67 @@ MarchRays::MarchRays(DrawnPass drawn)
     : drawn_(std::move(drawn)), ranges_(drawn_), textures_(textures_of(drawn_.renderer, drawn_.pass)),
       floats_(drawn_.function.frame<float>(drawn_.renderer, drawn_.pass, drawn_.inputs)),
       doubles_(drawn_.function.frame<double>(drawn_.renderer, drawn_.pass, drawn_.inputs)) {
-    floats_.textures = ir::textures_in<ir::Point<float>>(textures_);
-    doubles_.textures = ir::textures_in<ir::Point<double>>(textures_);
-    for (const ir::MarchingLoop& loop : drawn_.function.loops()) {
+    floats_.textures = proof::textures_in<proof::Point<float>>(textures_);
+    doubles_.textures = proof::textures_in<proof::Point<double>>(textures_);
+    for (const proof::MarchingLoop& loop : drawn_.function.loops()) {
         auto& step = steps_.emplace_back();
-        if (loop.advance != ir::k_no_value)
-            step = ir::slice_of(drawn_.function.function(), loop, ir::SliceOf::step);
+        if (loop.advance != proof::k_no_value)
+            step = proof::slice_of(drawn_.function.function(), loop, proof::SliceOf::step);
     }
 }
 
-std::optional<MarchRay> MarchRays::enter(glm::ivec2 pixel, ir::Surface surface) const {
+std::optional<MarchRay> MarchRays::enter(glm::ivec2 pixel, proof::Surface surface) const {
     const PassFunction& function = drawn_.function;
-    ir::FloatEvaluator in_float = floats_;
-    ir::PointEvaluator<double> in_double = doubles_;
+    proof::FloatEvaluator in_float = floats_;
+    proof::PointEvaluator<double> in_double = doubles_;
     function.move_to(in_float, pixel);
     function.move_to(in_double, pixel);
-    const auto index = ir::enter_first(in_float, function.loops());
-    const bool both = index == ir::enter_first(in_double, function.loops());
+    const auto index = proof::enter_first(in_float, function.loops());
+    const bool both = index == proof::enter_first(in_double, function.loops());
     if (!index && both)
         return std::nullopt;
     MarchRay ray;
     if (!index || !both)
         return ray;
     ray.loop = *index;
-    const ir::LoopSlice& slice = function.slices()[*index];
-    const ir::FloatEvaluator entered = in_float;
-    ray.march = ir::follow(in_float, function.function(), slice.loop);
-    if (!ir::is_faithful(slice, entered, ray.march))
+    const proof::LoopSlice& slice = function.slices()[*index];
+    const proof::FloatEvaluator entered = in_float;
+    ray.march = proof::follow(in_float, function.function(), slice.loop);
+    if (!proof::is_faithful(slice, entered, ray.march))
         return ray;
-    ray.slice.emplace(slice, in_double, ir::textures_in<ir::Interval>(textures_), surface);
+    ray.slice.emplace(slice, in_double, proof::textures_in<proof::Interval>(textures_), surface);
     ray.in_float.emplace(slice, entered);
     return ray;
 }
 
 /// Returns the colours that a finished run has written.
-std::vector<float> MarchRays::outputs(const ir::FloatEvaluator& evaluator) const {
+std::vector<float> MarchRays::outputs(const proof::FloatEvaluator& evaluator) const {
     std::vector<float> values;
-    for (const ir::Variable& variable : drawn_.function.function().variables)
-        if (variable.kind == ir::Variable::Kind::output)
+    for (const proof::Variable& variable : drawn_.function.function().variables)
+        if (variable.kind == proof::Variable::Kind::output)
             for (uint32_t i = 0; i < std::min(3u, variable.size); ++i) // without alpha
                 values.push_back(evaluator.memory()[variable.first + i].real);
     return values;
 }
 
 LongerMarch MarchRays::march_longer(glm::ivec2 pixel, uint32_t most) const {
-    const ir::Function& function = drawn_.function.function();
-    ir::FloatEvaluator as_is = floats_;
+    const proof::Function& function = drawn_.function.function();
+    proof::FloatEvaluator as_is = floats_;
     drawn_.function.move_to(as_is, pixel);
-    const auto index = ir::enter_first(as_is, drawn_.function.loops());
+    const auto index = proof::enter_first(as_is, drawn_.function.loops());
     if (!index)
         return {};
-    const ir::MarchingLoop& loop = drawn_.function.loops()[*index];
-    ir::FloatEvaluator longer = as_is, marching = as_is;
-    LongerMarch result{.hits = ir::follow_on(marching, function, loop, most).hit};
+    const proof::MarchingLoop& loop = drawn_.function.loops()[*index];
+    proof::FloatEvaluator longer = as_is, marching = as_is;
+    LongerMarch result{.hits = proof::follow_on(marching, function, loop, most).hit};
     if (!result.hits)
         return result;
-    ir::Decisions none(0);
+    proof::Decisions none(0);
     as_is.run(
         none, [](uint32_t) { return true; }, loop.header, loop.entry);
-    for (const ir::MarchingLoop::CounterTest& test : loop.counter_tests)
+    for (const proof::MarchingLoop::CounterTest& test : loop.counter_tests)
         longer.pin(test.comparison, {0, test.continues});
-    const std::vector<bool> inside = ir::natural_loop(function, loop.header);
+    const std::vector<bool> inside = proof::natural_loop(function, loop.header);
     uint32_t iterations = 0;
     longer.run(
         none,
@@ -217,43 +217,43 @@ LongerMarch MarchRays::march_longer(glm::ivec2 pixel, uint32_t most) const {
     return result;
 }
 
-ir::Textures<ir::Interval> MarchRays::textures_of_all(bool at_any_time) const {
-    return [this, at_any_time](const ir::Lookup& lookup, std::span<const ir::Interval> operands) {
+proof::Textures<proof::Interval> MarchRays::textures_of_all(bool at_any_time) const {
+    return [this, at_any_time](const proof::Lookup& lookup, std::span<const proof::Interval> operands) {
         const auto any = at_any_time ? changing(drawn_, lookup.sampler) : std::nullopt;
-        return any ? *any : ir::look_up(textures_, lookup, operands, ir::UnnamedLevel::any);
+        return any ? *any : proof::look_up(textures_, lookup, operands, proof::UnnamedLevel::any);
     };
 }
 
-std::optional<AreaRays> MarchRays::enter_all(const RayArea& area, ir::SliceOf what,
-                                             ir::Surface surface) const {
+std::optional<AreaRays> MarchRays::enter_all(const RayArea& area, proof::SliceOf what,
+                                             proof::Surface surface) const {
     InputRanges ranges = ranges_;
     ranges.set_place(area.x, area.y);
     if (area.time)
         ranges.set_time(*area.time);
-    ir::Evaluator<ir::IntervalSystem> all(drawn_.function.function());
+    proof::Evaluator<proof::IntervalSystem> all(drawn_.function.function());
     all.memory() = ranges.memory();
     all.textures = textures_of_all(area.time.has_value());
-    const auto index = ir::enter_first(all, drawn_.function.loops());
-    if (!index || (what == ir::SliceOf::step && !steps_[*index]))
+    const auto index = proof::enter_first(all, drawn_.function.loops());
+    if (!index || (what == proof::SliceOf::step && !steps_[*index]))
         return std::nullopt;
-    const ir::LoopSlice& slice =
-        what == ir::SliceOf::step ? *steps_[*index] : drawn_.function.slices()[*index];
-    return AreaRays{*index, ir::MarchSlice(slice, all, all.textures, surface)};
+    const proof::LoopSlice& slice =
+        what == proof::SliceOf::step ? *steps_[*index] : drawn_.function.slices()[*index];
+    return AreaRays{*index, proof::MarchSlice(slice, all, all.textures, surface)};
 }
 
-ir::ValueRanges ranges_of(const DrawnPass& drawn, double seconds) {
+proof::ValueRanges ranges_of(const DrawnPass& drawn, double seconds) {
     InputRanges inputs(drawn);
     const auto [width, height] = drawn.renderer.extent();
     inputs.set_place({0.5, width - 0.5}, {0.5, height - 0.5});
     inputs.set_time({0, seconds});
     inputs.turn_knobs();
-    const ir::TextureSet textures = textures_of(drawn.renderer, drawn.pass);
-    return ir::value_ranges(drawn.function.function(), inputs.memory(),
-                            [&](const ir::Lookup& lookup, std::span<const ir::Interval> operands) {
-                                const auto any = changing(drawn, lookup.sampler);
-                                return any ? *any
-                                           : ir::look_up(textures, lookup, operands, ir::UnnamedLevel::any);
-                            });
+    const proof::TextureSet textures = textures_of(drawn.renderer, drawn.pass);
+    return proof::value_ranges(
+        drawn.function.function(), inputs.memory(),
+        [&](const proof::Lookup& lookup, std::span<const proof::Interval> operands) {
+            const auto any = changing(drawn, lookup.sampler);
+            return any ? *any : proof::look_up(textures, lookup, operands, proof::UnnamedLevel::any);
+        });
 }
 
 namespace {
@@ -270,7 +270,7 @@ constexpr double k_steepest = 100;
 
 class AreaLook {
 public:
-    AreaLook(ir::MarchSlice& slice, double end, AreaSlopes& slopes)
+    AreaLook(proof::MarchSlice& slice, double end, AreaSlopes& slopes)
         : slice_(slice), end_(end), unit_(slice.unit()), slopes_(slopes) {}
 
     void run() {
@@ -285,7 +285,7 @@ public:
 
 private:
     /// Adds the bounds of a piece. Returns whether the space before the surface continues after it.
-    bool look_at(const ir::Interval& piece, int cuts) {
+    bool look_at(const proof::Interval& piece, int cuts) {
         const auto tangent = slice_.tangent(piece);
         if (tangent && !(tangent->value.high > 0))
             return false;
@@ -297,7 +297,7 @@ private:
             return true;
         }
         if (cuts == 1) {
-            const auto distance = slice_.distance(piece, ir::Care::quick);
+            const auto distance = slice_.distance(piece, proof::Care::quick);
             if (distance && !distance->partial && !(distance->high > 0))
                 return false;
             (distance && distance->partial ? slopes_.not_finite : slopes_.unbounded) += piece.width() * unit_;
@@ -310,7 +310,7 @@ private:
         return more;
     }
 
-    ir::MarchSlice& slice_;
+    proof::MarchSlice& slice_;
     double end_;
     double unit_;
     AreaSlopes& slopes_;
@@ -349,12 +349,13 @@ AreaSlopes area_slopes(const MarchRays& rays, uint64_t most_evaluations) {
     uint64_t left = most_evaluations;
     for (int y = 0; y < k_areas.height; ++y)
         for (int x = 0; x < k_areas.width; ++x) {
-            const auto one = rays.enter({int((x + 0.5) * width), int((y + 0.5) * height)}, ir::Surface::zero);
+            const auto one =
+                rays.enter({int((x + 0.5) * width), int((y + 0.5) * height)}, proof::Surface::zero);
             if (!one || !one->slice || one->march.turns.empty() || left == 0 ||
                 !(one->march.hit || one->march.far))
                 continue;
             auto all = rays.enter_all({{x * width, (x + 1) * width}, {y * height, (y + 1) * height}},
-                                      ir::SliceOf::distance, ir::Surface::zero);
+                                      proof::SliceOf::distance, proof::Surface::zero);
             const double end = one->slice->end(one->march);
             const double way = (end - one->slice->start()) * one->slice->unit();
             if (!std::isfinite(way) || !(way > 0))

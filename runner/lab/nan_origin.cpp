@@ -1,3 +1,4 @@
+#include "base/encoding.hpp"
 #include "lab/nan_trace.hpp"
 #include "shader/builtin_functions.hpp"
 
@@ -20,7 +21,7 @@ bool is_finite_word(uint32_t word) {
 
 /// Returns the CPU version of an operator or of a built-in that works component by component; nullptr if
 /// there is none.
-auto value_of(std::string_view name) -> double (*)(const Arguments&) {
+auto evaluation_of(std::string_view name) -> double (*)(const Arguments&) {
     if (name == "+")
         return [](const Arguments& a) { return a.x + a.y; };
     if (name == "-")
@@ -33,10 +34,10 @@ auto value_of(std::string_view name) -> double (*)(const Arguments&) {
     return function ? function->value : nullptr;
 }
 
-class Explainer {
+class OriginExplainer {
 public:
-    Explainer(std::string_view name, const std::vector<std::optional<ShaderValue>>& operands,
-              const ShaderValue& result)
+    OriginExplainer(std::string_view name, const std::vector<std::optional<ShaderValue>>& operands,
+                    const ShaderValue& result)
         : name_(name), function_(glsl::find_builtin(name)), operands_(operands), result_(result) {}
 
     Explanation run() const {
@@ -53,7 +54,8 @@ public:
             if (!is_finite_word(result_.bits[i]))
                 if (auto reason = of_numbers(arguments(i)); !reason.empty())
                     return {OriginCause::operation, std::move(reason)};
-        return value_of(name_) ? Explanation{OriginCause::undefined, "an undefined value", 0} : Explanation{};
+        return evaluation_of(name_) ? Explanation{OriginCause::undefined, "an undefined value", 0}
+                                    : Explanation{};
     }
 
 private:
@@ -92,7 +94,7 @@ private:
         if (function_ && function_->domain && operands_.size() == most_parameters(*function_))
             if (const auto* broken = function_->domain->broken(arguments))
                 return fmt::format("{} {}", name_, broken->fault);
-        const auto value = value_of(name_);
+        const auto value = evaluation_of(name_);
         return value && !(std::abs(value(arguments)) <= double(FLT_MAX))
                    ? "overflow: beyond the largest float"
                    : "";
@@ -186,7 +188,7 @@ std::string_view worst_of(const ShaderValue& value) {
 
 Explanation explain(std::string_view name, const std::vector<std::optional<ShaderValue>>& operands,
                     const ShaderValue& result) {
-    return Explainer(name, operands, result).run();
+    return OriginExplainer(name, operands, result).run();
 }
 
 namespace {
@@ -305,10 +307,7 @@ void add_way(NanOrigin& origin, const WatchedText& watched, const glsl::Watch& w
 std::string shortened(std::string text) {
     if (text.size() <= k_longest_text)
         return text;
-    size_t cut = k_longest_text - 4;
-    while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xc0u) == 0x80u)
-        --cut;
-    return text.substr(0, cut) + " …";
+    return text.substr(0, begin_of_character(text, k_longest_text - 4)) + " …";
 }
 
 std::string_view base_name(const WatchedText& watched, NodeId id) {

@@ -1,3 +1,6 @@
+// The origin of a NaN or an infinity: explanation of an operation, trace of a pixel, description in the
+// author's words.
+//
 // Explains on the CPU why a GLSL operation gave its result, from operand values that the shader recorded.
 #pragma once
 

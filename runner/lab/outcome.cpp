@@ -260,7 +260,7 @@ void find_idle(WorkPrecisionSet& set, const std::vector<Sight>& sights) {
 namespace {
 
 /// Errors of random samples fall so slowly that a truth is hardly ten times as exact: with too few solid
-/// points, those with an error of this many uncertainties of the reference tell the order, too.
+/// points, those with an error of this many uncertainties of the reference are used for the order, too.
 constexpr double k_solid_enough = 3;
 
 bool tells_order(const WorkPrecisionSet& set, const WorkPrecision& point, bool solid) {

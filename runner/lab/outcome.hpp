@@ -1,3 +1,5 @@
+// Numbers of a study from its pictures: errors of a point, idle knobs, observed orders.
+//
 // Computes the numbers of an outcome from what a point shows and from the truth. Pure.
 #pragma once
 

@@ -16,8 +16,8 @@
 namespace tidemark::lab {
 namespace {
 
-using ir::Scalar;
-using ir::Variable;
+using proof::Scalar;
+using proof::Variable;
 
 /// Returns the GL type of a scalar, a vector or a 4 x 4 matrix, the types of the host's uniforms; else
 /// GL_NONE.
@@ -33,7 +33,7 @@ GLenum gl_type(const Variable& variable) {
 }
 
 /// Locations are indices into the function's list of variables.
-gl::Reflection uniforms_of(const ir::Function& function) {
+gl::Reflection uniforms_of(const proof::Function& function) {
     gl::Reflection reflection;
     for (size_t i = 0; i < function.variables.size(); ++i)
         if (const Variable& variable = function.variables[i]; variable.kind == Variable::Kind::uniform)
@@ -43,11 +43,11 @@ gl::Reflection uniforms_of(const ir::Function& function) {
 }
 
 template <class Real>
-void store(ir::PointEvaluator<Real>& evaluator, const Variable& variable, uint32_t index, double value) {
+void store(proof::PointEvaluator<Real>& evaluator, const Variable& variable, uint32_t index, double value) {
     if (index < variable.size)
         evaluator.memory()[variable.first + index] = variable.type == Scalar::real
-                                                         ? ir::Point<Real>{Real(value), 0}
-                                                         : ir::Point<Real>{0, uint32_t(int64_t(value))};
+                                                         ? proof::Point<Real>{Real(value), 0}
+                                                         : proof::Point<Real>{0, uint32_t(int64_t(value))};
 }
 
 /// Macros of glslang that scenes test.
@@ -70,29 +70,29 @@ std::string first_error(const std::string& log, const text::LineMap& lines) {
 } // namespace
 
 Result<PassFunction> PassFunction::create(const scene::Scene& scene, const scene::Pass& pass,
-                                          ir::Names names) {
+                                          proof::Names names) {
     const glsl::ShaderSource source = glsl::assemble(scene, pass);
     if (!glsl::driver_load(source).modest())
         return fail(ErrorCode::load, "its text is too large to analyse");
     std::string text = source.text();
-    if (names == ir::Names::keep)
+    if (names == proof::Names::keep)
         text = glsl::assign_globals_in_main(*TRY(glsl::ParsedText::read(source, k_macros, false)));
-    auto function = ir::compile(text, names);
+    auto function = proof::compile(text, names);
     if (!function)
         return fail(ErrorCode::load, first_error(function.error().message, source.lines()));
     PassFunction result;
     result.function_ = *std::move(function);
-    result.loops_ = ir::find_marching_loops(result.function_);
-    for (const ir::MarchingLoop& loop : result.loops_)
-        result.slices_.push_back(ir::slice_of(result.function_, loop));
+    result.loops_ = proof::find_marching_loops(result.function_);
+    for (const proof::MarchingLoop& loop : result.loops_)
+        result.slices_.push_back(proof::slice_of(result.function_, loop));
     result.lines_ = source.lines();
     return result;
 }
 
 template <class Real>
-ir::PointEvaluator<Real> PassFunction::frame(const render::Renderer& renderer, size_t pass,
-                                             const render::FrameInputs& inputs) const {
-    ir::PointEvaluator<Real> evaluator(function_);
+proof::PointEvaluator<Real> PassFunction::frame(const render::Renderer& renderer, size_t pass,
+                                                const render::FrameInputs& inputs) const {
+    proof::PointEvaluator<Real> evaluator(function_);
     const render::UniformTable table(uniforms_of(function_), renderer.names_of(pass));
     table.hand_over(renderer.uniforms_of(pass, table, inputs, renderer.extent()),
                     [&](const gl::Uniform& uniform, std::span<const double> values, size_t) {
@@ -102,23 +102,23 @@ ir::PointEvaluator<Real> PassFunction::frame(const render::Renderer& renderer, s
                     });
     return evaluator;
 }
-template ir::PointEvaluator<float> PassFunction::frame(const render::Renderer&, size_t,
-                                                       const render::FrameInputs&) const;
-template ir::PointEvaluator<double> PassFunction::frame(const render::Renderer&, size_t,
-                                                        const render::FrameInputs&) const;
+template proof::PointEvaluator<float> PassFunction::frame(const render::Renderer&, size_t,
+                                                          const render::FrameInputs&) const;
+template proof::PointEvaluator<double> PassFunction::frame(const render::Renderer&, size_t,
+                                                           const render::FrameInputs&) const;
 
 template <class Real>
-void PassFunction::move_to(ir::PointEvaluator<Real>& frame, glm::ivec2 at) const {
+void PassFunction::move_to(proof::PointEvaluator<Real>& frame, glm::ivec2 at) const {
     if (const Variable* place = function_.find("gl_FragCoord"))
         for (const auto& [i, value] : {std::pair{0u, at.x + 0.5}, {1u, at.y + 0.5}, {2u, 0.5}, {3u, 1.0}})
             store(frame, *place, i, value);
 }
-template void PassFunction::move_to(ir::PointEvaluator<float>&, glm::ivec2) const;
-template void PassFunction::move_to(ir::PointEvaluator<double>&, glm::ivec2) const;
+template void PassFunction::move_to(proof::PointEvaluator<float>&, glm::ivec2) const;
+template void PassFunction::move_to(proof::PointEvaluator<double>&, glm::ivec2) const;
 
 namespace {
 
-using ir::Texels;
+using proof::Texels;
 
 /// Limit for the base level. A texture of 4096 x 4096 exceeds it.
 constexpr size_t k_most_texels = 8'000'000;
@@ -154,8 +154,8 @@ std::shared_ptr<const Texels> black() {
 
 } // namespace
 
-ir::TextureSet textures_of(const render::Renderer& renderer, size_t pass) {
-    ir::TextureSet textures;
+proof::TextureSet textures_of(const render::Renderer& renderer, size_t pass) {
+    proof::TextureSet textures;
     const scene::Channels& channels = renderer.scene().passes[pass].channels;
     for (int unit = 0; unit < scene::k_channel_count; ++unit) {
         const scene::Channel& channel = channels[size_t(unit)];
@@ -176,19 +176,19 @@ ir::TextureSet textures_of(const render::Renderer& renderer, size_t pass) {
 
 namespace {
 
-constexpr int k_columns = 16, k_rows = 9;
+constexpr int k_sampled_columns = 16, k_sampled_rows = 9;
 constexpr double k_most_milliseconds = 1500;
 
 /// Derivatives are not supported: they need the neighbouring pixels.
-bool takes_derivatives(const ir::Function& function) {
-    return std::ranges::any_of(function.instructions, [](const ir::Instruction& each) {
-        return each.op == ir::Op::derivative_x || each.op == ir::Op::derivative_y;
+bool takes_derivatives(const proof::Function& function) {
+    return std::ranges::any_of(function.instructions, [](const proof::Instruction& each) {
+        return each.op == proof::Op::derivative_x || each.op == proof::Op::derivative_y;
     });
 }
 
-bool knows_all(const ir::Function& function, const ir::TextureSet& textures) {
-    return std::ranges::all_of(function.lookups, [&](const ir::Lookup& lookup) {
-        return lookup.form == ir::Lookup::Form::size || textures.contains(lookup.sampler);
+bool knows_all(const proof::Function& function, const proof::TextureSet& textures) {
+    return std::ranges::all_of(function.lookups, [&](const proof::Lookup& lookup) {
+        return lookup.form == proof::Lookup::Form::size || textures.contains(lookup.sampler);
     });
 }
 
@@ -200,21 +200,23 @@ Result<PixelWork> count_work(const render::Renderer& renderer, size_t pass,
     if (scene.passes[pass].kind == scene::PassKind::cubemap)
         return fail(ErrorCode::load, "operations of a cubemap pass are not counted");
     const auto function = TRY(PassFunction::create(scene, scene.passes[pass]));
-    const ir::TextureSet textures = textures_of(renderer, pass);
+    const proof::TextureSet textures = textures_of(renderer, pass);
     if (takes_derivatives(function.function()) || !knows_all(function.function(), textures))
         return fail(ErrorCode::load, "it takes derivatives, or reads a texture that is not available");
-    ir::FloatEvaluator start = function.frame(renderer, pass, inputs);
-    start.textures = ir::textures_in<ir::Point<float>>(textures);
+    proof::FloatEvaluator start = function.frame(renderer, pass, inputs);
+    start.textures = proof::textures_in<proof::Point<float>>(textures);
     const Extent extent = renderer.extent();
     const Stopwatch clock;
     PixelWork work;
     // Takes every seventh pixel of the grid, so that the pixels of a short run are spread over the picture.
-    for (int i = 0; i < k_columns * k_rows && clock.elapsed().wall < k_most_milliseconds; ++i) {
-        const int place = i * 7 % (k_columns * k_rows);
-        ir::FloatEvaluator pixel = start;
-        function.move_to(pixel, {(2 * (place % k_columns) + 1) * extent.width / (2 * k_columns),
-                                 (2 * (place / k_columns) + 1) * extent.height / (2 * k_rows)});
-        ir::Decisions decisions(0);
+    for (int i = 0; i < k_sampled_columns * k_sampled_rows && clock.elapsed().wall < k_most_milliseconds;
+         ++i) {
+        const int place = i * 7 % (k_sampled_columns * k_sampled_rows);
+        proof::FloatEvaluator pixel = start;
+        function.move_to(pixel,
+                         {(2 * (place % k_sampled_columns) + 1) * extent.width / (2 * k_sampled_columns),
+                          (2 * (place / k_sampled_columns) + 1) * extent.height / (2 * k_sampled_rows)});
+        proof::Decisions decisions(0);
         pixel.run(decisions, [](uint32_t) { return true; });
         work.operations += double(pixel.steps());
         ++work.pixels;

@@ -1,3 +1,5 @@
+// A pass evaluated on the CPU: the function, its textures, and its cost in operations.
+//
 // A pass of a scene as one function in SSA form, whose pixels are evaluated on the CPU with the device's
 // uniforms.
 #pragma once
@@ -19,27 +21,27 @@ class PassFunction {
 public:
     /// Compiles the pass. The error names the construct that is not supported, with the author's line.
     static Result<PassFunction> create(const scene::Scene& scene, const scene::Pass& pass,
-                                       ir::Names names = ir::Names::drop);
+                                       proof::Names names = proof::Names::drop);
 
-    const ir::Function& function() const { return function_; }
-    const std::vector<ir::MarchingLoop>& loops() const { return loops_; }
+    const proof::Function& function() const { return function_; }
+    const std::vector<proof::MarchingLoop>& loops() const { return loops_; }
     /// By index of the loop.
-    const std::vector<ir::LoopSlice>& slices() const { return slices_; }
+    const std::vector<proof::LoopSlice>& slices() const { return slices_; }
     /// Converts a line of the compiled text to the author's file and line.
     SourceLocation locate(int line) const { return lines_.locate(line); }
 
     /// Returns an evaluator with the uniforms of a frame, for a pass in the renderer's plan.
     template <class Real = float>
-    ir::PointEvaluator<Real> frame(const render::Renderer& renderer, size_t pass,
-                                   const render::FrameInputs& inputs) const;
+    proof::PointEvaluator<Real> frame(const render::Renderer& renderer, size_t pass,
+                                      const render::FrameInputs& inputs) const;
     /// Sets the frame's pixel, counted from the lower left.
     template <class Real>
-    void move_to(ir::PointEvaluator<Real>& frame, glm::ivec2 at) const;
+    void move_to(proof::PointEvaluator<Real>& frame, glm::ivec2 at) const;
 
 private:
-    ir::Function function_;
-    std::vector<ir::MarchingLoop> loops_;
-    std::vector<ir::LoopSlice> slices_;
+    proof::Function function_;
+    std::vector<proof::MarchingLoop> loops_;
+    std::vector<proof::LoopSlice> slices_;
     text::LineMap lines_;
 };
 
@@ -56,7 +58,7 @@ struct DrawnPass {
 
 /// Returns the textures as the last frame left them, by sampler name. Those of the previous frame (no longer
 /// available) and those of over 8 million texels are left out, so their values are unknown.
-ir::TextureSet textures_of(const render::Renderer& renderer, size_t pass);
+proof::TextureSet textures_of(const render::Renderer& renderer, size_t pass);
 
 // Measures how much a pass computes: the operations that its text executes, counted on the CPU. The result
 // does not depend on the machine or its driver.

@@ -12,9 +12,9 @@
 namespace tidemark::lab {
 namespace {
 
-using ir::Assignment;
-using ir::Function;
-using ir::Op;
+using proof::Assignment;
+using proof::Function;
+using proof::Op;
 
 /// Returns a name for a value that has none, from the text of its line.
 std::string name_of(std::string_view line) {
@@ -41,12 +41,12 @@ std::vector<bool> intermediate_values(const Function& function) {
         const size_t end = i + 1 < statements.size() ? statements[i + 1].first : statement_of.size();
         std::fill(statement_of.begin() + statements[i].first, statement_of.begin() + long(end), i);
     }
-    const auto together = [&](const ir::Statement& a, const ir::Statement& b) {
+    const auto together = [&](const proof::Statement& a, const proof::Statement& b) {
         return a.line == b.line && a.call == b.call;
     };
     std::vector<bool> result(function.instructions.size());
     for (size_t i = 0; i < function.instructions.size() && !statements.empty(); ++i)
-        for (const ir::Value operand : function.operands_of(function.instructions[i]))
+        for (const proof::Value operand : function.operands_of(function.instructions[i]))
             if (together(statements[statement_of[i]], statements[statement_of[operand]]))
                 result[operand] = true;
     return result;
@@ -58,8 +58,8 @@ bool computes(Op op) {
 
 /// Values that follow each other with the same operation form one vector.
 bool belongs_to(const Function& function, const Assignment& vector, uint32_t value) {
-    const ir::Instruction &last = function.instructions[vector.values.back()],
-                          &next = function.instructions[value];
+    const proof::Instruction &last = function.instructions[vector.values.back()],
+                             &next = function.instructions[value];
     return vector.values.size() < 4 && vector.values.back() + 1 == value && last.op == next.op &&
            last.type == next.type;
 }
@@ -73,7 +73,7 @@ bool stands_before(const Assignment& a, const Assignment& b) {
 PassLines::PassLines(const PassFunction& function, const scene::Scene& scene, const scene::Pass& pass)
     : function_(&function) {
     const Function& all = function.function();
-    for (const ir::Statement& each : all.names.statements)
+    for (const proof::Statement& each : all.names.statements)
         add_line(each.line);
     for (const Assignment& each : all.names.assignments)
         add_line(each.line);
@@ -110,15 +110,15 @@ void PassLines::read_texts(const scene::Scene& scene, const scene::Pass& pass) {
 }
 
 void PassLines::add_unnamed(const Function& function) {
-    std::set<std::pair<int, ir::Value>> named;
+    std::set<std::pair<int, proof::Value>> named;
     for (const Assignment& each : assignments_)
-        for (const ir::Value value : each.values)
+        for (const proof::Value value : each.values)
             named.emplace(each.line, value);
     const std::vector<bool> intermediate = intermediate_values(function);
-    const std::vector<uint32_t> block_of = ir::blocks_of_instructions(function);
+    const std::vector<uint32_t> block_of = proof::blocks_of_instructions(function);
     const auto& statements = function.names.statements;
     for (size_t i = 0; i < statements.size(); ++i) {
-        const ir::Statement& here = statements[i];
+        const proof::Statement& here = statements[i];
         if (!lines_.contains(here.line))
             continue;
         const size_t end = i + 1 < statements.size() ? statements[i + 1].first : function.instructions.size();

@@ -18,8 +18,8 @@ public:
     PassLines(const PassFunction& function, const scene::Scene& scene, const scene::Pass& pass);
 
     /// Returns the assignments in a block, in order of execution.
-    std::span<const ir::Assignment> in_block(uint32_t block) const;
-    std::span<const ir::Assignment> assignments() const { return assignments_; }
+    std::span<const proof::Assignment> in_block(uint32_t block) const;
+    std::span<const proof::Assignment> assignments() const { return assignments_; }
     /// Takes a line of the compiled text; returns nullptr for lines that Tidemark added.
     const AuthorLine* find(int line) const;
     /// Returns the line of the compiled text. The error names the nearest lines that have code.
@@ -28,12 +28,12 @@ public:
 private:
     void add_line(int number);
     void read_texts(const scene::Scene& scene, const scene::Pass& pass);
-    void add_unnamed(const ir::Function& function);
+    void add_unnamed(const proof::Function& function);
     std::string main_file() const;
 
     const PassFunction* function_;
     std::map<int, AuthorLine> lines_;
-    std::vector<ir::Assignment> assignments_;
+    std::vector<proof::Assignment> assignments_;
     std::vector<size_t> first_in_block_; ///< with an end entry after the last block
 };
 

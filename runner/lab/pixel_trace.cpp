@@ -42,11 +42,11 @@ private:
 class Recorder {
 public:
     /// Keeps only the values of `line`, a line of the compiled text.
-    Recorder(const ir::Function& function, const PassLines& lines, std::optional<int> line,
+    Recorder(const proof::Function& function, const PassLines& lines, std::optional<int> line,
              std::optional<TurnRange> turns);
 
     /// Call it after each executed block.
-    void record(const ir::LockstepEvaluator& evaluator, uint32_t block);
+    void record(const proof::LockstepEvaluator& evaluator, uint32_t block);
 
     /// Returns the lines that ran.
     std::vector<TracedLine> lines() const;
@@ -68,16 +68,16 @@ private:
 
     void count_turns(uint32_t block);
     Turns turns(uint32_t block) const;
-    void measure_losses(const ir::LockstepEvaluator& evaluator, uint32_t block);
-    void measure_dropped(const ir::LockstepEvaluator& evaluator, ir::Value value);
-    double widening(const ir::Instruction& instruction, double spread) const;
-    void compare_conditions(const ir::LockstepEvaluator& evaluator, uint32_t block);
-    void compare(const ir::Lockstep& condition, int line, uint32_t block);
-    void take(const ir::LockstepEvaluator& evaluator, const ir::Assignment& each);
+    void measure_losses(const proof::LockstepEvaluator& evaluator, uint32_t block);
+    void measure_dropped(const proof::LockstepEvaluator& evaluator, proof::Value value);
+    double widening(const proof::Instruction& instruction, double spread) const;
+    void compare_conditions(const proof::LockstepEvaluator& evaluator, uint32_t block);
+    void compare(const proof::Lockstep& condition, int line, uint32_t block);
+    void take(const proof::LockstepEvaluator& evaluator, const proof::Assignment& each);
     Line* line(int number);
     LineInCall call(uint32_t index, const PassFunction& function) const;
 
-    const ir::Function* function_;
+    const proof::Function* function_;
     const PassLines* source_;
     std::optional<int> wanted_;
     std::optional<TurnRange> range_;
@@ -86,7 +86,7 @@ private:
     std::optional<uint32_t> previous_;          ///< the previous block
     std::vector<double> spreads_;               ///< relative spread of each instruction's result
     std::map<int, Line> lines_;
-    std::map<const ir::Assignment*, KeptValues> kept_;
+    std::map<const proof::Assignment*, KeptValues> kept_;
     uint64_t order_ = 0;
 };
 
@@ -94,7 +94,7 @@ namespace {
 
 constexpr size_t k_first = 4, k_last = 3;
 /// Limit if iterations were requested.
-constexpr size_t k_most = 1000;
+constexpr size_t k_most_values = 1000;
 
 } // namespace
 
@@ -111,7 +111,7 @@ void KeptValues::add(TracedValue value, const std::optional<TurnRange>& turns) {
     if (turns) {
         const bool asked =
             !value.turns.empty() && value.turns.back() >= turns->first && value.turns.back() <= turns->second;
-        if (asked && first_.size() < k_most)
+        if (asked && first_.size() < k_most_values)
             first_.push_back(std::move(value));
         return;
     }
@@ -150,34 +150,36 @@ std::vector<TracedValue> KeptValues::all() const {
 
 namespace {
 
-using ir::Assignment;
-using ir::Block;
-using ir::Instruction;
-using ir::Lockstep;
-using ir::LockstepEvaluator;
-using ir::Op;
-using ir::Scalar;
-using Kind = TracedValue::Kind;
+using proof::Assignment;
+using proof::Block;
+using proof::Instruction;
+using proof::Lockstep;
+using proof::LockstepEvaluator;
+using proof::Op;
+using proof::Scalar;
+using ValueKind = TracedValue::Kind;
 
 /// Half a unit in the last place of a float.
 constexpr double k_least_spread = 0x1p-24;
 
-Kind kind_of(Scalar type) {
-    return type == Scalar::real ? Kind::real : type == Scalar::boolean ? Kind::condition : Kind::whole;
+ValueKind kind_of(Scalar type) {
+    return type == Scalar::real      ? ValueKind::real
+           : type == Scalar::boolean ? ValueKind::condition
+                                     : ValueKind::whole;
 }
 
 template <class Real>
-double number(const ir::Point<Real>& point, Scalar type) {
+double value_number(const proof::Point<Real>& point, Scalar type) {
     if (type == Scalar::real)
         return point.real;
     return type == Scalar::signed_int ? double(int32_t(point.bits)) : double(point.bits);
 }
 
-double spread_of(const LockstepEvaluator& evaluator, const std::vector<ir::Value>& values) {
-    std::vector<ir::Samples> components;
-    for (const ir::Value value : values)
+double spread_of(const LockstepEvaluator& evaluator, const std::vector<proof::Value>& values) {
+    std::vector<proof::Samples> components;
+    for (const proof::Value value : values)
         components.push_back(evaluator.value(value).samples);
-    return ir::relative_spread(components);
+    return proof::relative_spread(components);
 }
 
 /// Returns the name; for an array element with its index, which may be computed.
@@ -185,27 +187,27 @@ std::string name_of(const LockstepEvaluator& evaluator, const Assignment& each) 
     if (each.kind != Assignment::Kind::stored)
         return each.name;
     const uint32_t offset =
-        each.offset == ir::k_no_value ? 0 : evaluator.value(each.offset).in_float.bits / each.stride;
+        each.offset == proof::k_no_value ? 0 : evaluator.value(each.offset).in_float.bits / each.stride;
     return fmt::format("{}[{}]", each.name, each.first_element + offset);
 }
 
-TracedValue value_of(const LockstepEvaluator& evaluator, const ir::Function& function,
-                     const Assignment& each) {
+TracedValue traced_value_of(const LockstepEvaluator& evaluator, const proof::Function& function,
+                            const Assignment& each) {
     const Scalar type = function.instructions[each.values.front()].type;
     TracedValue result;
     result.kind = kind_of(type);
     result.name = name_of(evaluator, each);
     result.carried = each.kind == Assignment::Kind::carried;
     result.rows = each.rows;
-    for (const ir::Value value : each.values) {
+    for (const proof::Value value : each.values) {
         const Lockstep& all = evaluator.value(value);
-        result.in_float.push_back(number(all.in_float, type));
-        result.in_double.push_back(number(all.in_double, type));
+        result.in_float.push_back(value_number(all.in_float, type));
+        result.in_double.push_back(value_number(all.in_double, type));
         result.unstable = result.unstable || (type != Scalar::real && all.rounding_decides());
     }
-    result.digits = type == Scalar::real ? ir::significant_digits(spread_of(evaluator, each.values))
+    result.digits = type == Scalar::real ? proof::significant_digits(spread_of(evaluator, each.values))
                     : result.unstable    ? 0
-                                         : ir::k_most_digits;
+                                         : proof::k_most_digits;
     return result;
 }
 
@@ -216,13 +218,13 @@ bool is_rounded(Op op) {
 
 } // namespace
 
-Recorder::Recorder(const ir::Function& function, const PassLines& lines, std::optional<int> line,
+Recorder::Recorder(const proof::Function& function, const PassLines& lines, std::optional<int> line,
                    std::optional<TurnRange> turns)
     : function_(&function), source_(&lines), wanted_(line), range_(std::move(turns)),
       around_(function.blocks.size()), spreads_(function.instructions.size()) {
     for (uint32_t block = 0; block < function.blocks.size(); ++block)
         if (function.blocks[block].loop)
-            if (auto text = ir::text_of_loop(function, block); !text.empty())
+            if (auto text = proof::text_of_loop(function, block); !text.empty())
                 loops_.push_back({block, std::move(text)});
     for (uint32_t loop = 0; loop < loops_.size(); ++loop)
         for (uint32_t block = 0; block < around_.size(); ++block)
@@ -268,7 +270,7 @@ double Recorder::widening(const Instruction& instruction, double spread) const {
     if (!is_rounded(instruction.op))
         return 1;
     double before = k_least_spread;
-    for (const ir::Value operand : function_->operands_of(instruction))
+    for (const proof::Value operand : function_->operands_of(instruction))
         if (function_->instructions[operand].type == Scalar::real)
             before = std::max(before, spreads_[operand]);
     return std::min(spread, 1.0) / std::min(before, 1.0);
@@ -276,11 +278,11 @@ double Recorder::widening(const Instruction& instruction, double spread) const {
 
 void Recorder::measure_losses(const LockstepEvaluator& evaluator, uint32_t block) {
     const Block& here = function_->blocks[block];
-    for (ir::Value value = here.first; value < here.last; ++value) {
+    for (proof::Value value = here.first; value < here.last; ++value) {
         const Instruction& instruction = function_->instructions[value];
         if (instruction.type != Scalar::real || instruction.op == Op::store)
             continue;
-        spreads_[value] = ir::relative_spread({&evaluator.value(value).samples, 1});
+        spreads_[value] = proof::relative_spread({&evaluator.value(value).samples, 1});
         measure_dropped(evaluator, value);
         const double factor = widening(instruction, spreads_[value]);
         if (factor <= 1 || !std::isfinite(evaluator.value(value).in_float.real))
@@ -295,28 +297,28 @@ void Recorder::measure_losses(const LockstepEvaluator& evaluator, uint32_t block
 }
 
 /// A sum keeps of its smaller operand only what is above half a unit in the last place of its result.
-void Recorder::measure_dropped(const LockstepEvaluator& evaluator, ir::Value value) {
+void Recorder::measure_dropped(const LockstepEvaluator& evaluator, proof::Value value) {
     const Instruction& instruction = function_->instructions[value];
     if (instruction.op != Op::add && instruction.op != Op::subtract)
         return;
     const double sum = std::abs(evaluator.value(value).in_float.real);
     double least = sum;
-    for (const ir::Value operand : function_->operands_of(instruction)) {
+    for (const proof::Value operand : function_->operands_of(instruction)) {
         const double size = std::abs(evaluator.value(operand).in_float.real);
         if (function_->instructions[operand].op != Op::constant && size > 0)
             least = std::min(least, size);
     }
     const double dropped = sum > 0 && std::isfinite(sum) ? std::log10(sum / least) : 0;
     if (Line* on = dropped > 0 ? line(instruction.line) : nullptr)
-        on->traced.dropped = std::max(on->traced.dropped, std::min(dropped, ir::k_most_digits));
+        on->traced.dropped = std::max(on->traced.dropped, std::min(dropped, proof::k_most_digits));
 }
 
 void Recorder::compare_conditions(const LockstepEvaluator& evaluator, uint32_t block) {
     const Block& here = function_->blocks[block];
-    for (ir::Value value = here.first; value < here.last; ++value)
+    for (proof::Value value = here.first; value < here.last; ++value)
         if (const Instruction& each = function_->instructions[value]; each.op == Op::select)
             compare(evaluator.value(function_->operands_of(each)[0]), each.line, block);
-    if (here.condition != ir::k_no_value)
+    if (here.condition != proof::k_no_value)
         compare(evaluator.value(here.condition), here.line, block);
 }
 
@@ -345,12 +347,12 @@ void Recorder::take(const LockstepEvaluator& evaluator, const Assignment& each) 
     const bool real = function_->instructions[each.values.front()].type == Scalar::real;
     const double spread = real ? spread_of(evaluator, each.values) : 0;
     const bool finite = std::ranges::all_of(
-        each.values, [&](ir::Value value) { return std::isfinite(evaluator.value(value).in_float.real); });
+        each.values, [&](proof::Value value) { return std::isfinite(evaluator.value(value).in_float.real); });
     const bool worse = finite && spread > on->worst;
     const bool first_not_finite = !finite && !on->traced.not_finite;
     if (!worse && !first_not_finite && each.line != wanted_)
         return;
-    TracedValue value = value_of(evaluator, *function_, each);
+    TracedValue value = traced_value_of(evaluator, *function_, each);
     value.turns = turns(each.block);
     value.order = order_;
     if (worse) {
@@ -401,64 +403,64 @@ std::vector<LineInCall> Recorder::calls(const PassFunction& function) const {
 
 namespace {
 
-using ir::Ended;
-using ir::Op;
+using proof::Ended;
+using proof::Op;
 
 /// Takes about five seconds.
 constexpr uint64_t k_most_operations = 50'000'000;
 
 /// Returns an evaluator of all three numbers, with the uniforms and the place of `pixel`.
-ir::LockstepEvaluator in_lockstep(const ir::Function& function, const ir::FloatEvaluator& pixel,
-                                  uint64_t seed) {
-    ir::LockstepEvaluator evaluator(function, ir::LockstepSystem(seed));
+proof::LockstepEvaluator in_lockstep(const proof::Function& function, const proof::FloatEvaluator& pixel,
+                                     uint64_t seed) {
+    proof::LockstepEvaluator evaluator(function, proof::LockstepSystem(seed));
     for (size_t cell = 0; cell < pixel.memory().size(); ++cell)
-        evaluator.memory()[cell] = ir::LockstepSystem::exactly(pixel.memory()[cell]);
+        evaluator.memory()[cell] = proof::LockstepSystem::exactly(pixel.memory()[cell]);
     evaluator.most_steps = k_most_operations;
     return evaluator;
 }
 
 /// Looks up each of the three numbers at its own place; sets `base_level` if the device would choose a mipmap
 /// level.
-ir::Textures<ir::Lockstep> looked_up(const ir::TextureSet& textures, bool& base_level) {
-    return [&](const ir::Lookup& lookup, std::span<const ir::Lockstep> operands) {
+proof::Textures<proof::Lockstep> looked_up(const proof::TextureSet& textures, bool& base_level) {
+    return [&](const proof::Lookup& lookup, std::span<const proof::Lockstep> operands) {
         const auto texels = textures.find(lookup.sampler);
         base_level = base_level || (texels != textures.end() && texels->second->chooses_level(lookup));
         const auto at = [&]<class Real>(auto member) {
-            std::vector<ir::Point<Real>> places;
-            for (const ir::Lockstep& operand : operands)
+            std::vector<proof::Point<Real>> places;
+            for (const proof::Lockstep& operand : operands)
                 places.push_back(member(operand));
-            return ir::look_up(textures, lookup, std::span<const ir::Point<Real>>(places));
+            return proof::look_up(textures, lookup, std::span<const proof::Point<Real>>(places));
         };
-        ir::Lockstep found{at.operator()<float>([](const auto& each) { return each.in_float; }),
-                           at.operator()<double>([](const auto& each) { return each.in_double; }),
-                           {}};
+        proof::Lockstep found{at.operator()<float>([](const auto& each) { return each.in_float; }),
+                              at.operator()<double>([](const auto& each) { return each.in_double; }),
+                              {}};
         for (size_t i = 0; i < found.samples.size(); ++i)
             found.samples[i] = at.operator()<float>([i](const auto& each) { return each.samples[i]; });
         return found;
     };
 }
 
-bool is_unknown(const ir::Function& function, const ir::Instruction& instruction,
-                const ir::TextureSet& textures) {
+bool is_unknown(const proof::Function& function, const proof::Instruction& instruction,
+                const proof::TextureSet& textures) {
     if (instruction.op != Op::texel)
         return instruction.op == Op::derivative_x || instruction.op == Op::derivative_y;
-    const ir::Lookup& lookup = function.lookups[instruction.immediate];
-    return !textures.contains(lookup.sampler) || lookup.form == ir::Lookup::Form::gather ||
-           lookup.form == ir::Lookup::Form::query;
+    const proof::Lookup& lookup = function.lookups[instruction.immediate];
+    return !textures.contains(lookup.sampler) || lookup.form == proof::Lookup::Form::gather ||
+           lookup.form == proof::Lookup::Form::query;
 }
 
 /// Returns, for each block, the first instruction whose value the evaluator cannot compute.
-std::vector<ir::Value> unknown_values(const ir::Function& function, const ir::TextureSet& textures) {
-    std::vector<ir::Value> result(function.blocks.size(), ir::k_no_value);
+std::vector<proof::Value> unknown_values(const proof::Function& function, const proof::TextureSet& textures) {
+    std::vector<proof::Value> result(function.blocks.size(), proof::k_no_value);
     for (size_t block = 0; block < result.size(); ++block)
-        for (ir::Value i = function.blocks[block].last; i-- > function.blocks[block].first;)
+        for (proof::Value i = function.blocks[block].last; i-- > function.blocks[block].first;)
             if (is_unknown(function, function.instructions[i], textures))
                 result[block] = i;
     return result;
 }
 
-Error not_followed(const PassFunction& function, ir::Value value) {
-    const ir::Instruction& instruction = function.function().instructions[value];
+Error not_followed(const PassFunction& function, proof::Value value) {
+    const proof::Instruction& instruction = function.function().instructions[value];
     return error_at(function.locate(instruction.line),
                     instruction.op == Op::texel
                         ? "cannot evaluate this texture read: the texture is of the previous frame or too "
@@ -466,16 +468,17 @@ Error not_followed(const PassFunction& function, ir::Value value) {
                         : "cannot evaluate this derivative: neighbouring pixels are not evaluated");
 }
 
-void read_colour(const ir::LockstepEvaluator& evaluator, const ir::Function& function, PixelTrace& trace) {
+void read_colour(const proof::LockstepEvaluator& evaluator, const proof::Function& function,
+                 PixelTrace& trace) {
     const auto output =
-        std::ranges::find(function.variables, ir::Variable::Kind::output, &ir::Variable::kind);
+        std::ranges::find(function.variables, proof::Variable::Kind::output, &proof::Variable::kind);
     if (output == function.variables.end())
         return;
     for (uint32_t i = 0; i < std::min<size_t>(output->size, trace.in_float.size()); ++i) {
-        const ir::Lockstep& component = evaluator.memory()[output->first + i];
+        const proof::Lockstep& component = evaluator.memory()[output->first + i];
         trace.in_float[i] = component.in_float.real;
         trace.in_double[i] = component.in_double.real;
-        trace.digits[i] = ir::significant_digits({&component.samples, 1});
+        trace.digits[i] = proof::significant_digits({&component.samples, 1});
     }
 }
 
@@ -496,28 +499,28 @@ PixelTrace::End end_of(Ended ended) {
 }
 
 Result<PixelTrace> follow(const PassFunction& function, const PassLines& lines,
-                          const ir::FloatEvaluator& pixel, const ir::TextureSet& textures,
+                          const proof::FloatEvaluator& pixel, const proof::TextureSet& textures,
                           const PixelRequest& request) {
     std::optional<int> line;
     if (request.line)
         line = TRY(lines.compiled_line(*request.line));
-    ir::LockstepEvaluator evaluator = in_lockstep(function.function(), pixel, request.seed);
+    proof::LockstepEvaluator evaluator = in_lockstep(function.function(), pixel, request.seed);
     Recorder recorder(function.function(), lines, line, request.turns);
     PixelTrace trace;
     if (line)
         trace.asked = *lines.find(*line);
     evaluator.textures = looked_up(textures, trace.at_base_level);
-    const std::vector<ir::Value> unknown = unknown_values(function.function(), textures);
-    ir::Value found = ir::k_no_value;
-    ir::Decisions decisions(0);
+    const std::vector<proof::Value> unknown = unknown_values(function.function(), textures);
+    proof::Value found = proof::k_no_value;
+    proof::Decisions decisions(0);
     const Ended ended = evaluator.run(decisions, [&](uint32_t block) {
-        const ir::Block& here = function.function().blocks[block];
+        const proof::Block& here = function.function().blocks[block];
         trace.operations += here.last - here.first;
         found = unknown[block];
         recorder.record(evaluator, block);
-        return found == ir::k_no_value;
+        return found == proof::k_no_value;
     });
-    if (found != ir::k_no_value)
+    if (found != proof::k_no_value)
         return fail(not_followed(function, found));
     trace.end = end_of(ended);
     read_colour(evaluator, function.function(), trace);
@@ -534,8 +537,8 @@ Result<PixelTrace> trace_pixel(const render::Renderer& renderer, const render::F
     if (pass.kind != scene::PassKind::image && pass.kind != scene::PassKind::buffer)
         return fail(ErrorCode::usage,
                     fmt::format("--pass \"{}\": only pixels of Image and of buffers are traced", pass.name));
-    const auto function = TRY(PassFunction::create(renderer.scene(), pass, ir::Names::keep));
-    ir::FloatEvaluator pixel = function.frame(renderer, renderer.shown_index(), inputs);
+    const auto function = TRY(PassFunction::create(renderer.scene(), pass, proof::Names::keep));
+    proof::FloatEvaluator pixel = function.frame(renderer, renderer.shown_index(), inputs);
     function.move_to(pixel, request.pixel);
     auto trace = TRY(follow(function, PassLines(function, renderer.scene(), pass), pixel,
                             textures_of(renderer, renderer.shown_index()), request));

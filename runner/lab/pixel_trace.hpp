@@ -63,9 +63,9 @@ struct Occurrence {
 /// The summary of one line.
 struct TracedLine {
     AuthorLine line{};
-    uint64_t values = 0;               ///< number of named values computed
-    double digits = ir::k_most_digits; ///< of the value with the fewest
-    std::string fewest{};              ///< name of that value
+    uint64_t values = 0;                  ///< number of named values computed
+    double digits = proof::k_most_digits; ///< of the value with the fewest
+    std::string fewest{};                 ///< name of that value
     Turns fewest_turns{};
     double lost = 0; ///< digits lost by one operation: how many fewer its result has than its operands
     Turns lost_turns{};

@@ -1,3 +1,5 @@
+// The bench that draws a scene for probes, and the stored results of the search.
+//
 // Results of the search through a scene's moments, knobs and mouse positions (lab/exploration.hpp).
 #pragma once
 

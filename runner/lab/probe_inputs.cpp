@@ -14,7 +14,7 @@
 namespace tidemark::lab {
 namespace {
 
-using Json = nlohmann::json;
+using PromiseJson = nlohmann::json;
 
 struct Field {
     std::string_view name;
@@ -37,7 +37,7 @@ std::string names() {
     return text + "ranges, skip, when";
 }
 
-std::string take_reasons(Promises& promises, const Json& reasons) {
+std::string take_reasons(Promises& promises, const PromiseJson& reasons) {
     if (!reasons.is_object())
         return R"('skip' takes {"probe": "why"})";
     for (const auto& [probe, reason] : reasons.items()) {
@@ -48,7 +48,7 @@ std::string take_reasons(Promises& promises, const Json& reasons) {
     return {};
 }
 
-std::string take_ranges(Promises& promises, const Json& ranges) {
+std::string take_ranges(Promises& promises, const PromiseJson& ranges) {
     constexpr const char* k_form = "'ranges' takes {\"knob\": [low, high]}";
     if (!ranges.is_object())
         return k_form;
@@ -62,7 +62,7 @@ std::string take_ranges(Promises& promises, const Json& ranges) {
 }
 
 /// Sets one number.
-std::string take_number(Promises& promises, const std::string& name, const Json& value) {
+std::string take_number(Promises& promises, const std::string& name, const PromiseJson& value) {
     const auto field = std::ranges::find(k_fields, name, &Field::name);
     if (field == std::end(k_fields))
         return fmt::format("'{}' is not a known promise; there are {}", name, names());
@@ -74,7 +74,7 @@ std::string take_number(Promises& promises, const std::string& name, const Json&
 }
 
 /// Applies one entry; returns what is wrong with it, or an empty text.
-std::string take(Promises& promises, const std::string& name, const Json& value) {
+std::string take(Promises& promises, const std::string& name, const PromiseJson& value) {
     return name == "skip"     ? take_reasons(promises, value)
            : name == "ranges" ? take_ranges(promises, value)
                               : take_number(promises, name, value);
@@ -82,7 +82,8 @@ std::string take(Promises& promises, const std::string& name, const Json& value)
 
 /// Applies the entries whose definition holds. The others are parsed as well, so that their errors are
 /// reported.
-std::string take_conditional(Promises& promises, const Json& conditional, const DefinitionOf& definition_of) {
+std::string take_conditional(Promises& promises, const PromiseJson& conditional,
+                             const DefinitionOf& definition_of) {
     constexpr const char* k_form = "'when' takes {\"NAME=VALUE\": {promises}}";
     if (!conditional.is_object())
         return k_form;
@@ -100,7 +101,7 @@ std::string take_conditional(Promises& promises, const Json& conditional, const 
 }
 
 /// Applies all entries; returns what is wrong with the first invalid one, or an empty text.
-std::string take_all(Promises& promises, const Json& entries, const DefinitionOf& definition_of) {
+std::string take_all(Promises& promises, const PromiseJson& entries, const DefinitionOf& definition_of) {
     for (const auto& [name, value] : entries.items())
         if (name != "when")
             if (std::string wrong = take(promises, name, value); !wrong.empty())
@@ -113,7 +114,7 @@ std::string take_all(Promises& promises, const Json& entries, const DefinitionOf
 
 Result<Promises> parse_promises(std::string_view text, const std::string& file,
                                 const DefinitionOf& definition_of) {
-    const Json json = Json::parse(text, nullptr, false, true);
+    const PromiseJson json = PromiseJson::parse(text, nullptr, false, true);
     if (!json.is_object())
         return fail(ErrorCode::load, fmt::format("{}: not a JSON object", file));
     Promises promises;
@@ -165,15 +166,15 @@ namespace {
 constexpr size_t k_text_numbers = 40; ///< most moments taken from the text
 constexpr int k_early_moments = 128;  ///< in the first k_early seconds
 constexpr double k_early = 128;
-constexpr int k_late_moments = 32; ///< from k_early to k_latest seconds
-constexpr double k_latest = 1e5;
+constexpr int k_late_moments = 32; ///< from k_early to k_latest_seconds seconds
+constexpr double k_latest_seconds = 1e5;
 constexpr int k_knob_values = 8; ///< of each component
 constexpr size_t k_most_knob_values = 128;
 constexpr int k_mouse_places = 32;
 constexpr int k_mixed = 48;
 
 /// Returns element i of a sequence whose every prefix is spread evenly over [0, 1).
-double spread(int i, double step) {
+double even_part(int i, double step) {
     double whole = 0;
     return std::modf(0.5 + i * step, &whole);
 }
@@ -256,10 +257,10 @@ SearchPoint SearchSpace::plain() const {
 std::vector<double> SearchSpace::moments() const {
     std::vector<double> moments;
     for (int i = 0; i < k_early_moments; ++i) {
-        moments.push_back(rounded(k_early * spread(i, k_golden), 1.0 / 64));
+        moments.push_back(rounded(k_early * even_part(i, k_golden), 1.0 / 64));
         if (constexpr int k_each = k_early_moments / k_late_moments; i % k_each == k_each - 1)
             moments.push_back(
-                std::round(k_early * std::pow(k_latest / k_early, spread(i / k_each, k_golden))));
+                std::round(k_early * std::pow(k_latest_seconds / k_early, even_part(i / k_each, k_golden))));
     }
     return moments;
 }
@@ -282,12 +283,13 @@ std::vector<SearchPoint> SearchSpace::survey() const {
         for (const SearchAxis& axis : axes_)
             if (axis.kind == SearchAxis::Kind::knob && of_knobs.size() < k_most_knob_values) {
                 point = plain();
-                set(point, axis, axis.low + (axis.high - axis.low) * rounded(spread(i, k_golden), 1.0 / 64));
+                set(point, axis,
+                    axis.low + (axis.high - axis.low) * rounded(even_part(i, k_golden), 1.0 / 64));
                 of_knobs.push_back(point);
             }
     point = plain();
     for (int i = 0; inputs_.mouse && i < k_mouse_places; ++i) {
-        point.mouse = {spread(i, k_plastic[0]), spread(i, k_plastic[1])};
+        point.mouse = {even_part(i, k_plastic[0]), even_part(i, k_plastic[1])};
         point.down = i % 4 != 3;
         of_mouse.push_back(point);
     }

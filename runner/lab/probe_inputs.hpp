@@ -1,3 +1,5 @@
+// Inputs of probes: promises of the scene, states to draw, the space of a search.
+//
 // The limits that a scene promises to keep, read from a file beside it (`waves.check.json` for `waves.glsl`)
 // and checked by `tidemark check`. Without the file the defaults below apply.
 #pragma once

@@ -39,9 +39,9 @@ bool is_number(const image::Image& image, size_t pixel) {
 }
 
 /// A picture as a screen shows it: every sample from 0 to 1, NaN as 0.
-class Shown {
+class ShownImage {
 public:
-    explicit Shown(const image::Image& image) : image_(image), channels_(size_t(image.channels)) {}
+    explicit ShownImage(const image::Image& image) : image_(image), channels_(size_t(image.channels)) {}
 
     double at(int x, int y, size_t channel) const {
         const size_t pixel = size_t(y) * size_t(image_.extent.width) + size_t(x);
@@ -80,13 +80,13 @@ private:
 /// none.
 double ratio_of_detail(const image::Image& left, const image::Image& right) {
     constexpr double k_none = 2 * k_visible_gap * k_visible_gap;
-    const double a = Shown(left).detail() + k_none, b = Shown(right).detail() + k_none;
+    const double a = ShownImage(left).detail() + k_none, b = ShownImage(right).detail() + k_none;
     return std::max(a, b) / std::min(a, b);
 }
 
 bool means_differ(const image::Image& left, const image::Image& right, const Rectangle& part, double most) {
     for (size_t channel = 0; channel < size_t(left.channels); ++channel)
-        if (std::abs(Shown(left).mean(part, channel) - Shown(right).mean(part, channel)) > most)
+        if (std::abs(ShownImage(left).mean(part, channel) - ShownImage(right).mean(part, channel)) > most)
             return true;
     return false;
 }
@@ -340,10 +340,7 @@ Result<std::optional<TimeStep>> visible_step(ProbeBench& bench, double seconds, 
 
 std::optional<LostDigits> where_digits_are_lost(ProbeBench& bench, const Mismatch& mismatch) {
     constexpr double k_least_lost = 2;
-    const auto truth = bench.picture(mismatch.state, glsl::Precision::promoted);
-    if (!truth)
-        return std::nullopt;
-    const std::vector<double> largest = largest_differences(mismatch.floats, *truth);
+    const std::vector<double> largest = largest_differences(mismatch.floats, mismatch.doubles);
     const auto worst = int(std::ranges::max_element(largest) - largest.begin());
     const int width = mismatch.floats.extent.width, height = mismatch.floats.extent.height;
     const auto renderer = bench.drawn(mismatch.state);
@@ -369,12 +366,12 @@ Result<Horizon> find_horizon(ProbeBench& bench) {
     for (const double time : {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6}) {
         const FrameState state = state_at_float(time);
         auto as_is = TRY(bench.picture(state));
-        const auto truth = TRY(bench.picture(state, glsl::Precision::promoted));
+        auto truth = TRY(bench.picture(state, glsl::Precision::promoted));
         if (!horizon.time_step)
             horizon.time_step = TRY(visible_step(bench, time, state, truth));
         const double difference = p99_difference(as_is, truth);
         if (difference > k_visible_gap) {
-            horizon.mismatch = Mismatch{time, state, std::move(as_is), difference};
+            horizon.mismatch = Mismatch{time, state, std::move(as_is), std::move(truth), difference};
             break;
         }
         horizon.good = time;

@@ -1,3 +1,6 @@
+// Measures that picture probes share: visible differences, finite numbers, the time up to which float equals
+// double.
+//
 // Measures of the difference between two pictures, by the value that 99 % of the pixels stay below. They
 // define when probes call two pictures the same.
 #pragma once
@@ -69,7 +72,7 @@ Result<Answer> look_anew(ProbeBench& bench, const std::vector<FrameState>& state
 struct Mismatch {
     double seconds = 0; ///< A power of ten. The picture is the one of state_at_float.
     FrameState state;
-    image::Image floats;
+    image::Image floats, doubles;
     double difference = 0; ///< 99th percentile over the pixels
 };
 

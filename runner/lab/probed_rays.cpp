@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/measurement.hpp"
 #include "lab/pass_function.hpp"
+#include "shader/pass_reading.hpp"
 
 #include <fmt/format.h>
 
@@ -149,8 +150,22 @@ Answer running_out_answer(ProbeBench& bench, RunningOut most, std::string_view v
     bench.report_running_out(probe);
     answer.verdict = bench.has_main_hit() ? Verdict::fail : Verdict::warn;
     answer.sentence += allowed(promised);
-    if (const auto& image = bench.image_function(); !bench.has_main_hit() && image && !image->loops().empty())
-        add_place(answer, image->locate(image->loops().front().line));
+    if (const auto& image = bench.image_function(); image && !image->loops().empty()) {
+        const proof::MarchingLoop& loop = image->loops().front();
+        add_place(answer, image->locate(loop.line));
+        if (loop.hands_on && !bench.has_main_hit())
+            answer.verdict = Verdict::note;
+        if (loop.turns) {
+            answer.effect = "rays run out of iterations before they hit anything";
+            answer.cause = fmt::format("the loop ends after {} iterations", *loop.turns);
+            if (!bench.has_main_hit())
+                answer.cause += fmt::format("; with up to {} they hit", 4 * *loop.turns);
+        }
+    } else if (bench.has_main_hit()) {
+        const scene::Scene& scene = bench.scene();
+        if (const auto where = glsl::PassReading(scene, scene.image()).place_of("mainHit"))
+            add_place(answer, *where);
+    }
     answer.where = most.where;
     answer.picture = std::move(most.map);
     return answer;
@@ -244,8 +259,8 @@ Result<RayCounts> count_proved(ProbeBench& bench, const MarchingPass& pass) {
     for (const double moment : k_ray_moments) {
         const FrameState state = state_at(moment);
         const render::Renderer& renderer = *TRY(bench.drawn(state));
-        const ir::TextureSet textures = textures_of(renderer, pass.index);
-        ir::FloatEvaluator pixel = function.frame(renderer, pass.index, render::inputs_of(state));
+        const proof::TextureSet textures = textures_of(renderer, pass.index);
+        proof::FloatEvaluator pixel = function.frame(renderer, pass.index, render::inputs_of(state));
         look_at_rays(renderer.extent(), [&](glm::ivec2 at) -> uint64_t {
             function.move_to(pixel, at);
             const auto ray = prove_ray(function, pixel, textures, at, k_most_of_a_ray);
@@ -266,9 +281,9 @@ double wrong_percent(const RayCounts& counts) {
 namespace {
 
 constexpr Extent k_grid{16, 9};
-constexpr double k_narrow = 1e-6;
+constexpr double k_narrow_gap = 1e-6;
 
-double parameter(const ir::MarchSlice& slice, double units) {
+double parameter(const proof::MarchSlice& slice, double units) {
     return slice.start() + units / slice.unit();
 }
 
@@ -284,7 +299,7 @@ Result<FieldOnRays> FieldOnRays::create(ProbeBench& bench, const FrameState& sta
         for (int x = 0; x < k_grid.width; ++x) {
             const glm::ivec2 pixel{(2 * x + 1) * renderer.extent().width / (2 * k_grid.width),
                                    (2 * y + 1) * renderer.extent().height / (2 * k_grid.height)};
-            auto ray = field.source_->enter(pixel, ir::Surface::zero);
+            auto ray = field.source_->enter(pixel, proof::Surface::zero);
             if (ray && ray->slice && !ray->march.turns.empty() && std::isfinite(ray->slice->start()))
                 field.rays_.push_back(*std::move(ray));
         }
@@ -299,7 +314,7 @@ std::optional<double> FieldOnRays::hit(size_t ray) const {
 
 double FieldOnRays::longest(size_t ray) const {
     double longest = 0;
-    for (const ir::Turn& turn : rays_[ray].march.turns)
+    for (const proof::Turn& turn : rays_[ray].march.turns)
         if (std::isfinite(turn.distance()))
             longest = std::max(longest, std::abs(double(turn.distance())));
     return longest;
@@ -310,13 +325,13 @@ std::optional<double> FieldOnRays::in_float(size_t ray, double units) {
 }
 
 std::optional<double> FieldOnRays::exact(size_t ray, double units) {
-    ir::MarchSlice& slice = *rays_[ray].slice;
-    const auto found = slice.distance(ir::place_at(parameter(slice, units)), ir::Care::close);
+    proof::MarchSlice& slice = *rays_[ray].slice;
+    const auto found = slice.distance(proof::place_at(parameter(slice, units)), proof::Care::close);
     if (!found || found->partial)
         return std::nullopt;
     const double middle = found->low + found->width() / 2;
-    return found->width() <= k_narrow * std::max(1.0, std::abs(middle)) ? std::optional(middle)
-                                                                        : std::nullopt;
+    return found->width() <= k_narrow_gap * std::max(1.0, std::abs(middle)) ? std::optional(middle)
+                                                                            : std::nullopt;
 }
 
 } // namespace tidemark::lab

@@ -1,3 +1,5 @@
+// Measures that probes of rays share: hits in percent, proofs on sampled rays, the march's own distance.
+//
 // Statistics of a scene's hits in a situation, as percentages of all rays, and the effect of floats on them.
 // Shared by the probes of hits.
 #pragma once

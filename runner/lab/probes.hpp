@@ -25,7 +25,15 @@ bool is_finding(Verdict verdict);
 
 /// The subject of a probe's findings. Findings of one family that name a common line, or no line, have one
 /// cause.
-enum class Family { alone, numbers, sines, clock, steps, iterations };
+enum class Family {
+    alone,
+    numbers,
+    sines,
+    clock,
+    steps,
+    iterations,
+    garbage ///< undefined results, after which any bytes may be drawn
+};
 
 /// The command that a finding offers to its reader.
 enum class Remedy {

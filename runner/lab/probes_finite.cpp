@@ -11,10 +11,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 namespace tidemark::lab {
@@ -69,16 +72,101 @@ private:
     std::vector<double> largest_{};
 };
 
+/// Returns the lines of a pass that make its number larger from frame to frame, the last one first: those
+/// that multiply what it reads from `samplers` by a constant above 1; if there are none, those that add or
+/// scale such values.
+std::vector<SourceLocation> growing_lines(const PassFunction& pass, const std::set<std::string>& samplers) {
+    const proof::Function& function = pass.function();
+    std::vector<bool> read(function.instructions.size());
+    std::vector<bool> stored(function.accesses.size());
+    const auto overlaps_stored = [&](uint32_t access) {
+        for (size_t i = 0; i < stored.size(); ++i)
+            if (stored[i] && proof::overlap(function.accesses[i], function.accesses[access]))
+                return true;
+        return false;
+    };
+    for (const int round : {0, 1}) // the second one goes through the phis of loops
+        for (proof::Value i = 0; i < read.size(); ++i) {
+            const proof::Instruction& each = function.instructions[i];
+            const auto operands = function.operands_of(each);
+            if (each.op == proof::Op::texel)
+                read[i] = samplers.contains(function.lookups[each.immediate].sampler);
+            else
+                read[i] = (each.op == proof::Op::load && overlaps_stored(each.immediate)) ||
+                          std::ranges::any_of(operands, [&](proof::Value value) {
+                              return (round > 0 || value < i) && read[value];
+                          });
+            if (each.op == proof::Op::store && read[i])
+                stored[each.immediate] = true;
+        }
+    std::vector<SourceLocation> multiplied, added;
+    const auto note = [&](std::vector<SourceLocation>& list, int line) {
+        SourceLocation where = pass.locate(line);
+        if (!where.file.empty() && std::ranges::find(list, where) == list.end())
+            list.push_back(std::move(where));
+    };
+    for (proof::Value i = proof::Value(read.size()); i-- > 0;) {
+        const proof::Instruction& each = function.instructions[i];
+        const auto operands = function.operands_of(each);
+        if (!read[i] || each.type != proof::Scalar::real || operands.size() != 2)
+            continue;
+        const bool both = read[operands[0]] && read[operands[1]];
+        const auto constant = [&](proof::Value value) {
+            const proof::Instruction& other = function.instructions[value];
+            return other.op == proof::Op::constant ? std::optional(std::bit_cast<float>(other.immediate))
+                                                   : std::nullopt;
+        };
+        const bool product = each.op == proof::Op::multiply, quotient = each.op == proof::Op::divide;
+        const bool sum = both && (each.op == proof::Op::add || each.op == proof::Op::subtract);
+        const auto factor = both ? std::nullopt : constant(operands[read[operands[0]] ? 1 : 0]);
+        const bool by_quotient = quotient && read[operands[0]];
+        if ((product && (both || (factor && std::abs(*factor) > 1))) ||
+            (by_quotient && factor && std::abs(*factor) < 1))
+            note(multiplied, each.line);
+        else if (sum || product || by_quotient)
+            note(added, each.line);
+    }
+    return multiplied.empty() ? added : multiplied;
+}
+
+/// Returns the growing lines of the scene's pass of that name.
+std::vector<SourceLocation> growing_lines(ProbeBench& bench, const std::string& name,
+                                          const std::set<std::string>& growing) {
+    const scene::Scene& scene = bench.scene();
+    for (size_t i = 0; i < scene.passes.size(); ++i) {
+        const scene::Pass& pass = scene.passes[i];
+        if (pass.name != name)
+            continue;
+        const auto& function = bench.function_of(i);
+        if (!function)
+            return {};
+        std::set<std::string> samplers;
+        for (size_t channel = 0; channel < pass.channels.size(); ++channel)
+            if (const size_t* const source = scene::source_pass(pass.channels[channel].input);
+                source && growing.contains(scene.passes[*source].name))
+                samplers.insert(std::string(scene::k_channel_names[channel]));
+        return growing_lines(*function, samplers);
+    }
+    return {};
+}
+
 /// Returns the answer for the pass that overflows first; nothing if none grows without end.
-std::optional<Answer> overflow(const std::vector<std::pair<std::string, Growth>>& passes,
+std::optional<Answer> overflow(ProbeBench& bench, const std::vector<std::pair<std::string, Growth>>& passes,
                                const FrameState& last) {
     const std::pair<std::string, Growth>* worst = nullptr;
     double first = std::numeric_limits<double>::infinity();
-    for (const auto& pass : passes)
-        if (const auto frame = pass.second.overflow_frame(); frame && *frame < first) {
+    std::set<std::string> growing;
+    for (const auto& pass : passes) {
+        const auto frame = pass.second.overflow_frame();
+        if (frame)
+            growing.insert(pass.first);
+        if (worst && pass.first == bench.scene().image().name)
+            continue; // it shows what grows elsewhere
+        if (frame && *frame < first) {
             first = *frame;
             worst = &pass;
         }
+    }
     if (!worst)
         return std::nullopt;
     Answer answer{
@@ -89,6 +177,8 @@ std::optional<Answer> overflow(const std::vector<std::pair<std::string, Growth>>
         last};
     answer.effect = fmt::format("{} grows from frame to frame and overflows at about {:.0f} s", worst->first,
                                 first / last.fps);
+    for (SourceLocation& where : growing_lines(bench, worst->first, growing))
+        add_place(answer, std::move(where));
     return answer;
 }
 
@@ -124,7 +214,7 @@ Result<Answer> ask_frames(ProbeBench& bench) {
     if (fault)
         fault->sentence = fmt::format("from frame {} on: {}", seen, fault->sentence);
     else
-        fault = overflow(growth, last);
+        fault = overflow(bench, growth, last);
     return fault ? *std::move(fault)
                  : Answer{Verdict::pass, fmt::format("no NaN or infinity in the first {} frames{}", seen,
                                                      seen < k_frames ? ", stopped after 5 s" : "")};
@@ -267,7 +357,7 @@ namespace {
 
 constexpr Extent k_usual_size{640, 360};
 
-std::string range(const ir::Interval& interval) {
+std::string range(const proof::Interval& interval) {
     if (interval.low < -1e30 && interval.high > 1e30)
         return "any number";
     return interval.low == interval.high ? fmt::format("{:.4g}", interval.low)
@@ -275,23 +365,23 @@ std::string range(const ir::Interval& interval) {
 }
 
 /// Describes an operation and its operands.
-std::string operation(const ir::Function& function, const ir::PartialOperation& what) {
-    if (what.value == ir::k_no_value || what.operands.empty())
+std::string operation(const proof::Function& function, const proof::PartialOperation& what) {
+    if (what.value == proof::k_no_value || what.operands.empty())
         return "a number that is infinite, or an input that may be NaN";
-    const ir::Interval& a = what.operands[0];
-    const ir::Interval& b = what.operands.back();
+    const proof::Interval& a = what.operands[0];
+    const proof::Interval& b = what.operands.back();
     switch (function.instructions[what.value].op) {
-    case ir::Op::sqrt: return "sqrt of " + range(a);
-    case ir::Op::inverse_sqrt: return "normalize or inversesqrt of a square in " + range(a);
-    case ir::Op::divide: return "a division by " + range(b);
-    case ir::Op::modulo: return "mod by " + range(b);
-    case ir::Op::log:
-    case ir::Op::log2: return "log of " + range(a);
-    case ir::Op::pow: return fmt::format("pow of {} to {}", range(a), range(b));
-    case ir::Op::asin:
-    case ir::Op::acos: return "asin or acos of " + range(a);
-    case ir::Op::atan2: return fmt::format("atan of {} and {}", range(a), range(b));
-    case ir::Op::texel: return "a texture that is not analysed";
+    case proof::Op::sqrt: return "sqrt of " + range(a);
+    case proof::Op::inverse_sqrt: return "normalize or inversesqrt of a square in " + range(a);
+    case proof::Op::divide: return "a division by " + range(b);
+    case proof::Op::modulo: return "mod by " + range(b);
+    case proof::Op::log:
+    case proof::Op::log2: return "log of " + range(a);
+    case proof::Op::pow: return fmt::format("pow of {} to {}", range(a), range(b));
+    case proof::Op::asin:
+    case proof::Op::acos: return "asin or acos of " + range(a);
+    case proof::Op::atan2: return fmt::format("atan of {} and {}", range(a), range(b));
+    case proof::Op::texel: return "a texture that is not analysed";
     default: return "an operation on " + range(a);
     }
 }
@@ -305,16 +395,18 @@ Result<std::string> doubt_of(const render::Renderer& renderer, size_t index, con
     const auto function = PassFunction::create(renderer.scene(), pass);
     if (!function)
         return "the text cannot be analysed: " + function.error().message;
-    const ir::ValueRanges ranges = ranges_of({*function, renderer, index, render::inputs_of(state)}, seconds);
+    const proof::ValueRanges ranges =
+        ranges_of({*function, renderer, index, render::inputs_of(state)}, seconds);
     if (!ranges.settled)
         return pass.name + " has too deeply nested loops";
-    for (const ir::Variable& variable : function->function().variables) {
-        if (variable.kind != ir::Variable::Kind::output)
+    for (const proof::Variable& variable : function->function().variables) {
+        if (variable.kind != proof::Variable::Kind::output)
             continue;
         for (uint32_t cell = variable.first; cell < variable.first + std::min(variable.size, 4u); ++cell)
             if (const auto& doubt = ranges.partial[cell]) {
-                const int line =
-                    doubt->value == ir::k_no_value ? 0 : function->function().instructions[doubt->value].line;
+                const int line = doubt->value == proof::k_no_value
+                                     ? 0
+                                     : function->function().instructions[doubt->value].line;
                 const SourceLocation where = function->locate(line);
                 return fmt::format("{}:{}: {}", where.file, where.line,
                                    operation(function->function(), *doubt));
@@ -323,7 +415,7 @@ Result<std::string> doubt_of(const render::Renderer& renderer, size_t index, con
     return std::string();
 }
 
-bool is_finite(const image::Image& picture) {
+bool is_finite_picture(const image::Image& picture) {
     return std::ranges::none_of(picture.f32(), [](float sample) { return std::isnan(sample); });
 }
 
@@ -336,7 +428,7 @@ Result<Answer> ask_no_nan(ProbeBench& bench) {
     for (const render::PlannedPass& planned : renderer.plan().passes)
         if (const std::string doubt = TRY(doubt_of(renderer, planned.pass, state, seconds)); !doubt.empty())
             return Answer{Verdict::not_applicable, "NaN cannot be excluded: " + doubt};
-    if (!is_finite(renderer.read_back()))
+    if (!is_finite_picture(renderer.read_back()))
         return Answer{Verdict::not_applicable, "a picture contradicts its proof: please report this scene"};
     return Answer{Verdict::pass,
                   fmt::format("no operation can leave its domain in any pixel of {}x{}, from 0 to {:g} s, at "

@@ -96,8 +96,8 @@ namespace {
 bool goes_back_itself(ProbeBench& bench) {
     const auto& image = bench.image_function();
     return !bench.has_main_hit() && image &&
-           std::ranges::any_of(image->loops(), [&](const ir::MarchingLoop& loop) {
-               return image->function().instructions[loop.distance].op == ir::Op::absolute;
+           std::ranges::any_of(image->loops(), [&](const proof::MarchingLoop& loop) {
+               return image->function().instructions[loop.distance].op == proof::Op::absolute;
            });
 }
 

@@ -260,11 +260,11 @@ struct FarPlane {
 
 /// Returns whether a march ends at that distance.
 bool is_limit(const PassFunction& function, double number) {
-    return std::ranges::any_of(function.loops(), [&](const ir::MarchingLoop& loop) {
+    return std::ranges::any_of(function.loops(), [&](const proof::MarchingLoop& loop) {
         if (!loop.limited())
             return false;
-        const ir::Instruction& far = function.function().instructions[loop.far];
-        return far.op == ir::Op::constant && std::bit_cast<float>(far.immediate) == float(number);
+        const proof::Instruction& far = function.function().instructions[loop.far];
+        return far.op == proof::Op::constant && std::bit_cast<float>(far.immediate) == float(number);
     });
 }
 

@@ -20,17 +20,8 @@ namespace {
 /// Late enough for the arguments of sines to be as large as in typical use.
 const FrameState k_state = state_at(10);
 
-struct Mode {
-    int number;
-    const char* name;
-    bool of_devices = true; ///< there are devices that compute so
-};
-
-/// A way to rewrite a text, with the modes that it offers.
-struct Manner {
-    std::function<glsl::Variation(const glsl::ParsedText& text, const glsl::TreeFacts& facts)> vary;
-    std::vector<Mode> modes;
-};
+using Mode = glsl::VariationMode;
+using Manner = glsl::VariedArithmetic;
 
 /// Draws a scene's passes in the modes of rewritten texts and collects the differences.
 class PortabilityProbe {
@@ -41,7 +32,7 @@ public:
     Result<void> add(const Manner& manner) {
         const auto texts = TRY(read_texts(bench_, false));
         for (const PassText& pass : texts)
-            if (const auto varied = manner.vary(*pass.text, pass.facts); varied.places > 0)
+            if (const auto varied = manner.vary(*pass.text, pass.facts, {}); !varied.places.empty())
                 TRY(compare(pass.pass, varied, manner.modes));
         return {};
     }
@@ -75,10 +66,11 @@ private:
         const auto hashes = bench_.hashes();
         if (!hashes || !hashes->empty())
             return;
-        auto plain = bench_.picture(k_state);
-        if (!plain)
+        auto plain = bench_.picture(k_state), truth = bench_.picture(k_state, glsl::Precision::promoted);
+        if (!plain || !truth)
             return;
-        if (const auto lost = where_digits_are_lost(bench_, {10, k_state, *std::move(plain), 0});
+        if (const auto lost =
+                where_digits_are_lost(bench_, {10, k_state, *std::move(plain), *std::move(truth), 0});
             lost && (!of_sines || has_sine(lost->where))) {
             answer.sentence += "; " + lost->sentence;
             add_place(answer, lost->where);
@@ -102,29 +94,11 @@ private:
 
     Result<void> compare(size_t pass, const glsl::Variation& varied, std::span<const Mode> modes) {
         const auto preview = TRY(bench_.preview(k_state, pass));
-        auto stand_in = TRY(StandIn::link(preview, varied.text, "a variation of the text"));
+        const VariedPictures pictures = TRY(draw_varied(preview, varied, modes));
         asked_ = true;
-        std::vector<image::Image> others;
-        for (const Mode& mode : modes)
-            others.push_back(drawn(stand_in, preview, varied, mode.number));
-        const image::Image plain =
-            varied.mode_uniform.empty() ? as_drawn(stand_in, preview) : drawn(stand_in, preview, varied, 0);
         for (size_t i = 0; i < modes.size(); ++i)
-            note(pass, modes[i], plain, others[i]);
+            note(pass, modes[i], pictures.plain, pictures.others[i]);
         return {};
-    }
-
-    static image::Image drawn(StandIn& stand_in, const PassPreview& preview, const glsl::Variation& varied,
-                              int mode) {
-        stand_in.set(varied.mode_uniform, mode);
-        stand_in.draw(preview);
-        return stand_in.picture();
-    }
-
-    /// Draws the author's text.
-    static image::Image as_drawn(const StandIn& stand_in, const PassPreview& preview) {
-        stand_in.draw_own(preview);
-        return stand_in.picture();
     }
 
     void note(size_t pass, const Mode& mode, const image::Image& plain, const image::Image& other) {
@@ -161,13 +135,8 @@ private:
 } // namespace
 
 Result<Answer> ask_sine(ProbeBench& bench) {
-    using glsl::SineMode;
     PortabilityProbe probe(bench);
-    const Manner sines{glsl::vary_sines,
-                       {{int(SineMode::unit_up), "sines a unit in the last place larger"},
-                        {int(SineMode::unit_down), "sines a unit smaller"},
-                        {int(SineMode::like_nvidia), "a sine like NVIDIA's"}}};
-    if (auto done = probe.add(sines); !done)
+    if (auto done = probe.add(glsl::varied_sines()); !done)
         return Answer{Verdict::not_applicable, to_string(done.error())};
     if (!probe.asked())
         return Answer{Verdict::not_applicable, "the scene has no sine"};
@@ -176,16 +145,9 @@ Result<Answer> ask_sine(ProbeBench& bench) {
 
 Result<Answer> ask_rounding(ProbeBench& bench) {
     PortabilityProbe probe(bench);
-    const Manner manners[] = {
-        {glsl::vary_inputs, {{1, "iTime, iResolution and iMouse a unit in the last place larger", false}}},
-        {glsl::vary_precision, {{0, "everything `precise`", false}}},
-        {glsl::vary_contraction, {{1, "fused multiply-add"}}},
-        {glsl::vary_order, {{0, "sums added in reverse order", false}}},
-        {glsl::vary_rounding, {{1, "quotients, roots, powers and logarithms a unit off"}}},
-    };
     std::vector<std::string> left_out;
     std::string why;
-    for (const Manner& manner : manners)
+    for (const Manner& manner : glsl::varied_roundings())
         if (auto done = probe.add(manner); !done) {
             left_out.emplace_back(manner.modes[0].name);
             why = to_string(done.error());
@@ -200,8 +162,12 @@ Result<Answer> ask_rounding(ProbeBench& bench) {
 
 Result<bool> depends_on_contraction(ProbeBench& bench, const std::set<std::string>& functions) {
     PortabilityProbe probe(bench);
-    TRY(probe.add({[&](const glsl::ParsedText& text, const glsl::TreeFacts& facts) {
-                       return glsl::vary_contraction_in(text, facts, functions);
+    TRY(probe.add({[&](const glsl::ParsedText& text, const glsl::TreeFacts& facts, const glsl::MayVary&) {
+                       return glsl::vary_contraction(text, facts, [&](glsl::NodeId id) {
+                           const glsl::NodeId function = text.tree().around(id, glsl::NodeKind::function);
+                           return function != glsl::k_no_node &&
+                                  functions.contains(std::string(text.word_of(function)));
+                       });
                    },
                    {{1, "fused multiply-add"}}}));
     return probe.asked() && probe.answer({}).verdict != Verdict::pass;

@@ -5,24 +5,28 @@
 #include "lab/march_rays.hpp"
 #include "lab/probed_rays.hpp"
 #include "lab/probes.hpp"
+#include "lab/scene_numbers.hpp"
+#include "lab/text_findings.hpp"
 #include "proof/ray_proofs.hpp"
+#include "shader/fixes.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace tidemark::lab {
 namespace {
 
-double percent(size_t part, size_t all) {
+double percent_of(size_t part, size_t all) {
     return all == 0 ? 0 : 100.0 * double(part) / double(all);
 }
 
-Answer none(std::string why) {
+Answer no_answer(std::string why) {
     return {Verdict::not_applicable, std::move(why)};
 }
 
-std::string advice_of(const ir::MarchingLoop& loop, const RayCounts& counts) {
+std::string advice_of(const proof::MarchingLoop& loop, const RayCounts& counts) {
     if (!counts.steps_too_long())
         return "take more steps";
     return !loop.stops_before && counts.step_over > 0 && counts.within_last_step == counts.step_over &&
@@ -32,25 +36,88 @@ std::string advice_of(const ir::MarchingLoop& loop, const RayCounts& counts) {
 }
 
 std::string sentence_of(const PassFunction& function, const RayCounts& counts) {
-    std::string text = fmt::format(
-        "{2:.3g} % of the decided rays step over their first hit by more than {4:g} % of the "
-        "distance, {3:.3g} % miss it; {0:.3g} % of {1} rays are decided",
-        percent(counts.decided(), counts.rays), counts.rays, percent(counts.step_over, counts.decided()),
-        percent(counts.miss, counts.decided()), 100 * k_same_end);
+    std::string text =
+        fmt::format("{2:.3g} % of the decided rays step over their first hit by more than {4:g} % of the "
+                    "distance, {3:.3g} % miss it; {0:.3g} % of {1} rays are decided",
+                    percent_of(counts.decided(), counts.rays), counts.rays,
+                    percent_of(counts.step_over, counts.decided()), percent_of(counts.miss, counts.decided()),
+                    100 * k_same_end);
     if (counts.undecided > 0)
-        text += fmt::format(", {:.3g} % are not ({})", percent(counts.undecided, counts.rays),
+        text += fmt::format(", {:.3g} % are not ({})", percent_of(counts.undecided, counts.rays),
                             to_string(counts.commonest()));
     if (counts.at_base_level > 0)
         text += fmt::format("; for {:.3g} % of the rays a texture is read at its base level, where the "
                             "device would choose a mipmap",
-                            percent(counts.at_base_level, counts.rays));
+                            percent_of(counts.at_base_level, counts.rays));
     if (counts.wrong_loop) {
-        const ir::MarchingLoop& loop = function.loops()[*counts.wrong_loop];
+        const proof::MarchingLoop& loop = function.loops()[*counts.wrong_loop];
         const SourceLocation where = function.locate(loop.line);
         text +=
             fmt::format("; {}:{} tests the distance: {}", where.file, where.line, advice_of(loop, counts));
     }
     return text;
+}
+
+/// A colour changes for a viewer if it differs by more than this; rounding and banding differ by less.
+constexpr float k_seen = 0.03f;
+
+/// Returns the percentage of the pixels whose colour, limited to what a screen shows, differs for a viewer.
+double seen_percent(const image::Image& before, const image::Image& after) {
+    const auto channels = size_t(before.channels);
+    size_t count = 0;
+    for (size_t i = 0; i < before.samples(); i += channels) {
+        bool differs = false;
+        for (size_t k = i; k < i + channels; ++k)
+            differs = differs || std::abs(std::clamp(before.f32()[k], 0.0f, 1.0f) -
+                                          std::clamp(after.f32()[k], 0.0f, 1.0f)) > k_seen;
+        count += differs;
+    }
+    return percent_of(count, before.extent.pixels());
+}
+
+/// Returns whether a viewer sees another picture if the march takes a quarter of its steps' length, and four
+/// times as many; true if the text cannot be changed so.
+Result<bool> shorter_steps_show(ProbeBench& bench, const MarchingPass& pass,
+                                const proof::MarchingLoop& loop) {
+    constexpr double k_quarter = 0.25;
+    const auto texts = read_texts(bench, true);
+    const auto lines = lines_of(*pass.function, loop);
+    if (!texts)
+        return true;
+    for (const PassText& text : *texts) {
+        if (text.pass != pass.index)
+            continue;
+        const auto cures = glsl::shorter_steps(*text.text, {lines.test, lines.updates}, k_quarter);
+        const bool longer = !cures.empty() && cures.front().reason.find("iterations") != std::string::npos;
+        const auto scene =
+            longer || !loop.turns
+                ? changed(bench.scene(), std::span(cures).first(std::min<size_t>(1, cures.size())))
+                : std::nullopt;
+        if (cures.empty() || !scene)
+            return true;
+        ProbeBench finer(*scene, bench.promises());
+        for (const double moment : k_ray_moments) {
+            const FrameState state = state_at(moment, k_ray_extent);
+            const auto after = finer.picture(state);
+            if (!after || seen_percent(TRY(bench.picture(state)), *after) > k_most_wrong_percent)
+                return true;
+        }
+        return false;
+    }
+    return true;
+}
+
+/// Returns why wrong first hits do not make a wrong picture; empty: they do, or that is not known.
+Result<std::string_view> why_unseen(ProbeBench& bench, const MarchingPass& pass, const RayCounts& counts) {
+    const proof::MarchingLoop& loop = pass.function->loops()[*counts.wrong_loop];
+    if (loop.hands_on)
+        return "another loop goes on from the march's end, so that it is a bound and no surface";
+    if (loop.accumulates)
+        return "the loop also adds up what it meets, such as a glow or a density, so its end need not be a "
+               "surface";
+    if (!TRY(shorter_steps_show(bench, pass, loop)))
+        return "with steps of a quarter the picture looks the same";
+    return std::string_view();
 }
 
 } // namespace
@@ -61,16 +128,16 @@ Result<Answer> ask_first_hit(ProbeBench& bench) {
         return without_march(bench);
     const RayCounts counts = TRY(count_proved(bench, *pass));
     if (counts.rays == 0)
-        return none("no ray reaches the marching loop");
+        return no_answer("no ray reaches the marching loop");
     if (counts.unknown_texture == counts.rays)
-        return none("the march reads the previous frame, or a texture that is too large");
+        return no_answer("the march reads the previous frame, or a texture that is too large");
     if (counts.unfaithful == counts.rays)
-        return none("the march keeps more state than its place on the ray");
+        return no_answer("the march keeps more state than its place on the ray");
     if (counts.decided() == 0)
-        return none(
+        return no_answer(
             fmt::format("none of {} rays is decided: {}", counts.rays, to_string(counts.commonest())));
     if (counts.contradicted > 0)
-        return none(
+        return no_answer(
             fmt::format("{} rays contradict their proof: please report this scene", counts.contradicted));
     const double wrong = wrong_percent(counts);
     Answer answer{wrong > k_wrong_percent_of_failure ? Verdict::fail
@@ -79,6 +146,11 @@ Result<Answer> ask_first_hit(ProbeBench& bench) {
                   sentence_of(*pass->function, counts)};
     if (counts.wrong_loop)
         add_place(answer, pass->function->locate(pass->function->loops()[*counts.wrong_loop].line));
+    if (answer.verdict == Verdict::fail)
+        if (const std::string_view why = TRY(why_unseen(bench, *pass, counts)); !why.empty()) {
+            answer.verdict = Verdict::note;
+            answer.sentence += fmt::format("; {}", why);
+        }
     if (counts.step_over == 0)
         answer.effect = "rays end before they reach a surface: the march has too few iterations";
     return answer;
@@ -103,14 +175,14 @@ struct OwnSteps {
     double fall = 0;              ///< the largest at a sample by which the distance falls per unit
 };
 
-void add_own(ir::MarchSlice& slice, const ir::March& march, OwnSteps& own) {
+void add_own(proof::MarchSlice& slice, const proof::March& march, OwnSteps& own) {
     for (size_t i = 0; i + 1 < march.turns.size(); ++i) {
         const double at = slice.parameter(march.turns[i]);
-        const auto distance = slice.distance(ir::place_at(at), ir::Care::close);
+        const auto distance = slice.distance(proof::place_at(at), proof::Care::close);
         if (!distance || !(distance->low > 0))
             continue;
         own.scales.push_back((slice.parameter(march.turns[i + 1]) - at) * slice.unit() / distance->low);
-        if (const auto tangent = slice.tangent(ir::place_at(at)))
+        if (const auto tangent = slice.tangent(proof::place_at(at)))
             own.fall = std::max(own.fall, -tangent->slope.high / slice.unit());
     }
 }
@@ -121,7 +193,7 @@ struct Scales {
     std::vector<double> unsafe{}; ///< of all of those rays
     OwnSteps own{};               ///< of the march on those rays
     /// The scale with the smallest unsafe multiple, and the ray it was found on.
-    ir::StepScale least{.safe = ir::k_longest_scale};
+    proof::StepScale least{.safe = proof::k_longest_scale};
     size_t loop = 0;
     glm::ivec2 pixel{0};
     FrameState state{};
@@ -133,22 +205,22 @@ struct Scales {
         const double usual = median(own.scales);
         const auto too_long =
             std::ranges::count_if(unsafe, [&](double each) { return usual > each * k_rounded; });
-        return percent(size_t(too_long), hits);
+        return percent_of(size_t(too_long), hits);
     }
 };
 
 /// Adds one ray; returns the evaluations it took.
 uint64_t add(MarchRay& ray, glm::ivec2 pixel, const FrameState& state, Scales& scales) {
-    ir::MarchSlice& slice = *ray.slice;
+    proof::MarchSlice& slice = *ray.slice;
     const double last = slice.end(ray.march);
     if (last < slice.start())
         return 0;
-    const ir::FirstHit hit = ir::first_hit(slice, last, k_most_of_a_ray);
-    if (hit.verdict != ir::FirstHit::Verdict::hit)
+    const proof::FirstHit hit = proof::first_hit(slice, last, k_most_of_a_ray);
+    if (hit.verdict != proof::FirstHit::Verdict::hit)
         return slice.evaluations();
     ++scales.hits;
     add_own(slice, ray.march, scales.own);
-    const ir::StepScale scale = ir::step_scale(slice, hit.where, k_most_for_scale);
+    const proof::StepScale scale = proof::step_scale(slice, hit.where, k_most_for_scale);
     if (scale.safe > 0)
         scales.safe.push_back(scale.safe);
     scales.unsafe.push_back(scale.unsafe);
@@ -168,7 +240,7 @@ Result<Scales> scales_of(ProbeBench& bench, const MarchingPass& pass) {
         const render::Renderer& renderer = *TRY(bench.drawn(state));
         const MarchRays rays({*pass.function, renderer, pass.index, render::inputs_of(state)});
         look_at_rays(renderer.extent(), [&](glm::ivec2 pixel) -> uint64_t {
-            auto ray = rays.enter(pixel, ir::Surface::zero);
+            auto ray = rays.enter(pixel, proof::Surface::zero);
             const bool marches = ray && ray->slice && !ray->march.turns.empty();
             return marches ? add(*ray, pixel, state, scales) : 0;
         });
@@ -234,21 +306,21 @@ Result<Answer> ask_step_scale(ProbeBench& bench) {
     const auto pass = TRY(marching_pass(bench));
     if (!pass)
         return without_march(bench);
-    const std::vector<ir::MarchingLoop>& loops = pass->function->loops();
-    const auto fixed = [](const ir::MarchingLoop& loop) {
-        return loop.kind == ir::MarchingLoop::Kind::fixed_step;
+    const std::vector<proof::MarchingLoop>& loops = pass->function->loops();
+    const auto fixed = [](const proof::MarchingLoop& loop) {
+        return loop.kind == proof::MarchingLoop::Kind::fixed_step;
     };
     if (std::ranges::all_of(loops, fixed))
-        return none("the march's steps do not depend on the distance");
+        return no_answer("the march's steps do not depend on the distance");
     const Scales scales = TRY(scales_of(bench, *pass));
     if (scales.hits == 0)
-        return none("no ray is proved to reach a zero of the distance");
+        return no_answer("no ray is proved to reach a zero of the distance");
     // A march that waits for a sample below the surface returns from it, so its steps are never too long.
     // On single rays the field may jump.
     const bool too_long =
         loops[scales.loop].stops_before && scales.too_long_percent() > k_most_too_long_percent;
     if (!scales.bounded() && !too_long)
-        return none(scales_sentence(scales));
+        return no_answer(scales_sentence(scales));
     Answer answer{too_long ? Verdict::note : Verdict::pass, scales_sentence(scales)};
     add_place(answer, pass->function->locate(loops[scales.loop].line));
     if (too_long)
@@ -264,7 +336,7 @@ namespace {
 /// Most evaluations for the bound of one ray, or of one ray over a span of time.
 constexpr uint64_t k_most_of_a_bound = 500;
 /// The checked span in seconds, and the shortest part that it is divided into.
-constexpr ir::Interval k_span{0, 10};
+constexpr proof::Interval k_span{0, 10};
 constexpr double k_shortest_span = 10.0 / 16;
 /// One in so many rays is checked over the span.
 constexpr size_t k_every = 4;
@@ -272,7 +344,7 @@ constexpr size_t k_every = 4;
 /// iteration.
 constexpr double k_behind = 2;
 /// A ray that runs out is marched again with up to this many times the loop's iterations.
-constexpr uint32_t k_longer = 4;
+constexpr uint32_t k_longer_loop = 4;
 /// Most such iterations for all rays of a moment.
 constexpr uint64_t k_most_longer = 40'000;
 /// Below the surface by more than rounding.
@@ -295,6 +367,7 @@ struct TurnCounts {
     glm::ivec2 pixel{0};       ///< of the first ray that runs out
     FrameState state{};
     int line = 0;
+    bool hands_on = false; ///< proof::MarchingLoop::hands_on
 };
 
 double share(double some, double all) {
@@ -311,7 +384,7 @@ public:
         const auto ray = longer_ < k_most_longer ? enter(pixel) : std::nullopt;
         if (!ray)
             return;
-        const ir::MarchingLoop& loop = loop_of(*ray);
+        const proof::MarchingLoop& loop = loop_of(*ray);
         ++counts_.rays;
         counts_.turns = std::max(counts_.turns, *loop.turns);
         if (runs_out(*ray, loop))
@@ -325,14 +398,14 @@ public:
         const auto ray = enter(pixel);
         if (!ray)
             return 0;
-        const ir::MarchingLoop& loop = loop_of(*ray);
+        const proof::MarchingLoop& loop = loop_of(*ray);
         const bool out = runs_out(*ray, loop);
         ++counts_.looked_at;
-        counts_.unfollowed += !out && (!ray->slice || loop.advance == ir::k_no_value);
+        counts_.unfollowed += !out && (!ray->slice || loop.advance == proof::k_no_value);
         if (!ray->slice)
             return 1;
         used_ = 0;
-        const ir::March& march = ray->march;
+        const proof::March& march = ray->march;
         const double end = march.far ? *march.far : behind(*ray->slice, march);
         const auto most = bound({at(pixel.x), at(pixel.y)}, ray->loop, end);
         counts_.proved += most.has_value();
@@ -345,32 +418,34 @@ public:
     }
 
 private:
-    const ir::MarchingLoop& loop_of(const MarchRay& ray) const { return rays_.function().loops()[ray.loop]; }
+    const proof::MarchingLoop& loop_of(const MarchRay& ray) const {
+        return rays_.function().loops()[ray.loop];
+    }
 
     /// Returns the ray if its loop steps by a distance and counts its iterations.
     std::optional<MarchRay> enter(glm::ivec2 pixel) const {
-        auto ray = rays_.enter(pixel, ir::Surface::threshold);
+        auto ray = rays_.enter(pixel, proof::Surface::threshold);
         if (!ray || ray->march.turns.empty() || !loop_of(*ray).turns ||
-            loop_of(*ray).kind == ir::MarchingLoop::Kind::fixed_step)
+            loop_of(*ray).kind == proof::MarchingLoop::Kind::fixed_step)
             return std::nullopt;
         return ray;
     }
 
-    static ir::Interval at(int pixel) { return {pixel + 0.5, pixel + 0.5}; }
+    static proof::Interval at(int pixel) { return {pixel + 0.5, pixel + 0.5}; }
 
-    static double behind(const ir::MarchSlice& slice, const ir::March& march) {
+    static double behind(const proof::MarchSlice& slice, const proof::March& march) {
         return slice.start() + k_behind * (slice.parameter(march.turns.back()) - slice.start());
     }
 
-    static bool runs_out(const MarchRay& ray, const ir::MarchingLoop& loop) {
-        const ir::March& march = ray.march;
+    static bool runs_out(const MarchRay& ray, const proof::MarchingLoop& loop) {
+        const proof::March& march = ray.march;
         const bool beyond = march.far && march.turns.back().carried[0] > *march.far;
         return !march.hit && !beyond && march.turns.size() >= *loop.turns;
     }
 
     /// Returns whether the march took a sample below the surface, or moved to and fro around it.
-    static bool was_past(const MarchRay& ray, const ir::MarchingLoop& loop) {
-        if (loop.kind != ir::MarchingLoop::Kind::sphere_tracing)
+    static bool was_past(const MarchRay& ray, const proof::MarchingLoop& loop) {
+        if (loop.kind != proof::MarchingLoop::Kind::sphere_tracing)
             return false;
         size_t back = 0;
         const auto& turns = ray.march.turns;
@@ -383,9 +458,9 @@ private:
     }
 
     /// Counts a ray that runs out, by whether more iterations hit something that shows.
-    void add_out(glm::ivec2 pixel, const MarchRay& ray, const ir::MarchingLoop& loop) {
+    void add_out(glm::ivec2 pixel, const MarchRay& ray, const proof::MarchingLoop& loop) {
         const bool past = was_past(ray, loop);
-        const uint32_t most = k_longer * *loop.turns;
+        const uint32_t most = k_longer_loop * *loop.turns;
         const LongerMarch longer = past ? LongerMarch{} : rays_.march_longer(pixel, most);
         longer_ += past ? 0 : most;
         if (!past && !(longer.hits && longer.shows)) {
@@ -398,21 +473,22 @@ private:
         counts_.pixel = pixel;
         counts_.state = state_;
         counts_.line = loop.line;
+        counts_.hands_on = loop.hands_on;
     }
 
     std::optional<uint32_t> bound(const RayArea& area, size_t loop, double end) {
-        auto all = rays_.enter_all(area, ir::SliceOf::step, ir::Surface::threshold);
+        auto all = rays_.enter_all(area, proof::SliceOf::step, proof::Surface::threshold);
         ++used_;
         if (!all || all->loop != loop)
             return std::nullopt;
-        const auto most = ir::most_turns(all->slice, all->slice.far().value_or(end),
-                                         *rays_.function().loops()[loop].turns, k_most_of_a_bound);
+        const auto most = proof::most_turns(all->slice, all->slice.far().value_or(end),
+                                            *rays_.function().loops()[loop].turns, k_most_of_a_bound);
         used_ += all->slice.evaluations();
         return most;
     }
 
     /// Returns for how many seconds of the span the bound holds, by bisection.
-    double proved_of(glm::ivec2 pixel, const ir::Interval& span, size_t loop, double end) {
+    double proved_of(glm::ivec2 pixel, const proof::Interval& span, size_t loop, double end) {
         if (bound({at(pixel.x), at(pixel.y), span}, loop, end))
             return span.width();
         if (span.width() <= k_shortest_span)
@@ -485,9 +561,14 @@ Result<Answer> ask_turns(ProbeBench& bench) {
     Answer answer{Verdict::pass, turns_sentence(*pass->function, counts)};
     if (share(double(counts.out), double(counts.rays)) >
         most_allowed(bench, bench.promises().most_exhausted_percent, "most_exhausted_percent")) {
-        answer.verdict = Verdict::warn;
+        answer.verdict = counts.hands_on ? Verdict::note : Verdict::warn;
         add_place(answer, pass->function->locate(counts.line));
         answer.where = counts.state;
+        answer.effect = "rays run out of iterations before they hit anything";
+        answer.cause = 2 * counts.past > counts.out
+                           ? "steps past the surface are too long: take shorter ones"
+                           : fmt::format("the loop ends after {} iterations; with up to {} they hit",
+                                         counts.turns, k_longer_loop * counts.turns);
         bench.report_running_out("turns");
     }
     return answer;

@@ -1,10 +1,17 @@
 #include "lab/report_page.hpp"
 
-#include "lab/report_parts.hpp"
-
 #include <fmt/format.h>
 
 namespace tidemark::report {
+
+// The files of page/, embedded in the program (runner/CMakeLists.txt).
+extern const std::string_view k_page;    ///< page.html
+extern const std::string_view k_limits;  ///< limits.html
+extern const std::string_view k_compare; ///< compare.html
+extern const std::string_view k_style;   ///< style.css
+extern const std::string_view k_scripts; ///< copy.js and compare.js
+extern const std::string_view k_explore; ///< the scripts of a diagram, concatenated
+
 namespace {
 
 std::string safe_character(char c) {
@@ -63,7 +70,7 @@ std::string comparison_form(const std::string& note, const std::string& referenc
 namespace {
 
 std::string scripts(const Page& page) {
-    std::string text = fmt::format("<script type=\"module\">\n{}</script>\n", k_copy);
+    std::string text = fmt::format("<script type=\"module\">\n{}</script>\n", k_scripts);
     if (!page.data.empty())
         text += fmt::format("<script type=\"application/json\" id=\"data\">{}</script>\n<script "
                             "type=\"module\">\n{}</script>\n",

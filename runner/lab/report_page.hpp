@@ -1,3 +1,5 @@
+// HTML report pages: escaping and templates, interactive controls, the page itself.
+//
 // Fills HTML templates and escapes text from scenes, studies and drivers, so that none of it acts as markup.
 #pragma once
 

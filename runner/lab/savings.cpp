@@ -12,9 +12,9 @@
 namespace tidemark::lab {
 namespace {
 
-constexpr int k_frame = 60; ///< first frame drawn: late enough for everything to move
+constexpr int k_first_frame = 60; ///< first frame drawn: late enough for everything to move
 constexpr int k_frames_before = 10;
-constexpr size_t k_most_rounds = 60;
+constexpr size_t k_most_timings = 60;
 
 constexpr Omission k_omissions[] = {
     {"passes", "passes that nothing reads, drawn", [](Way& way) { way.options.extras.passes = true; }},
@@ -75,7 +75,7 @@ public:
         renderer_.reset();
         const Stopwatch watch;
         renderer_ = TRY(render::Renderer::create(scene_, way_.options));
-        renderer_->draw(inputs_of(k_frame));
+        renderer_->draw(inputs_of(k_first_frame));
         glFinish();
         return watch.elapsed();
     }
@@ -142,7 +142,7 @@ public:
     /// Returns whether to start another round, which should take as long as the last one. The first five
     /// rounds may use the whole budget, later ones only `share` milliseconds since the start.
     bool another(const Rounds& rounds, double last, double share) const {
-        if (rounds.count() >= k_most_rounds || left() < last)
+        if (rounds.count() >= k_most_timings || left() < last)
             return false;
         return rounds.count() < k_fewest_runs || watch_.elapsed().wall + last < share;
     }
@@ -203,7 +203,7 @@ struct Measuring {
 
     Result<SavedTime> frames(double share, double cost) {
         return repeat("a frame:", share, cost, [&](int number, Rounds& rounds) -> Result<void> {
-            const int frame = k_frame + 2 + number;
+            const int frame = k_first_frame + 2 + number;
             Contender& first = frame % 2 ? without : with_it;
             Contender& second = frame % 2 ? with_it : without;
             const Elapsed costs[] = {first.draw(frame), second.draw(frame)};
@@ -216,7 +216,7 @@ struct Measuring {
     /// Times encoding alone; drawing is not counted.
     Result<SavedTime> files(double share, double cost) {
         return repeat("encoding:", share, cost, [&](int number, Rounds& rounds) -> Result<void> {
-            const int frame = k_frame + 2 + number;
+            const int frame = k_first_frame + 2 + number;
             without.draw(frame);
             with_it.draw(frame);
             const bool in_turn = frame % 2 != 0;
@@ -299,11 +299,11 @@ Result<Saving> SavingsBench::measure(std::span<const Omission> things, double se
     parts_->start = std::min(parts_->start, other->wall); // the driver's cache is warm now
     if (without.steps()) // a frame depends on those before it, so none is skipped
         with_it.leave_no_frames_before();
-    const double frame = without.draw(k_frame + 1).wall; // a frame drawn right after another one
+    const double frame = without.draw(k_first_frame + 1).wall; // a frame drawn right after another one
     const double frames = frame * (1 + with_it.frames_before());
     if (allowance.left() < frames)
         return cut("a frame with it takes", frames);
-    with_it.draw(k_frame + 1);
+    with_it.draw(k_first_frame + 1);
     saving.without.frame = without.work();
     saving.with_it.frame = with_it.work();
     if (way.alpha)

@@ -52,7 +52,7 @@ std::vector<TextNumber> text_numbers(const scene::Scene& scene) {
             else if (token.kind == text::TokenKind::number &&
                      std::from_chars(token.text.data(), token.text.data() + token.text.size(), number).ec ==
                          std::errc{})
-                numbers.push_back({number, false});
+                numbers.push_back({number, false, text.lines().locate(token.line, token.column)});
         }
         close();
     };
@@ -60,6 +60,17 @@ std::vector<TextNumber> text_numbers(const scene::Scene& scene) {
     for (const scene::Pass& pass : scene.passes)
         read(pass.text);
     return numbers;
+}
+
+std::vector<SourceLocation> places_of_number(const scene::Scene& scene, double number) {
+    std::vector<SourceLocation> beside, all;
+    for (const TextNumber& each : text_numbers(scene))
+        if (each.value == number) {
+            all.push_back(each.where);
+            if (each.beside_time)
+                beside.push_back(each.where);
+        }
+    return beside.empty() ? all : beside;
 }
 
 bool speaks_of(std::string_view name, std::initializer_list<std::string_view> words) {

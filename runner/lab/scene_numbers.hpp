@@ -1,3 +1,5 @@
+// Numbers in a scene's text: finding them, addressing them, changing them for studies.
+//
 // Reads numbers from a scene's text: those defined by `#define NAME` or `const … NAME`, and plain literals.
 // Also matches names against keywords.
 #pragma once
@@ -31,10 +33,14 @@ std::vector<DefinedNumber> defined_numbers(const scene::Scene& scene,
 struct TextNumber {
     double value;
     bool beside_time; ///< iTime occurs in the same statement
+    SourceLocation where{};
 };
 
 /// Returns all number literals of Common and of the passes, in the order of the text.
 std::vector<TextNumber> text_numbers(const scene::Scene& scene);
+
+/// Returns the places of that number in Common and the passes, only those beside iTime if there are any.
+std::vector<SourceLocation> places_of_number(const scene::Scene& scene, double number);
 
 /// Returns whether the name contains one of the words, which are in lower case; the case of the name is
 /// ignored.

@@ -1,7 +1,6 @@
 #include "lab/simplify.hpp"
 
 #include "base/error.hpp"
-#include "base/software_renderer.hpp"
 #include "lab/conduct.hpp"
 #include "lab/pass_function.hpp"
 #include "lab/probe_inputs.hpp"
@@ -9,6 +8,7 @@
 #include "lab/work_precision.hpp"
 #include "render/frame_plan.hpp"
 #include "render/frame_stepper.hpp"
+#include "render/gl_context.hpp"
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ constexpr double k_enough_milliseconds = 120; ///< for the timing rounds
 constexpr double k_pays = 0.985;
 /// Limit of the other views, and their last moment in seconds: later a float's rounding shows in many scenes.
 constexpr size_t k_most_others = 160;
-constexpr double k_latest = 1000;
+constexpr double k_latest_moment = 1000;
 /// A picture is divided into this many parts; the RMSE of each may be this many times the allowed error.
 constexpr int k_part_columns = 16, k_part_rows = 9;
 constexpr double k_most_in_a_part = 3;
@@ -78,7 +78,7 @@ std::vector<View> other_views(const scene::Scene& scene, const std::vector<View>
             return (scene.common.text() + pass.text.text()).find(name) != std::string::npos;
         });
     };
-    double last = k_latest;
+    double last = k_latest_moment;
     if (render::may_have_feedback(scene))
         last = std::ranges::max(views, {}, [](const View& view) {
                    return view.state.seconds();
@@ -118,11 +118,20 @@ Result<CutBench> CutBench::create(const scene::Scene& scene, Extent extent, std:
 /// Returns the error in the worst view, or nothing if it exceeds the goal.
 std::optional<double> CutBench::error_in(Specimen& specimen, std::span<const View> views, const Truth& truth,
                                          const Goal& goal) const {
-    const Sight sight{specimen.pictures({views.begin(), views.end()}), {}};
+    Sight sight;
+    const bool all_at_once = render::may_have_feedback(*scene_); // each picture starts at frame 0
+    if (all_at_once)
+        sight.pictures = specimen.pictures({views.begin(), views.end()});
     double worst = 0;
     for (size_t view = 0; view < views.size(); ++view) {
+        if (!all_at_once)
+            sight.pictures.push_back(specimen.picture(views[view]));
+        if (truth.pictures[view].bytes == sight.pictures[view].bytes)
+            continue;
+        if (!keeps_parts(goal, truth.pictures[view], sight.pictures[view])) // cheaper than the measure
+            return std::nullopt;
         const double error = error_of(goal.measure, outcome_of(sight, truth, view));
-        if (!(error <= *goal.most_error) || !keeps_parts(goal, truth.pictures[view], sight.pictures[view]))
+        if (!(error <= *goal.most_error))
             return std::nullopt;
         worst = std::max(worst, error);
     }
@@ -213,12 +222,12 @@ constexpr double k_everything = 1.1;
 /// The least share of the budget that the verdict's rounds get.
 constexpr double k_least_timing = 0.1;
 /// Savings of single cuts that differ by less than this count as equal.
-constexpr double k_alike = 0.05;
+constexpr double k_same_saving = 0.05;
 /// Share of the allowed error that the search may use: moments it did not see rarely have as little error as
 /// those it did.
-constexpr double k_margin = 0.8;
+constexpr double k_error_margin = 0.8;
 /// Limit of the combinations that are judged at full size, and the least number of rounds for each.
-constexpr size_t k_most_steps = 6, k_fewest_rounds = 9;
+constexpr size_t k_most_knob_steps = 6, k_fewest_rounds = 9;
 /// Moments that the search does not use: seconds after its last moment, as a share of that moment's time, but
 /// at least of one second.
 constexpr double k_later[] = {0.087, 0.423, 1.53};
@@ -235,7 +244,7 @@ public:
     Simplifier(const scene::Scene& scene, const SimplifyRequest& request, const Watch& watch,
                const Circumstances& facts)
         : scene_(scene), request_(request), watch_(watch), facts_(facts), searched_(request.goal) {
-        *searched_.most_error *= k_margin;
+        *searched_.most_error *= k_error_margin;
     }
 
     Result<Simplified> run() {
@@ -289,12 +298,14 @@ private:
     void try_alone(CutBench& bench, CutBench& finer, const std::vector<glsl::Cut>& cuts) {
         watch_.begin("cuts tried", cuts.size());
         for (const glsl::Cut& cut : cuts) {
-            if (!goes_on(k_alone) || !goes_on(k_together, longest_trial_))
+            // Time to combine and to judge is needed only if something was found.
+            if (!goes_on(good_.empty() ? k_together : k_alone) || !goes_on(k_together, longest_trial_))
                 break;
             ++tried_;
             watch_.advance();
             CutBench& own = cut.hangs_on_size ? finer : bench;
             const auto trial = tried(own, std::span(&cut.change, 1), own.own());
+            refused_ += !trial;
             if (trial && trial->time <= k_pays)
                 good_.push_back({cut.change, trial->error, trial->time, cut.hangs_on_size});
         }
@@ -303,7 +314,7 @@ private:
         // Then come those that save the most for their error.
         std::ranges::stable_sort(good_, std::greater<>(), [](const ChosenCut& cut) {
             const double saved = 1 - cut.time;
-            return cut.error == 0 ? std::pair(true, std::round(saved / k_alike))
+            return cut.error == 0 ? std::pair(true, std::round(saved / k_same_saving))
                                   : std::pair(false, saved / cut.error);
         });
     }
@@ -344,17 +355,15 @@ private:
     /// Returns the size of the verdict's pictures: the requested one, or a smaller one of the same shape if
     /// `seconds_a_round`, for one point at the requested size, does not allow two points.
     Extent judged_extent(double seconds_a_round) const {
-        const double needed = 2 * double(k_fewest_rounds) * seconds_a_round;
-        const int longer = std::max(request_.extent.width, request_.extent.height);
-        const double scale = std::min(1.0, std::sqrt(seconds_left() / needed));
-        return small_of(request_.extent, std::max(int(longer * scale), std::min(k_small, longer)));
+        return affordable(request_.extent, 2 * double(k_fewest_rounds) * seconds_a_round, seconds_left(),
+                          k_small);
     }
 
     /// Returns the last step and others evenly spaced before it, as many as the time allows.
     std::vector<size_t> judged_steps(double seconds_a_round) const {
         std::vector<size_t> steps;
         const double points = k_timing * request_.seconds / (double(k_fewest_rounds) * seconds_a_round);
-        const auto affordable = size_t(std::clamp(points - 1, 1.0, double(k_most_steps)));
+        const auto affordable = size_t(std::clamp(points - 1, 1.0, double(k_most_knob_steps)));
         const size_t count = std::min(way_.size(), affordable);
         for (size_t i = 1; i <= count; ++i)
             steps.push_back(way_.size() * i / count - 1);
@@ -383,7 +392,7 @@ private:
         const double needed = double(k_fewest_rounds * (steps_.size() + 1)) * round;
         Timing timing{steps_.empty() ? size_t(0) : size_t(2), steps_.empty() ? size_t(3) : size_t(30),
                       std::min(std::max(needed, k_timing * request_.seconds), seconds_left())};
-        timing.by_cpu = is_software_renderer(facts_.renderer); // other work of the machine does not count
+        timing.by_cpu = gl::is_software_renderer(facts_.renderer); // other work of the machine does not count
         Watch watch = watch_;
         if (!watch_.keep_going()) // a cancelled search still judges its results
             watch.keep_going = [] { return true; };
@@ -423,9 +432,7 @@ private:
                                   "other moments and places of the mouse",
                                   tried_, known_, good_.size(), to_string(request_.goal), others_));
         if (judged_ != request_.extent)
-            say.push_back(fmt::format("the verdict is for {}x{} pixels: {}x{} need a longer --budget",
-                                      judged_.width, judged_.height, request_.extent.width,
-                                      request_.extent.height));
+            say.push_back(smaller_verdict(judged_, request_.extent));
         say.push_back("unchanged: " + cost_and_error(points.front()));
         const WorkPrecision* best = nullptr;
         for (size_t i = 1; i < points.size(); ++i) {
@@ -443,6 +450,12 @@ private:
         if (!best) {
             say.push_back("no cut is measurably faster and keeps " + to_string(request_.goal) +
                           " in every view");
+            if (good_.empty() && tried_ > 0)
+                say.push_back(
+                    fmt::format("{} of those tried change the picture more or do not compile, {} save "
+                                "too little{}",
+                                refused_, tried_ - refused_,
+                                tried_ < known_ ? "; a longer --budget tries the others" : ""));
             return;
         }
         const auto gain = speedup(points.front(), *best);
@@ -488,8 +501,9 @@ private:
     Goal searched_; ///< goal for the search pictures
     Stopwatch clock_{};
     size_t tried_ = 0, known_ = 0, others_ = 0;
-    double longest_trial_ = 0;                  ///< seconds
-    Extent judged_{};                           ///< size of the verdict's pictures
+    size_t refused_ = 0;       ///< of the tried ones: they change the picture, or the driver rejects them
+    double longest_trial_ = 0; ///< seconds
+    Extent judged_{};          ///< size of the verdict's pictures
     std::vector<ChosenCut> good_{};             ///< cuts that pay alone
     std::vector<std::vector<ChosenCut>> way_{}; ///< combinations; each keeps the error
     std::vector<size_t> steps_{};               ///< indices of the combinations to judge

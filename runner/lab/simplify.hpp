@@ -1,3 +1,5 @@
+// `tidemark simplify`: possible cuts, trials of cuts, and the search for the best combination.
+//
 // Finds the cuts that a scene's texts allow, over all passes. Needs a current context.
 #pragma once
 

@@ -1,3 +1,5 @@
+// A compiled scene for measurements, at one setting or at changing settings.
+//
 // A scene whose settings change without recompiling: numbers of its text become uniforms, so one program
 // serves all of them. Use it for pictures, not for times: drivers unroll loops and fold constants if they
 // know the numbers. Pure.
@@ -87,7 +89,7 @@ public:
     /// Draws one more picture of the view and times it, from idle to idle.
     Cost time(const View& view, bool ask_gpu);
 
-    /// Returns the names of the hash functions that compute in floats although the recipe asks for doubles.
+    /// Returns the names of the hash functions that compute in floats although the recipe requests doubles.
     std::vector<std::string> kept_hashes() const;
 
     /// Returns how the loops of all passes end in the view, in any pixel (lab/instrumented_pass.hpp).

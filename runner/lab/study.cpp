@@ -94,6 +94,17 @@ Extent small_of(Extent extent, int longest) {
     return longer <= longest ? extent : Extent{side(extent.width), side(extent.height)};
 }
 
+Extent affordable(Extent requested, double needed, double left, int least) {
+    const int longer = std::max(requested.width, requested.height);
+    const double scale = std::min(1.0, std::sqrt(std::max(0.0, left) / needed));
+    return small_of(requested, std::max(int(longer * scale), std::min(least, longer)));
+}
+
+std::string smaller_verdict(Extent judged, Extent requested) {
+    return fmt::format("the verdict is for {}x{} pixels: {}x{} need a longer --budget", judged.width,
+                       judged.height, requested.width, requested.height);
+}
+
 std::vector<View> default_views() {
     return {{"t=1", render::at_time(1)}, {"t=10", render::at_time(10)}};
 }
@@ -170,8 +181,7 @@ bool is_int(const std::string& number) {
 namespace {
 
 std::string float_text(double number) {
-    std::string text = fmt::format("{:.9g}", number);
-    return is_int(text) ? text + ".0" : text;
+    return float_literal(fmt::format("{:.9g}", number));
 }
 
 constexpr double k_largest_int = 1 << 30;

@@ -1,3 +1,5 @@
+// The definition of a study: views, series, points, and values beyond the strictest.
+//
 // A view of a study: a named state, independent of the picture's size.
 #pragma once
 
@@ -39,6 +41,11 @@ View unseen(const View& view, double seconds_later);
 
 /// Returns an extent of the same shape whose longer side is at most `longest`, for a search.
 Extent small_of(Extent extent, int longest);
+/// Returns the size of a verdict's pictures: the requested one, which takes `needed` seconds, or one of the
+/// same shape that takes those that are left; at least `least` pixels on its longer side.
+Extent affordable(Extent requested, double needed, double left, int least);
+/// Returns the sentence for a verdict at a smaller size than the requested one.
+std::string smaller_verdict(Extent judged, Extent requested);
 
 /// Returns two moments, for scenes without views of their own.
 std::vector<View> default_views();
@@ -86,7 +93,7 @@ struct Study {
     std::vector<Setting> model;         ///< settings without the scene's own approximations
     std::vector<std::string> omissions; ///< parts of the scene that were left out, and why
     Promise promise;
-    std::vector<std::string> even; ///< knobs whose values must be even, as Simpson's rule wants it
+    std::vector<std::string> even; ///< knobs whose values must be even, as Simpson's rule requires
     bool as_it_is = false;         ///< the pictures' truth is the unchanged scene
     bool promote = true;           ///< the pictures' truth is drawn in double if possible
     int first_step = 0; ///< of the ladder of ever stricter settings, if earlier ones are known to differ

@@ -15,7 +15,7 @@
 namespace tidemark::lab {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using scene::Json;
 
 Json json_number(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -50,7 +50,7 @@ DataColumn time(const char* group, const char* name, TimeSummary Outcome::*clock
 
 const std::vector<DataColumn>& columns() {
     using Metrics = image::PictureMetrics;
-    static const std::vector<DataColumn> k_columns = [] {
+    static const std::vector<DataColumn> k_all_columns = [] {
         std::vector<DataColumn> list{
             hit("rms_t", &HitErrors::rms),
             hit("rms_right_t", &HitErrors::rms_right),
@@ -97,7 +97,7 @@ const std::vector<DataColumn>& columns() {
         }
         return list;
     }();
-    return k_columns;
+    return k_all_columns;
 }
 
 // ---- JSON -----------------------------------------------------------------------------------------------
@@ -320,8 +320,6 @@ std::string to_csv(const WorkPrecisionSet& set) {
 }
 
 namespace {
-
-using scene::Json;
 
 constexpr double k_slower = 1.05;
 constexpr double k_more_wrong = 1.01;

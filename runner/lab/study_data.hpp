@@ -1,3 +1,5 @@
+// Results of a study for other programs: JSON, CSV, and the comparison with an older study.
+//
 // Cleans texts from a scene or a study file for files that other programs read line by line.
 #pragma once
 

@@ -1,6 +1,7 @@
 #include "lab/text_findings.hpp"
 
 #include "base/error.hpp"
+#include "base/tokens.hpp"
 #include "lab/instrumented_pass.hpp"
 #include "lab/nan_trace.hpp"
 #include "lab/probed_pictures.hpp"
@@ -217,6 +218,74 @@ bool is_set_by_updates_only(const glsl::ParsedText& text, const glsl::Unassigned
     return updated;
 }
 
+/// Returns the change that gives a variable ones instead of zeros at its beginning.
+glsl::Cure with_ones(glsl::Cure zeros) {
+    for (glsl::Wrap& wrap : zeros.wraps)
+        for (std::string* const part : {&wrap.front, &wrap.behind}) {
+            std::string ones;
+            size_t copied = 0;
+            for (const text::Token& token : text::tokenize(*part)) {
+                ones.append(*part, copied, token.begin - copied);
+                ones += token.is("0.0")     ? "1.0"
+                        : token.is("0")     ? "1"
+                        : token.is("false") ? "true"
+                                            : token.text;
+                copied = token.end();
+            }
+            *part = ones.append(*part, copied, std::string::npos);
+        }
+    return zeros;
+}
+
+/// A variable that only some path leaves without a value.
+struct Doubtful {
+    std::string said;
+    SourceLocation where;
+    std::optional<glsl::Cure> zero; ///< sets it to 0 where it begins
+};
+
+/// Returns whether the picture depends on the values that these variables have before they are set: then the
+/// path that leaves them is taken.
+bool shows_unset(ProbeBench& bench, const std::vector<glsl::Cure>& zeros) {
+    std::vector<glsl::Cure> ones;
+    for (const glsl::Cure& each : zeros)
+        ones.push_back(with_ones(each));
+    const auto with_zeros = changed(bench.scene(), zeros), other = changed(bench.scene(), ones);
+    if (!with_zeros || !other)
+        return false;
+    ProbeBench left(*with_zeros, bench.promises()), right(*other, bench.promises());
+    for (const double moment : {0.5, 3.0, 11.0}) {
+        const auto before = left.picture(state_at(moment)), after = right.picture(state_at(moment));
+        if (!before || !after)
+            return false;
+        if (before->bytes != after->bytes)
+            return true;
+    }
+    return false;
+}
+
+/// Returns whether the picture shows one of the variables unset, and moves the first one that it shows to the
+/// front.
+bool move_shown_first(ProbeBench& bench, std::vector<Doubtful>& doubtful) {
+    constexpr size_t k_most_alone = 4;
+    std::vector<glsl::Cure> zeros;
+    std::vector<size_t> with_zero;
+    for (size_t i = 0; i < doubtful.size(); ++i)
+        if (doubtful[i].zero) {
+            zeros.push_back(*doubtful[i].zero);
+            with_zero.push_back(i);
+        }
+    if (zeros.empty() || !shows_unset(bench, zeros))
+        return false;
+    for (size_t i = 0; i < std::min(zeros.size(), k_most_alone); ++i)
+        if (zeros.size() == 1 || shows_unset(bench, {zeros[i]})) {
+            std::rotate(doubtful.begin(), doubtful.begin() + ptrdiff_t(with_zero[i]),
+                        doubtful.begin() + ptrdiff_t(with_zero[i] + 1));
+            break;
+        }
+    return true;
+}
+
 } // namespace
 
 Result<Answer> ask_unassigned(ProbeBench& bench) {
@@ -224,26 +293,39 @@ Result<Answer> ask_unassigned(ProbeBench& bench) {
     if (!texts)
         return Answer{Verdict::not_applicable, "the text cannot be analysed: " + to_string(texts.error())};
     std::vector<std::string> found;
+    std::vector<Doubtful> doubtful;
     Answer answer{Verdict::note};
     for (const PassText& pass : *texts)
         for (const glsl::Unassigned& each : glsl::find_unassigned(*pass.text, pass.facts)) {
             std::string said = sentence_for(*pass.text, each);
             if (said.empty() || std::ranges::find(found, said) != found.end())
                 continue;
-            found.push_back(std::move(said));
-            add_place(answer, pass.text->spelled(word_without_value(*pass.text, each)));
-            // A path to the others may never be taken.
+            const SourceLocation where = pass.text->spelled(word_without_value(*pass.text, each));
             if (each.why == glsl::Unassigned::Why::never || each.why == glsl::Unassigned::Why::not_given ||
-                is_set_by_updates_only(*pass.text, each))
+                is_set_by_updates_only(*pass.text, each)) {
                 answer.verdict = Verdict::warn;
+                add_place(answer, where);
+                found.insert(found.begin(), std::move(said));
+                continue;
+            }
+            found.push_back(said); // the path to it may never be taken
+            doubtful.push_back({std::move(said), where, glsl::initial_value(*pass.text, pass.facts, each)});
         }
+    const bool shows = move_shown_first(bench, doubtful);
+    if (shows && answer.verdict == Verdict::note) {
+        answer.verdict = Verdict::warn;
+        std::erase(found, doubtful.front().said);
+        found.insert(found.begin(), doubtful.front().said);
+    }
+    for (const Doubtful& each : doubtful)
+        add_place(answer, each.where);
     const std::string_view looked =
         "all paths through the functions that run were checked, whatever the conditions";
     if (found.empty())
         return Answer{Verdict::pass, fmt::format("nothing is read without a value: {}", looked)};
     answer.sentence =
-        fmt::format("read without a value (0 on ShaderToy's site and here, undefined elsewhere): {}; {}",
-                    listed(found), looked);
+        fmt::format("read without a value (0 on ShaderToy's site and here, undefined elsewhere): {}{}; {}",
+                    listed(found), shows ? "; the picture is another one if it is 1" : "", looked);
     answer.effect = fmt::format("some hosts {}draw garbage: {} {} read before it has a value",
                                 answer.verdict == Verdict::warn ? "" : "may ",
                                 found.front().substr(0, found.front().find(' ')),
@@ -255,8 +337,9 @@ Result<Answer> ask_divergence(ProbeBench& bench) {
     const auto texts = read_texts(bench, true);
     if (!texts)
         return Answer{Verdict::not_applicable, "the text cannot be analysed: " + to_string(texts.error())};
-    std::vector<std::string> found;
+    std::vector<std::string> found, harmless;
     Answer answer{Verdict::warn};
+    std::vector<SourceLocation> harmless_places;
     for (const PassText& pass : *texts) {
         const glsl::ParsedText& text = *pass.text;
         for (const glsl::Divergent& each :
@@ -264,14 +347,33 @@ Result<Answer> ask_divergence(ProbeBench& bench) {
             const std::string place = place_of(text, text.tree()[each.call].begin);
             if (place.empty())
                 continue;
-            found.push_back(fmt::format("{} ({}, {})", glsl::called_name(text, each.call), place,
-                                        words_for(text, each.branch)));
-            add_place(answer, text.spelled(text.tree()[each.call].begin));
+            (each.harmless ? harmless : found)
+                .push_back(fmt::format("{} ({}, {})", glsl::called_name(text, each.call), place,
+                                       words_for(text, each.branch)));
+            const SourceLocation where = text.spelled(text.tree()[each.call].begin);
+            if (each.harmless)
+                harmless_places.push_back(where);
+            else
+                add_place(answer, where);
         }
     }
-    if (found.empty())
+    const std::string also =
+        harmless.empty() ? ""
+                         : "undefined in GLSL, though GPUs that we know draw it, as neighbouring pixels have "
+                           "the same coordinates' values: " +
+                               listed(harmless);
+    if (found.empty() && harmless.empty())
         return Answer{Verdict::pass, "derivatives and mipmaps only in uniform control flow"};
-    answer.sentence = "needs neighbouring pixels, which may have taken another branch: " + listed(found);
+    if (found.empty()) {
+        answer.verdict = Verdict::note;
+        answer.sentence = also;
+        answer.effect = "a texture or derivative is read in a branch, of values from before it";
+        for (const SourceLocation& where : harmless_places)
+            add_place(answer, where);
+        return answer;
+    }
+    answer.sentence = "needs neighbouring pixels, which may have taken another branch: " + listed(found) +
+                      (also.empty() ? "" : "; " + also);
     return answer;
 }
 

@@ -1,3 +1,5 @@
+// Parsed texts of passes, and the wording of findings about them.
+//
 // The parsed texts of a scene's passes, for probes. A context must be current.
 #pragma once
 
@@ -35,8 +37,8 @@ std::string place_of(const glsl::ParsedText& text, size_t word);
 /// Joins up to four names: `a, b, c, d and 3 more`.
 std::string listed(const std::vector<std::string>& names);
 
-// Describes the findings of glsl/analysis for messages. Used by the probes of texts, by fixes and by the
-// language server.
+// Describes the findings of shader/undefined_behaviour.hpp and shader/loops.hpp for messages. Used by the
+// probes of texts, by fixes and by the language server.
 
 /// Returns, for example, `, on some path`, to follow the name of the variable without a value.
 std::string_view words_for(glsl::Unassigned::Why why);

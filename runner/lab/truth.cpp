@@ -269,6 +269,18 @@ private:
             add_blind(shown.pictures[view], blind_[view]);
     }
 
+    /// Returns how much of the pictures is not finite, if that is too much for a reference; else an empty
+    /// text.
+    std::string broken(const Shown& shown) const {
+        size_t blind = 0;
+        for (const image::Image& picture : shown.pictures) {
+            PixelMask mask;
+            add_blind(picture, mask);
+            blind += size_t(std::ranges::count(mask, true));
+        }
+        return too_blind(blind, study_.extent.pixels() * study_.views.size());
+    }
+
     double apart(What what, const Shown& a, const Shown& b) const {
         return what == What::pictures ? pooled_rmse(a.pictures, b.pictures, blind_)
                                       : rms_of_hits(a.hits, b.hits, study_.extent);
@@ -313,6 +325,11 @@ private:
         }
         if (!(*next)->cut.empty()) {
             stopped_ = fmt::format("{} with {}", (*next)->cut, to_string(settings));
+            at_limit_ = true;
+            return false;
+        }
+        if (const std::string why = broken(**next); !why.empty() && broken(last_).empty()) {
+            stopped_ = fmt::format("{} with {}", why, to_string(settings));
             at_limit_ = true;
             return false;
         }
@@ -528,7 +545,7 @@ private:
     TurnedSpecimen specimen_;
     std::string not_promoted_;
     std::string stopped_;   ///< why the ladder ends although it could continue
-    bool at_limit_ = false; ///< the driver would cut loops one step further
+    bool at_limit_ = false; ///< one step further the driver would cut loops, or the numbers break
     Shown first_;           ///< the requested settings, or the study's strictest
     Shown last_;
     int step_ = 0; ///< step of `last_`

@@ -1,3 +1,5 @@
+// The truth of a study: converged pictures, proved hits, and the remaining error.
+//
 // Estimates the distance of a ladder of ever stricter settings from its limit, by the change at each rung.
 // Pure.
 #pragma once

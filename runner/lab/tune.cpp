@@ -15,9 +15,9 @@ namespace tidemark::lab {
 namespace {
 
 /// Room for moments that were not drawn, as a share of the error in the worst view.
-constexpr double k_room = 0.25;
+constexpr double k_spread_room = 0.25;
 /// A truth is good enough if its own error is at most this share of the error in question.
-constexpr double k_part = 0.1;
+constexpr double k_part_of_error = 0.1;
 
 struct Unit {
     std::string_view name, unit;
@@ -54,7 +54,7 @@ double largest_error(const WorkPrecisionSet& set, const WorkPrecision& point, Me
     }
     const auto views = double(std::max<size_t>(1, point.views.size()));
     const double spread = std::sqrt(std::max(0.0, squares / views - sum * sum / (views * views)));
-    const double room = point.views.size() > 1 ? std::max(spread, k_room * worst) : 0;
+    const double room = point.views.size() > 1 ? std::max(spread, k_spread_room * worst) : 0;
     return std::max(error_by(measure, point.all), worst + room) + own_error(set, measure);
 }
 
@@ -101,8 +101,9 @@ std::optional<double> sharpness(const Goal& goal) {
     if (!goal.most_error || goal.measure == Measure::wrong)
         return std::nullopt;
     // FLIP has no error of its own: use a tenth of an 8-bit step, or a hundredth of the allowed error.
-    return goal.measure == Measure::flip ? std::max(k_part * k_part * *goal.most_error, k_part / 255)
-                                         : k_part * *goal.most_error;
+    return goal.measure == Measure::flip
+               ? std::max(k_part_of_error * k_part_of_error * *goal.most_error, k_part_of_error / 255)
+               : k_part_of_error * *goal.most_error;
 }
 
 std::string blur_of(const WorkPrecisionSet& set, Measure measure, double most) {
@@ -110,8 +111,9 @@ std::string blur_of(const WorkPrecisionSet& set, Measure measure, double most) {
         if (!set.has_hits())
             return "there is no reference for its hits";
         const auto own = set.hit_standard.uncertainty;
-        return own && *own <= k_part * k_wrong_distance ? ""
-                                                        : "the reference for its hits is not precise enough";
+        return own && *own <= k_part_of_error * k_wrong_distance
+                   ? ""
+                   : "the reference for its hits is not precise enough";
     }
     if (!set.picture_standard.none.empty())
         return set.picture_standard.none;
@@ -162,7 +164,7 @@ constexpr size_t k_most_combinations = 200'000;
 constexpr size_t k_bolder = 2, k_safer = 5;
 
 /// The effect of one value of a setting by itself: a factor of the time and a summand of the error.
-struct Effect {
+struct SettingEffect {
     std::optional<Setting> setting{}; ///< nullopt: the scene's own value
     double time = 1;
     double error = 0;
@@ -180,12 +182,12 @@ double summand(Measure measure, double error) {
 }
 
 /// Returns the effects of the values that could be measured, the scene's own first.
-std::vector<Effect> effects_of(const WorkPrecisionSet& explored, const QualitySetting& tuned, Measure measure,
-                               bool no_stricter) {
+std::vector<SettingEffect> effects_of(const WorkPrecisionSet& explored, const QualitySetting& tuned,
+                                      Measure measure, bool no_stricter) {
     const Axis& axis = tuned.axis;
     const WorkPrecision& own = explored.points.front();
     const double base = summand(measure, error_by(measure, own.all));
-    std::vector<Effect> effects{{}};
+    std::vector<SettingEffect> effects{{}};
     for (const WorkPrecision& point : explored.points) {
         const auto& settings = point.point.settings;
         if (settings.size() != 1 || settings.front().name != axis.name)
@@ -201,12 +203,12 @@ std::vector<Effect> effects_of(const WorkPrecisionSet& explored, const QualitySe
     return effects;
 }
 
-std::vector<Combination> combinations(const std::vector<std::vector<Effect>>& all, double base) {
+std::vector<Combination> combinations(const std::vector<std::vector<SettingEffect>>& all, double base) {
     std::vector<Combination> found{{{}, 1, base}};
-    for (const std::vector<Effect>& effects : all) {
+    for (const std::vector<SettingEffect>& effects : all) {
         std::vector<Combination> longer;
         for (const Combination& start : found)
-            for (const Effect& effect : effects) {
+            for (const SettingEffect& effect : effects) {
                 Combination& next = longer.emplace_back(start);
                 if (effect.setting)
                     next.settings.push_back(*effect.setting);
@@ -244,14 +246,14 @@ size_t most_exact(const std::vector<Combination>& front, double time) {
 }
 
 /// Returns the effects of the settings that save the most, as many as can be combined.
-std::vector<std::vector<Effect>> effects_of(const WorkPrecisionSet& explored,
-                                            const std::vector<QualitySetting>& settings, Measure measure,
-                                            bool no_stricter) {
-    std::vector<std::vector<Effect>> all;
+std::vector<std::vector<SettingEffect>> effects_of(const WorkPrecisionSet& explored,
+                                                   const std::vector<QualitySetting>& settings,
+                                                   Measure measure, bool no_stricter) {
+    std::vector<std::vector<SettingEffect>> all;
     for (const QualitySetting& setting : settings)
         all.push_back(effects_of(explored, setting, measure, no_stricter));
-    std::ranges::sort(all, {}, [](const std::vector<Effect>& effects) {
-        return std::ranges::min(effects, {}, &Effect::time).time;
+    std::ranges::sort(all, {}, [](const std::vector<SettingEffect>& effects) {
+        return std::ranges::min(effects, {}, &SettingEffect::time).time;
     });
     size_t number = 1, kept = 0;
     while (kept < all.size() && (number *= all[kept].size()) <= k_most_combinations)

@@ -1,3 +1,5 @@
+// `tidemark tune`: the goal, the settings that can be varied, predictions, and the search.
+//
 // The error or the time that a setting must keep, and the check of a study's points against it. Pure.
 #pragma once
 

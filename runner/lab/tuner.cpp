@@ -1,6 +1,5 @@
 #include "base/error.hpp"
 #include "base/measurement.hpp"
-#include "base/software_renderer.hpp"
 #include "lab/conduct.hpp"
 #include "lab/outcome.hpp"
 #include "lab/pass_function.hpp"
@@ -9,6 +8,7 @@
 #include "lab/tune.hpp"
 #include "lab/work_precision.hpp"
 #include "render/frame_plan.hpp"
+#include "render/gl_context.hpp"
 
 #include <fmt/format.h>
 
@@ -23,19 +23,22 @@ namespace {
 
 /// Longer side of the search pictures. If the unchanged scene is the truth, which needs no extra drawing,
 /// they are larger and closer to the final ones.
-constexpr int k_small = 96, k_small_as_it_is = 160;
+constexpr int k_small_width = 96, k_small_as_it_is = 160;
 /// Seconds from the last moment of the search to the verdict's extra moments.
-constexpr std::array k_later{2.7, 23.4};
+constexpr std::array k_later_moments{2.7, 23.4};
 /// Share of the time budget for proofs of the hits.
 constexpr double k_proof = 0.05;
 /// Combinations that are measured at full size.
 constexpr size_t k_judged = 3;
-/// A truth in single precision is tried first if errors below this, RMSE, need not be told apart.
+/// Pictures that the verdict draws in each view: of each setting, and of the truth's ladder in times of the
+/// scene's own.
+constexpr double k_drawn_of_setting = 5, k_drawn_of_truth = 60;
+/// A truth in single precision is tried first if errors below this, RMSE, need not be distinguished.
 constexpr double k_float_will_do = 1e-4;
 /// Seconds that a step of a small truth may take while knobs are chosen.
 constexpr double k_longest_trial = 3;
 /// Gains below this are not worth a change.
-constexpr double k_least_gain = 1.02;
+constexpr double k_least_time_gain = 1.02;
 
 struct Stage {
     double timing; ///< share of the time budget
@@ -86,16 +89,17 @@ public:
         auto found = candidates(explored, request_.settings, request_.goal, milliseconds(explored));
         found = TRY(screened(std::move(found)));
         std::vector<View> views = request_.views;
-        for (const double later : k_later)
-            if (later == k_later.front() || views.back().state.frame < 120 ||
+        for (const double later : k_later_moments)
+            if (later == k_later_moments.front() || views.back().state.frame < 120 ||
                 !render::may_have_feedback(scene_))
                 views.push_back(unseen(request_.views.back(), later));
-        Findings findings = TRY(measure(found, request_.extent, views, k_judgement));
+        const Extent extent = judged(explored, found.size(), views.size());
+        Findings findings = TRY(measure(found, extent, views, k_judgement));
         if (const std::string why = blur(findings.set);
             !why.empty() && !request_.as_it_is && !by_hits() && request_.goal.most_error) {
             sentences_.push_back("the scene as it is takes the place of a reference: " + why);
             request_.as_it_is = true;
-            findings = TRY(measure(found, request_.extent, std::move(views), k_judgement));
+            findings = TRY(measure(found, extent, std::move(views), k_judgement));
         }
         Tuned tuned{{std::move(findings), {}}, {}};
         TRY(judge(tuned));
@@ -121,7 +125,7 @@ private:
     }
 
     Timing timing(const Stage& stage) {
-        const bool cpu = is_software_renderer(facts_.renderer) && !request_.goal.most_milliseconds;
+        const bool cpu = gl::is_software_renderer(facts_.renderer) && !request_.goal.most_milliseconds;
         return {2, stage.rounds, stage.timing * request_.seconds,
                 [this](const WorkPrecisionSet& set) { return blur(set).empty(); }, cpu};
     }
@@ -159,7 +163,24 @@ private:
         return findings;
     }
 
-    Extent small() const { return small_of(request_.extent, request_.as_it_is ? k_small_as_it_is : k_small); }
+    /// Returns the size of the verdict's pictures: the requested one, or a smaller one of the same shape if
+    /// that would take longer than the time that is left.
+    Extent judged(const WorkPrecisionSet& explored, size_t settings, size_t views) {
+        const double left = k_judgement.end * request_.seconds - clock_.elapsed().wall * 1e-3;
+        const double truth = request_.as_it_is ? 1 : k_drawn_of_truth;
+        const double drawn = double(views) * (double(settings + 1) * k_drawn_of_setting + truth);
+        const double needed = milliseconds(explored) * 1e-3 * drawn;
+        if (request_.goal.most_milliseconds)
+            return request_.extent;
+        const Extent extent = affordable(request_.extent, needed, left, k_small_width);
+        if (extent != request_.extent)
+            sentences_.push_back(smaller_verdict(extent, request_.extent));
+        return extent;
+    }
+
+    Extent small() const {
+        return small_of(request_.extent, request_.as_it_is ? k_small_as_it_is : k_small_width);
+    }
 
     /// Studies the single values. Without a truth for all settings, takes only those of the march; without
     /// one for them, the scene as it is becomes the truth if an error was given.
@@ -385,7 +406,7 @@ private:
         return {};
     }
 
-    /// Returns a faster point of which the truth's own error does not tell whether it keeps the error.
+    /// Returns a faster point that may or may not keep the error, because the truth's own error is too large.
     const WorkPrecision* undecided(const WorkPrecisionSet& set, const WorkPrecision& own, double most) const {
         const Goal& goal = request_.goal;
         if (!goal.most_error)
@@ -395,7 +416,7 @@ private:
                 continue;
             const auto gain = speedup(own, point);
             const double error = error_by(goal.measure, point.all), off = own_error(set, goal.measure);
-            if (gain && gain->confidence.low > k_least_gain && error - off <= most && error + off > most)
+            if (gain && gain->confidence.low > k_least_time_gain && error - off <= most && error + off > most)
                 return &point;
         }
         return nullptr;
@@ -430,7 +451,7 @@ private:
             return own.all.time().median > *time || error_by(measure, best.all) < error_by(measure, own.all);
         const auto gain = speedup(own, best);
         return least_error(set, own, measure) > most ||
-               (gain && gain->confidence.low > 1 && gain->ratio >= k_least_gain);
+               (gain && gain->confidence.low > 1 && gain->ratio >= k_least_time_gain);
     }
 
     const scene::Scene& scene_;
@@ -459,7 +480,7 @@ Result<ChosenKnobs> choose_knobs(const scene::Scene& scene, std::vector<QualityS
         tries.push_back(std::move(march));
     for (std::vector<QualitySetting>& each : tries) {
         Study small = study_of({}, each);
-        small.extent = small_of(study.extent, k_small);
+        small.extent = small_of(study.extent, k_small_width);
         small.views = study.views;
         small.rays = false;
         small.longest_step = k_longest_trial;
@@ -488,14 +509,14 @@ std::optional<MarchPlaces> march_places(const scene::Scene& scene) {
     const auto function = PassFunction::create(scene, scene.image());
     if (!function || function->loops().empty())
         return std::nullopt;
-    const ir::MarchingLoop& loop = function->loops().front();
+    const proof::MarchingLoop& loop = function->loops().front();
     const auto& instructions = function->function().instructions;
     MarchPlaces places{function->locate(loop.line)};
-    for (const ir::Carried& carried : loop.carried)
-        if (carried.update != ir::k_no_value)
+    for (const proof::Carried& carried : loop.carried)
+        if (carried.update != proof::k_no_value)
             places.steps.push_back(function->locate(instructions[carried.update].line));
-    if (loop.far != ir::k_no_value && instructions[loop.far].op == ir::Op::constant &&
-        instructions[loop.far].type == ir::Scalar::real)
+    if (loop.far != proof::k_no_value && instructions[loop.far].op == proof::Op::constant &&
+        instructions[loop.far].type == proof::Scalar::real)
         places.far = std::bit_cast<float>(instructions[loop.far].immediate);
     return places;
 }

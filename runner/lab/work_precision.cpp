@@ -310,12 +310,25 @@ std::string quality_of(const WorkPrecisionSet& set, const WorkPrecision& point) 
                          : fmt::format("{:.1f} dB", point.all.picture.samples.psnr));
 }
 
+/// Says which point comes nearest to a promise that none keeps: by the fewest wrong rays, then by PSNR.
+std::string nearest_sentence(const WorkPrecisionSet& set) {
+    const double truth = -20 * std::log10(*set.picture_standard.uncertainty);
+    if (truth < set.study.promise.least_psnr)
+        return fmt::format("the reference itself is known to {:.1f} dB only", truth);
+    const auto& best = *std::ranges::min_element(set.points, {}, [&](const WorkPrecision& point) {
+        return std::pair(set.ranked_by_hits() && point.all.hits ? point.all.hits->wrong_tenth : 0.0,
+                         -least_psnr(set, point));
+    });
+    return fmt::format("the nearest is {} ({}; {})", best.point.label, cost_of(best), quality_of(set, best));
+}
+
 std::string cheapest_sentence(const WorkPrecisionSet& set) {
     if (!set.picture_standard.uncertainty)
         return fmt::format("no verdict on {}: the reference's own error is unknown", promise_of(set));
     const WorkPrecision* best = cheapest_good(set);
     if (!best)
-        return fmt::format("no setting of this study certainly has {}", promise_of(set));
+        return fmt::format("no setting of this study certainly has {}: {}", promise_of(set),
+                           nearest_sentence(set));
     return fmt::format("cheapest setting with {}: {} ({}; {})", promise_of(set), best->point.label,
                        cost_of(*best), quality_of(set, *best));
 }

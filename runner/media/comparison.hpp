@@ -1,3 +1,5 @@
+// Comparing pictures: SSIM, FLIP, difference pictures, error measures.
+//
 // Planes of one number per pixel, and filters for them, as perceptual metrics use them. Independent of files
 // and colour.
 #pragma once

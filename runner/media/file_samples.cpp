@@ -92,6 +92,36 @@ Image in_floats(Image image) {
     return floats;
 }
 
+namespace {
+
+template <class Sample>
+void spread(std::span<const Sample> from, int from_channels, std::span<Sample> to, int channels, Sample one) {
+    const bool grey = from_channels < 3, alpha = from_channels % 2 == 0;
+    const int colours = channels >= 3 ? 3 : 1;
+    for (size_t pixel = 0; pixel < to.size() / size_t(channels); ++pixel) {
+        const Sample* source = &from[pixel * size_t(from_channels)];
+        Sample* target = &to[pixel * size_t(channels)];
+        for (int i = 0; i < colours; ++i)
+            target[i] = source[grey ? 0 : i];
+        if (channels > colours)
+            target[colours] = alpha ? source[from_channels - 1] : one;
+    }
+}
+
+} // namespace
+
+Image with_channels(const Image& image, int channels) {
+    if (image.channels == channels)
+        return image;
+    assert(image.channels < channels && !(image.has_alpha() && channels == 3));
+    Image result(image.extent, channels, image.type);
+    if (image.type == SampleType::u8)
+        spread<uint8_t>(image.u8(), image.channels, result.u8(), channels, 255);
+    else
+        spread<float>(image.f32(), image.channels, result.f32(), channels, 1.0F);
+    return result;
+}
+
 Image in_light(const Image& image) {
     return with_colours(image, [](float colour, float) { return float(light_of_srgb(colour)); });
 }

@@ -21,6 +21,10 @@ Image in_bytes(Image image);
 /// Converts a picture to floats, bytes as v/255.
 Image in_floats(Image image);
 
+/// Returns the picture with as many channels (1 grey, 2 with alpha, 3 colour, 4 with alpha): grey is repeated
+/// as red, green and blue, and a missing alpha is 1. It must have no colour or alpha that would be lost.
+Image with_channels(const Image& image, int channels);
+
 /// Decodes an sRGB picture to linear light, in floats; alpha stays.
 Image in_light(const Image& image);
 

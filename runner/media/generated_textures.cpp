@@ -394,7 +394,7 @@ uint8_t byte_of(double value) {
 }
 
 /// Writes one pixel of 1 to 4 channels; with fewer than 3, the lightness alone.
-void put(const Clouds& clouds, double lightness, int channels, uint8_t* to) {
+void fill_texel(const Clouds& clouds, double lightness, int channels, uint8_t* to) {
     if (channels <= 2) {
         to[0] = byte_of(0.2 + 0.6 * lightness);
     } else {
@@ -415,8 +415,8 @@ Image make_stand_in_picture(std::string_view name, Extent size, int channels) {
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
             const size_t pixel = size_t(y) * size_t(size.width) + size_t(x);
-            put(clouds, clouds.at((x + 0.5) / size.width, (y + 0.5) / size.height, 0.0), channels,
-                &image.u8()[pixel * size_t(channels)]);
+            fill_texel(clouds, clouds.at((x + 0.5) / size.width, (y + 0.5) / size.height, 0.0), channels,
+                       &image.u8()[pixel * size_t(channels)]);
         }
     return image;
 }
@@ -437,8 +437,8 @@ CubeFaces make_stand_in_cube(std::string_view name, int side, int channels) {
                 const double scale = 0.4 / std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
                 const double light = clouds.at(0.5 + scale * d.x, 0.5 + scale * d.y, 0.5 + scale * d.z);
                 // The sky is lighter than the ground, so that "up" is visible.
-                put(clouds, std::clamp(0.75 * light + 0.125 + 0.3 * scale * d.y, 0.0, 1.0), channels,
-                    &image.u8()[(size_t(y) * size_t(side) + size_t(x)) * size_t(channels)]);
+                fill_texel(clouds, std::clamp(0.75 * light + 0.125 + 0.3 * scale * d.y, 0.0, 1.0), channels,
+                           &image.u8()[(size_t(y) * size_t(side) + size_t(x)) * size_t(channels)]);
             }
     }
     return faces;
@@ -453,8 +453,8 @@ VolumeData make_stand_in_volume(std::string_view name, int width, int height, in
     for (int z = 0; z < depth; ++z)
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x, to += channels)
-                put(clouds, clouds.at((x + 0.5) / width, (y + 0.5) / height, (z + 0.5) / depth), channels,
-                    to);
+                fill_texel(clouds, clouds.at((x + 0.5) / width, (y + 0.5) / height, (z + 0.5) / depth),
+                           channels, to);
     return volume;
 }
 

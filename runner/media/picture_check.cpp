@@ -4,7 +4,6 @@
 
 #include "base/encoding.hpp"
 #include "base/file.hpp"
-#include "media/byte_order.hpp"
 #include "media/picture_codecs.hpp"
 #include "media/picture_file.hpp"
 

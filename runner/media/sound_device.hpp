@@ -50,7 +50,7 @@ public:
     ~Playback();
 
     /// Writes as many samples as the device has room for, never waits, and returns their number per channel.
-    /// Returns nothing if the device had run out of samples: the following ones are heard late.
+    /// Returns nothing if the device had run out of samples: the following ones play late.
     std::optional<size_t> write(std::span<const int16_t> samples);
 
     /// Stops at once and drops samples that were written but not yet played.

@@ -1,14 +1,12 @@
-// Checks that a sound file is complete, because libsndfile plays the rest of a truncated file without an
-// error. Handles WAV, AIFF, FLAC, Ogg and MP3. Decodes nothing.
-
 #include "media/sound_file.hpp"
 
 #include "base/dynamic_library.hpp"
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "media/sound_library.hpp"
 
 #include <fmt/format.h>
+#include <sndfile.h>
 
 #include <algorithm>
 #include <array>
@@ -26,6 +24,9 @@
 
 namespace tidemark::sound {
 
+// Checks that a sound file is complete, because libsndfile plays the rest of a truncated file without an
+// error. Handles WAV, AIFF, FLAC, Ogg and MP3. Decodes nothing.
+
 namespace {
 
 uint8_t byte_at(std::string_view file, size_t at) {
@@ -33,13 +34,6 @@ uint8_t byte_at(std::string_view file, size_t at) {
 }
 
 enum class Order { little, big };
-
-uint32_t word_at(std::string_view file, size_t at, Order order) {
-    uint32_t value = 0;
-    for (size_t i = 0; i < 4; ++i)
-        value = value << 8 | byte_at(file, at + (order == Order::big ? i : 3 - i));
-    return value;
-}
 
 bool has(std::string_view file, size_t at, std::string_view what) {
     return at <= file.size() && file.substr(at).starts_with(what);
@@ -50,7 +44,8 @@ bool has_all_chunks(std::string_view file, Order order) {
     constexpr uint32_t unknown = 0x7fff0000; // this or more: written to a pipe
     constexpr size_t heading = 8;
     for (size_t at = 12; file.size() - at >= heading;) {
-        const uint32_t size = word_at(file, at + 4, order);
+        const uint32_t size =
+            order == Order::big ? big_endian(file, at + 4, 4) : little_endian(file, at + 4, 4);
         if (size >= unknown)
             return true;
         if (size > file.size() - at - heading)
@@ -127,9 +122,9 @@ uint32_t mp3_promise(std::string_view file, size_t at, const Mp3Frame& frame) {
     if (!has(file, place, "Xing") && !has(file, place, "Info"))
         return 0;
     constexpr uint32_t tells_frames = 1;
-    if (file.size() - place < 12 || (word_at(file, place + 4, Order::big) & tells_frames) == 0)
+    if (file.size() - place < 12 || (big_endian(file, place + 4, 4) & tells_frames) == 0)
         return 0;
-    return word_at(file, place + 8, Order::big);
+    return big_endian(file, place + 8, 4);
 }
 
 bool has_all_mp3_frames(std::string_view file) {
@@ -168,12 +163,19 @@ std::optional<uint64_t> promised_frames(std::string_view file) {
     constexpr size_t place = 4 + 4 + 13; // of the lower 36 bits of five bytes in STREAMINFO
     if (!file.starts_with("fLaC") || file.size() < place + 5)
         return std::nullopt;
-    const uint64_t frames =
-        uint64_t(byte_at(file, place) & 0x0fu) << 32 | word_at(file, place + 1, Order::big);
+    const uint64_t frames = uint64_t(byte_at(file, place) & 0x0fu) << 32 | big_endian(file, place + 1, 4);
     return frames > 0 ? std::optional(frames) : std::nullopt;
 }
 
 namespace {
+
+/// The functions of libsndfile in use.
+struct SoundLibrary {
+    decltype(&sf_open_virtual) open_virtual = nullptr;
+    decltype(&sf_readf_float) read_frames = nullptr;
+    decltype(&sf_strerror) message = nullptr;
+    decltype(&sf_close) close = nullptr;
+};
 
 Result<SoundLibrary> load_sndfile() {
     SoundLibrary functions;
@@ -186,14 +188,11 @@ Result<SoundLibrary> load_sndfile() {
     return functions;
 }
 
-} // namespace
-
+/// Returns the library, loaded by the first call; other threads wait for it. It stays until the process ends.
 const Result<SoundLibrary>& sound_library() {
     static const Result<SoundLibrary> library = load_sndfile();
     return library;
 }
-
-namespace {
 
 constexpr int k_most_channels = 8;
 constexpr int k_least_rate = 1000;
@@ -276,6 +275,10 @@ std::string wav_header(int rate, uint32_t data_bytes) {
 }
 
 } // namespace
+
+Result<void> load_sound_library() {
+    return sound_library().map([](const SoundLibrary&) {});
+}
 
 Result<SoundData> read_sound(const std::filesystem::path& path) {
     const auto refuse = [&](std::string_view why) {

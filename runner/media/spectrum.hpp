@@ -1,3 +1,5 @@
+// Sound analysis for music inputs: Fourier transform, sample rates, ShaderToy's bytes.
+//
 // The discrete Fourier transform. Forty lines of our own: only one size is needed, at most 128 times a frame
 // for each sound, and the resulting bytes must not depend on a library's choice of algorithm.
 #pragma once

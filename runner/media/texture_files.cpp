@@ -1,8 +1,8 @@
 #include "media/texture_files.hpp"
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "media/byte_order.hpp"
 #include "media/file_samples.hpp"
 #include "media/picture_file.hpp"
 
@@ -56,37 +56,6 @@ tl::unexpected<Error> cannot_use(const std::string& name, std::string_view why) 
 
 // --- Faces of one kind ---------------------------------------------------------------------------------
 
-/// Converts channels: repeats grey as colour, and sets a missing alpha to `one`.
-template <class Sample>
-void spread(std::span<const Sample> from, int from_channels, std::span<Sample> to, int channels, Sample one) {
-    const bool grey = from_channels <= 2, alpha = from_channels % 2 == 0;
-    const int colours = channels >= 3 ? 3 : 1;
-    for (size_t pixel = 0; pixel < to.size() / size_t(channels); ++pixel) {
-        const Sample* source = &from[pixel * size_t(from_channels)];
-        Sample* target = &to[pixel * size_t(channels)];
-        for (int i = 0; i < colours; ++i)
-            target[i] = source[grey ? 0 : i];
-        if (channels > colours)
-            target[colours] = alpha ? source[from_channels - 1] : one;
-    }
-}
-
-Image converted(const Image& image, int channels, SampleType type) {
-    if (image.channels == channels && image.type == type)
-        return image;
-    Image typed = image;
-    if (image.type != type) {
-        typed.bytes = file_samples(image, SampleDepth::f32);
-        typed.type = type;
-    }
-    Image result(image.extent, channels, type);
-    if (type == SampleType::u8)
-        spread<uint8_t>(std::as_const(typed).u8(), image.channels, result.u8(), channels, 255);
-    else
-        spread<float>(std::as_const(typed).f32(), image.channels, result.f32(), channels, 1.0f);
-    return result;
-}
-
 void make_alike(CubeFaces& faces) {
     bool colour = false, alpha = false, floats = false;
     for (const Image& face : faces) {
@@ -96,7 +65,7 @@ void make_alike(CubeFaces& faces) {
     }
     const int channels = (colour ? 3 : 1) + (alpha ? 1 : 0);
     for (Image& face : faces)
-        face = converted(face, channels, floats ? SampleType::f32 : SampleType::u8);
+        face = with_channels(floats ? in_floats(std::move(face)) : face, channels);
 }
 
 // --- Several faces in a picture --------------------------------------------------------------------------

@@ -1,3 +1,5 @@
+// Files of cubemaps and volumes.
+//
 // Converts between texels of a cubemap and directions, by the table of the OpenGL specification (8.13).
 #pragma once
 

@@ -1,7 +1,6 @@
-#include "media/video_check.hpp"
-
+#include "base/encoding.hpp"
 #include "base/file.hpp"
-#include "media/byte_order.hpp"
+#include "media/video_input.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

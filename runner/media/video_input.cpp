@@ -5,7 +5,6 @@
 #include "base/file.hpp"
 #include "base/process.hpp"
 #include "media/picture_file.hpp"
-#include "media/video_check.hpp"
 
 #include <fmt/format.h>
 
@@ -423,6 +422,10 @@ Extent VideoFrames::extent() const {
 
 int VideoFrames::frame_count() const {
     return int(state_->times.starts.size());
+}
+
+double VideoFrames::start() const {
+    return double(state_->times.starts.front()) * state_->times.tick;
 }
 
 double VideoFrames::duration() const {

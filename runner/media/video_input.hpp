@@ -1,3 +1,5 @@
+// Videos and cameras as inputs, read through ffmpeg.
+//
 // Parses the display times of a video's frames from the output of ffprobe and ffmpeg.
 #pragma once
 
@@ -73,6 +75,8 @@ public:
 
     Extent extent() const;
     int frame_count() const;
+    /// Returns the time of the first frame by the file's clock, in seconds.
+    double start() const;
     /// Returns the time from the start of the first frame to the end of the last one, in seconds; above 0.
     double duration() const;
 
@@ -113,5 +117,16 @@ private:
 
     std::unique_ptr<Feed> feed_;
 };
+
+// Checks that a video's file is as long as it declares, because ffmpeg plays the rest of a truncated file
+// without an error. Handles MP4 and MOV, WebM and Matroska, Ogg, GIF and AVI; other formats do not declare a
+// length. Reads some bytes, decodes nothing.
+
+/// Returns whether the video is complete; also true for unreadable files and other formats.
+bool is_whole_video(const std::filesystem::path& path);
+
+/// Returns whether the file is complete and of the format that ffmpeg calls `mp4`, `mov`, `matroska`, `webm`,
+/// `gif` or `webp`. MP4 and MOV must contain an index (`moov`).
+bool is_video_of(const std::filesystem::path& path, std::string_view muxer);
 
 } // namespace tidemark::image

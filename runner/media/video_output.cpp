@@ -5,9 +5,7 @@
 #include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/process.hpp"
-#include "media/byte_order.hpp"
 #include "media/file_samples.hpp"
-#include "media/video_check.hpp"
 #include "media/video_input.hpp"
 
 #include <fmt/format.h>
@@ -109,7 +107,8 @@ using Words = std::vector<std::string>;
 constexpr const char* k_upright_bt709 = "vflip," TIDEMARK_BT709;
 constexpr const char* k_bt709 = TIDEMARK_BT709;
 #undef TIDEMARK_BT709
-constexpr const char* k_palettes = "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1";
+constexpr const char* k_palette_filter =
+    "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1";
 
 Words with(Words words, std::initializer_list<const char*> more) {
     words.insert(words.end(), more.begin(), more.end());
@@ -204,7 +203,7 @@ const std::vector<VideoEncoding>& encodings() {
     // desynchronise.
     static const Words webm_alpha =
         tagged(libvpx({"-vf", k_bt709, "-pix_fmt", "yuva420p", "-auto-alt-ref", "0", "-c:a", "libopus"}));
-    static const Words gif{"-filter_complex", k_palettes, "-loop", "0"};
+    static const Words gif{"-filter_complex", k_palette_filter, "-loop", "0"};
     static const Words webp{"-an", "-c:v", "libwebp_anim", "-lossless", "1", "-loop", "0"};
     static const Words mov{"-c:v", "copy", "-movflags", "+write_colr", "-c:a", "pcm_s16le"};
     static const std::vector<VideoEncoding> all{

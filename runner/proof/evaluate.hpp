@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 /// Enumerates the paths through the undecided conditions of a run: the first run takes the first path at each
 /// of them, `next` switches to the other path at the last one that has a path left. `most`: how many
@@ -237,4 +237,4 @@ private:
     uint64_t steps_ = 0;
 };
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

@@ -1,3 +1,5 @@
+// A pass as a function in SSA form, and the names from its text.
+//
 // Names from the text for the instructions of a Function: assigned variables, and inlined calls. Filled if
 // the text is compiled with Names::keep, else empty.
 #pragma once
@@ -9,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 /// A function's body, inlined for one call of it.
 struct InlinedCall {
@@ -229,4 +231,4 @@ struct Function {
     }
 };
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

@@ -5,7 +5,7 @@
 #include <bit>
 #include <utility>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 namespace {
 
 /// Reads how a value is computed. A narrowed value counts as its first operand, the expression in the text.
@@ -358,4 +358,4 @@ Values FunctionBuilder::inverse(const Values& matrix, uint32_t size) {
     return result;
 }
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 using Values = std::vector<Value>;
 
@@ -71,4 +71,4 @@ struct EqualInReal {
 /// Returns another form of an instruction; nullopt if no identity applies.
 std::optional<EqualInReal> equal_in_real(const Function& function, Value value);
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

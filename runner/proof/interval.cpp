@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 namespace {
 
 constexpr double k_pi = 3.141592653589793;
@@ -259,4 +259,4 @@ Interval increasing(double (*function)(double), const Interval& a, double first,
     return widened(result, k_library_ulps);
 }
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

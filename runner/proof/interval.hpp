@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 struct Interval {
     double low = 0;
@@ -157,4 +157,4 @@ Interval quintic(const Interval& a);
 Interval increasing(double (*function)(double), const Interval& a, double first = -k_infinity,
                     double last = k_infinity);
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

@@ -4,7 +4,7 @@
 #include <bit>
 #include <iterator>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 bool overlap(const Access& a, const Access& b) {
     return a.first < b.first + b.size && b.first < a.first + a.size;
@@ -478,4 +478,25 @@ LoopSlice slice_of(const Function& function, const MarchingLoop& loop, SliceOf w
     return Slicer(function, loop, what).run();
 }
 
-} // namespace tidemark::ir
+bool another_goes_on(const Function& function, const std::vector<uint32_t>& block_of,
+                     const std::vector<bool>& inside, Value phi, Value update) {
+    std::vector<bool> place(inside.size());
+    place[phi] = place[update] = true;
+    for (Value value = function.blocks[block_of[phi]].last; value < inside.size(); ++value) {
+        const Instruction& each = function.instructions[value];
+        if (inside[value] || each.type != Scalar::real)
+            continue;
+        const auto parts = function.operands_of(each);
+        const auto places = std::ranges::count_if(parts, [&](Value part) { return place[part]; });
+        const bool sum =
+            each.op == Op::add || each.op == Op::subtract || each.op == Op::minimum || each.op == Op::maximum;
+        if (places == 0 || !(each.op == Op::phi || (sum && places == 1)))
+            continue;
+        if (each.op == Op::phi && function.blocks[block_of[value]].loop)
+            return true;
+        place[value] = each.op != Op::subtract || place[parts[0]];
+    }
+    return false;
+}
+
+} // namespace tidemark::proof

@@ -1,3 +1,5 @@
+// Loops of a Function: data dependence, iteration counts, marching loops, slices.
+//
 // Data dependence between instructions, and the blocks that belong to a loop. Input for program slicing;
 // nothing is changed.
 #pragma once
@@ -8,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 bool overlap(const Access& a, const Access& b);
 
@@ -153,6 +155,11 @@ struct MarchingLoop {
     /// subtracts a step, hands the place to another loop, or reads what the loop kept of the iteration
     /// before.
     bool goes_back = false;
+    /// Another loop goes on along the ray from the last place, or from a place some way before or after it:
+    /// the march is a bound for that loop, as for the density of clouds, and its end is no surface.
+    bool hands_on = false;
+    /// Each iteration also adds to another real what depends on the field, such as a glow or a density.
+    bool accumulates = false;
     int line = 0; ///< of the comparison
     /// Number of comparisons of reals in that line of the loop, and the index of this one, in the order of
     /// the text.
@@ -164,6 +171,11 @@ struct MarchingLoop {
     bool limited() const { return far != k_no_value && by_parameter(); }
     Value cut(const Carried& each) const { return cut_at_update ? each.update : each.phi; }
 };
+
+/// Returns whether a loop after the one of those instructions begins at the last place of its marcher, `phi`
+/// and `update`, perhaps after a sum (MarchingLoop::hands_on).
+bool another_goes_on(const Function& function, const std::vector<uint32_t>& block_of,
+                     const std::vector<bool>& inside, Value phi, Value update);
 
 /// Returns at most one marching loop for each loop, in the order of the text after inlining.
 std::vector<MarchingLoop> find_marching_loops(const Function& function);
@@ -191,4 +203,4 @@ enum class SliceOf {
 
 LoopSlice slice_of(const Function& function, const MarchingLoop& loop, SliceOf what = SliceOf::distance);
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

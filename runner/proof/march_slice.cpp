@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 namespace {
 
 /// Limits for the paths through undecided conditions: decisions in one run, and paths in all.
@@ -312,4 +312,4 @@ bool is_faithful(const LoopSlice& slice, const FloatEvaluator& entered, const Ma
     });
 }
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

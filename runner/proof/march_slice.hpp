@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 template <class Real>
 using PointEvaluator = Evaluator<PointSystem<Real>>;
@@ -294,4 +294,4 @@ March follow_on(FloatEvaluator& evaluator, const Function& function, const March
 /// iterations may be above that of the slice.
 bool is_faithful(const LoopSlice& slice, const FloatEvaluator& entered, const March& march);
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

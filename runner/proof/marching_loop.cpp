@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 namespace {
 
 /// A comparison that ends the loop: it does so if `smaller` is below `larger`.
@@ -59,8 +59,8 @@ public:
         return fixed;
     }
 
-    /// Returns whether the loop adds up reals and a comparison of reals ends it, as a march does whose form
-    /// `find` does not know.
+    /// Returns whether the loop adds up reals and a comparison of reals ends it, as in a march whose form
+    /// `find` does not support.
     bool may_march() const {
         return !steps_.empty() && std::ranges::any_of(tests_, [this](const ExitTest& test) {
             return at(test.smaller).type == Scalar::real && !count_of(test);
@@ -73,17 +73,14 @@ public:
         std::vector<bool> depends(inside_.size());
         for (const Step& each : steps_)
             depends[each.phi] = true;
+        const auto is_dependent = [&](Value value) -> bool { return depends[value]; };
         for (int pass = 0; pass < 2; ++pass) // the second one goes through the loop's phis
             for (Value value = function_.blocks[header_].first; value < depends.size(); ++value)
-                depends[value] = depends[value] || std::ranges::any_of(operands(value), [&](Value operand) {
-                                     return depends[operand];
-                                 });
+                depends[value] = depends[value] || std::ranges::any_of(operands(value), is_dependent);
         return std::ranges::any_of(later.carried,
                                    [&](const Carried& each) {
                                        return depends[each.phi] ||
-                                              std::ranges::any_of(each.factors, [&](Value factor) {
-                                                  return depends[factor];
-                                              });
+                                              std::ranges::any_of(each.factors, is_dependent);
                                    }) ||
                depends[later.distance];
     }
@@ -92,14 +89,15 @@ private:
     const Instruction& at(Value value) const { return function_.instructions[value]; }
     std::span<const Value> operands(Value value) const { return function_.operands_of(at(value)); }
     Cone cone(std::vector<Value> stops = {}) const { return {function_, inside_, header_, std::move(stops)}; }
-
     LoopBlocks loop() const { return {function_, block_of_, header_, back_slot_}; }
+    bool is_header_phi(Value value) const { return loop().is_header_phi(value); }
 
     /// Returns the tests, those of a value above a number that the loop does not change after the others: in
     /// `if (d > 10.0) return sky; if (d < 0.01) break;` the first one ends rays that are far from everything.
     std::vector<ExitTest> nearness_first() const {
         std::vector<ExitTest> tests = tests_;
-        std::ranges::stable_partition(tests, [this](const ExitTest& test) { return inside_[test.smaller]; });
+        const auto nearness = [this](const ExitTest& test) { return inside_[test.smaller]; };
+        std::stable_partition(tests.begin(), tests.end(), nearness);
         return tests;
     }
 
@@ -251,8 +249,6 @@ private:
         return result;
     }
 
-    bool is_header_phi(Value value) const { return loop().is_header_phi(value); }
-
     std::optional<MarchingLoop> march(const std::vector<Step>& group, bool at_update,
                                       const ExitTest& test) const {
         std::vector<Value> cuts;
@@ -286,6 +282,10 @@ private:
         if (!kind)
             return std::nullopt;
         MarchingLoop loop = loop_of(needed(group, at_update, field), at_update, test, *kind);
+        loop.accumulates = std::ranges::any_of(steps_, [&](const Step& other) {
+            return !other.scales && std::ranges::find(group, other.core, &Step::core) == group.end() &&
+                   computes(depending(cone(cuts).of(other.added), cuts));
+        });
         loop.in_next_turn = !others.empty();
         loop.threshold_by_turn = std::ranges::any_of(limit, [&](Value value) {
             return is_header_phi(value) && next_of(value) != value &&
@@ -516,6 +516,8 @@ private:
             loop.advance = group.size() == 1 ? first.added : first.core;
         loop.step = block_of_[first.update];
         loop.goes_back = goes_back(group);
+        loop.hands_on =
+            group.size() == 1 && another_goes_on(function_, block_of_, inside_, first.phi, first.update);
         count_turns(loop);
         for (const ExitTest& other : tests_)
             for (const Step& each : group)
@@ -575,8 +577,7 @@ private:
 
 } // namespace
 
-/// A loop whose rays start where a march of an unknown form ends, such as one for shadows, is left out: it is
-/// not the view's.
+/// Leaves out a loop whose rays start where a march of an unknown form ends, such as one for shadows.
 std::vector<MarchingLoop> find_marching_loops(const Function& function) {
     const std::vector<uint32_t> block_of = blocks_of_instructions(function);
     std::vector<MarchingLoop> loops;
@@ -594,4 +595,4 @@ std::vector<MarchingLoop> find_marching_loops(const Function& function) {
     return loops;
 }
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

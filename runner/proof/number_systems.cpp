@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 namespace {
 
 constexpr Interval k_either{0, 1};
@@ -532,7 +532,7 @@ float StochasticSystem::real_number(Op op, float a, float b, float c) {
     case Op::mix: return rounded(double(product(a, difference(1, c))) + product(b, c));
     case Op::hermite: return product(product(a, a), difference(3, 2 * a));
     case Op::fract: return fract(a);
-    default: return rounded(ir::real_number<double>(op, a, b, c));
+    default: return rounded(proof::real_number<double>(op, a, b, c));
     }
 }
 
@@ -558,4 +558,4 @@ std::optional<bool> StochasticSystem::decide(const Samples& condition) {
     return size_t(holds) * 2 > k_samples;
 }
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

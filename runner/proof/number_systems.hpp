@@ -1,3 +1,6 @@
+// Number systems for evaluation: intervals, intervals with derivatives, stochastic arithmetic, and three at
+// once.
+//
 // The number system of intervals: the results of the text in real arithmetic for all numbers of its operands.
 // An operand of a single number is one of the scene's floats; results of such operands alone are computed in
 // float, as a driver does, so hashes of lattice points equal the scene's. Whole numbers and booleans are
@@ -12,7 +15,7 @@
 #include <cstdint>
 #include <span>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 class IntervalSystem {
 public:
@@ -26,7 +29,7 @@ public:
 
     static std::optional<bool> decide(const Value& condition);
     static std::pair<int64_t, int64_t> range(const Value& index);
-    static Value hull(const Value& a, const Value& b) { return ir::hull(a, b); }
+    static Value hull(const Value& a, const Value& b) { return proof::hull(a, b); }
     static std::optional<std::pair<Value, Value>> split(Op op, const Operands<Value>& operands);
     static bool may_be_split(const Value& number) { return !number.point(); }
 };
@@ -66,7 +69,7 @@ public:
     }
     /// Combines two memory cells of which either may be read: the value may jump.
     Value hull(const Value& a, const Value& b) const {
-        return {ir::hull(a.value, b.value), jumps_aside ? ir::hull(a.slope, b.slope) : everything()};
+        return {proof::hull(a.value, b.value), jumps_aside ? proof::hull(a.slope, b.slope) : everything()};
     }
     static std::optional<std::pair<Value, Value>> split(Op, const Operands<Value>&) { return std::nullopt; }
     static bool may_be_split(const Value&) { return false; }
@@ -187,4 +190,4 @@ private:
 
 using LockstepEvaluator = Evaluator<LockstepSystem>;
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

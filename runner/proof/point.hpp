@@ -12,7 +12,7 @@
 #include <optional>
 #include <utility>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 inline uint32_t divided(uint32_t a, uint32_t b, bool is_signed) {
     if (b == 0)
@@ -215,4 +215,4 @@ private:
     }
 };
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

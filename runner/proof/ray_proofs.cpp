@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 namespace {
 
 constexpr double k_first_part = 1.0 / 16;
@@ -444,4 +444,4 @@ std::optional<uint32_t> most_turns(MarchSlice& slice, double end, uint32_t enoug
     return turns && *turns <= enough ? turns : std::nullopt;
 }
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

@@ -1,3 +1,5 @@
+// Proofs about a ray: its first hit, the safe step, the number of iterations.
+//
 // Finds the first place on a ray where its field falls below the threshold, by branch and bound over
 // intervals. All places skipped are proved to have no hit.
 #pragma once
@@ -8,7 +10,7 @@
 #include <optional>
 #include <string_view>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 struct FirstHit {
     enum class Verdict {
@@ -56,4 +58,4 @@ StepScale step_scale(MarchSlice& slice, const Interval& hit, uint64_t most_evalu
 /// several rays the bound holds for each.
 std::optional<uint32_t> most_turns(MarchSlice& slice, double end, uint32_t enough, uint64_t most_evaluations);
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

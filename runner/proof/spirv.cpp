@@ -13,7 +13,7 @@
 #include <map>
 #include <numeric>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 class SpirvNames : protected SpirvComputations {
 protected:
@@ -505,4 +505,4 @@ Result<Function> compile(const std::string& text, Names names) {
     return read_spirv(*words);
 }
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 /// Compiles a whole fragment shader; line numbers in the error and in the function are those of `text`. The
 /// error is the compiler's message, or names the construct that is not supported.
@@ -19,4 +19,4 @@ Result<Function> compile(const std::string& text, Names names = Names::drop);
 /// Reads a module that the plug-in made.
 Result<Function> read_spirv(std::span<const uint32_t> words);
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

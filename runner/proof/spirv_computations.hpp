@@ -6,7 +6,7 @@
 
 #include <bit>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 /// A place in memory, fixed or with a computed offset.
 struct Pointer {
@@ -177,7 +177,7 @@ protected:
         const Scalar result = type(each.at(0)).scalar;
         if (each.op == spv::OpExtInst)
             return called(each, result);
-        if (const auto op = ir::componentwise(each.op))
+        if (const auto op = proof::componentwise(each.op))
             return componentwise(*op, result, each.from(2));
         switch (each.op) {
         case spv::OpCopyObject: return values(each.at(2));
@@ -304,7 +304,7 @@ protected:
 
     Values called(const SpirvInstruction& each, Scalar result) {
         const auto function_id = GLSLstd450(each.at(3));
-        if (const auto op = ir::componentwise(function_id))
+        if (const auto op = proof::componentwise(function_id))
             return componentwise(*op, result, each.from(4));
         const auto a = [&]() -> const Values& { return values(each.at(4)); };
         const auto b = [&]() -> const Values& { return values(each.at(5)); };
@@ -434,4 +434,4 @@ protected:
     }
 };
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

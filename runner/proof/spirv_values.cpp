@@ -1,6 +1,6 @@
 #include "proof/spirv_values.hpp"
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 const Type& Types::of(Id id) const {
     static const Type k_none;
@@ -158,4 +158,4 @@ std::optional<Op> componentwise(GLSLstd450 function) {
     return std::nullopt;
 }
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

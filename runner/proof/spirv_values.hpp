@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 using Id = uint32_t;
 
@@ -150,4 +150,4 @@ private:
     std::unordered_map<Id, Id> type_of_;
 };
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 namespace {
 
 constexpr uint32_t k_components = 4;
@@ -350,4 +350,4 @@ Interval look_up(const TextureSet& textures, const Lookup& lookup, std::span<con
     return found == textures.end() ? everything() : found->second->look_up(lookup, operands, unnamed);
 }
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

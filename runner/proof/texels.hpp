@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 using TexelIndex = std::array<int64_t, 3>;
 
@@ -109,4 +109,4 @@ Textures<Number> textures_in(const TextureSet& textures) {
     };
 }
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

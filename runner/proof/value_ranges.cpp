@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 namespace {
 
 constexpr int k_most_sweeps = 100;
@@ -479,4 +479,4 @@ ValueRanges value_ranges(const Function& function, const std::vector<Interval>& 
     return Analysis(function, memory, textures).run();
 }
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 /// An operation that may make NaN or an infinity from numbers: outside of its domain, at a pole, or because
 /// it is not supported.
@@ -32,4 +32,4 @@ struct ValueRanges {
 ValueRanges value_ranges(const Function& function, const std::vector<Interval>& memory,
                          const Textures<Interval>& textures);
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

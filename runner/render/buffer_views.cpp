@@ -1,5 +1,6 @@
 #include "render/buffer_views.hpp"
 
+#include "render/gl_context.hpp"
 #include "shader/shader_source.hpp"
 
 #include <fmt/format.h>
@@ -13,9 +14,18 @@
 namespace tidemark::render {
 namespace {
 
+/// In front of each text: its version.
+constexpr std::string_view k_desktop_line = "#version 450 core\n";
+constexpr std::string_view k_es_lines = R"(#version 300 es
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+precision highp sampler3D;
+precision highp samplerCube;
+)";
+
 /// Neighbours in the cross share an edge of the cube, seen from its centre.
-constexpr const char* k_cube_text = R"(#version 450 core
-layout(binding = 0) uniform samplerCube picture;
+constexpr const char* k_cube_text = R"(uniform samplerCube picture;
 uniform float side;
 out vec4 colour;
 void main() {
@@ -33,8 +43,7 @@ void main() {
 }
 )";
 
-constexpr const char* k_volume_text = R"(#version 450 core
-layout(binding = 0) uniform sampler3D picture;
+constexpr const char* k_volume_text = R"(uniform sampler3D picture;
 uniform int slice;
 out vec4 colour;
 void main() {
@@ -43,8 +52,7 @@ void main() {
 )";
 
 /// Tests the bits, because optimisers may assume that floats are finite.
-constexpr const char* k_text = R"(#version 450 core
-layout(binding = 0) uniform sampler2D picture;
+constexpr const char* k_text = R"(uniform sampler2D picture;
 uniform vec2 extent; // of the window
 out vec4 colour;
 void main() {
@@ -64,8 +72,7 @@ void main() {
 
 /// `seen` returns the displayed value of a pixel. The second channel is -1 to show one channel, both are -1
 /// to show colours.
-constexpr const char* k_seen_text = R"(#version 450 core
-layout(binding = 0) uniform sampler2D picture;
+constexpr const char* k_seen_text = R"(uniform sampler2D picture;
 uniform ivec2 channels;
 vec3 seen(ivec2 place) {
     vec4 value = texelFetch(picture, place, 0);
@@ -137,7 +144,10 @@ void draw_into(const gl::RenderTarget& target, const FilterProgram& program, con
 } // namespace
 
 Result<FilterProgram> FilterProgram::create(const char* what, const char* text) {
-    auto program = gl::Program::link(glsl::k_vertex_shader, text);
+    const bool es = gl::is_es();
+    auto program =
+        gl::Program::link(glsl::vertex_shader(es ? glsl::Version::es_300 : glsl::Version::core_450),
+                          std::string(es ? k_es_lines : k_desktop_line) + text);
     if (!program)
         return fail(ErrorCode::load, fmt::format("the driver does not compile tidemark's shader for {}: {}",
                                                  what, program.error()));
@@ -157,7 +167,7 @@ void FilterProgram::draw(const gl::Texture& picture, Extent extent) const {
     glViewport(0, 0, extent.width, extent.height);
     glUseProgram(program_.id());
     glBindSampler(0, nearest_.id());
-    glBindTextureUnit(0, picture.id());
+    gl::bind_texture(0, picture);
     glBindVertexArray(no_vertices_.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -1,3 +1,5 @@
+// Views of buffers: flat pictures, marks, exposure, floats of the shown pass.
+//
 // Draws a fragment shader over a whole framebuffer, reading one texture: for overlays and other views of a
 // scene's picture. Independent of scenes.
 #pragma once

@@ -41,8 +41,7 @@ TextureFormat format_of(SampleType type, int channels) {
 void spread_grey(const gl::Texture& texture, int channels) {
     if (channels > 2)
         return;
-    const GLint swizzle[] = {GL_RED, GL_RED, GL_RED, channels == 2 ? GL_GREEN : GL_ONE};
-    glTextureParameteriv(texture.id(), GL_TEXTURE_SWIZZLE_RGBA, swizzle);
+    gl::set_swizzle(texture, {GL_RED, GL_RED, GL_RED, channels == 2 ? GL_GREEN : GL_ONE});
 }
 
 /// iChannelTime of the site's silent input at iTime 0, in seconds.
@@ -241,8 +240,7 @@ private:
 
     Loaded red_alone(Image image) const {
         Loaded loaded = one_channel(std::move(image));
-        const GLint swizzle[] = {GL_RED, GL_ZERO, GL_ZERO, GL_ONE};
-        glTextureParameteriv(loaded.texture.id(), GL_TEXTURE_SWIZZLE_RGBA, swizzle);
+        gl::set_swizzle(loaded.texture, {GL_RED, GL_ZERO, GL_ZERO, GL_ONE});
         return loaded;
     }
 
@@ -307,6 +305,10 @@ Result<ChannelTextures::Index> ChannelTextures::require(const scene::Channel& ch
     auto loaded = std::visit(Loader(channel.sampling), channel.input);
     if (loaded && !gl::has_storage(loaded->texture))
         loaded = refuse(loaded->texture);
+    if (loaded && loaded->texture.es && loaded->texture.internal_format == GL_RGB32F &&
+        loaded->texture.levels > 1)
+        loaded = fail(ErrorCode::load, "OpenGL ES makes no mipmaps of floats with three channels: give a "
+                                       "file with one or four, or of bytes");
     if (!loaded && !channel.where.file.empty()) // name the directive
         return fail(error_at(channel.where, loaded.error().message));
     if (!loaded)
@@ -391,9 +393,9 @@ void point_samplers(const gl::Program& program, int unit) {
 }
 
 void bind(const BoundChannel& channel, const gl::Texture& texture) {
-    if (texture.target == GL_TEXTURE_CUBE_MAP)
-        glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS); // as WebGL 2 always does
-    glBindTextureUnit(GLuint(channel.unit), texture.id());
+    if (texture.target == GL_TEXTURE_CUBE_MAP && !texture.es)
+        glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS); // as WebGL 2 and OpenGL ES always do
+    gl::bind_texture(GLuint(channel.unit), texture);
     glBindSampler(GLuint(channel.unit), channel.sampler.id());
 }
 

@@ -1,3 +1,5 @@
+// Textures and samplers of channels: live media, loaded inputs, and their binding.
+//
 // The current sound and picture of a window, for the inputs of a scene that have no file.
 #pragma once
 

@@ -1,3 +1,5 @@
+// All inputs of a frame as values: keyboard, mouse, camera, uniforms, and the state from which they follow.
+//
 // The keyboard in the form of ShaderToy's keyboard texture.
 #pragma once
 

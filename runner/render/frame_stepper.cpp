@@ -5,12 +5,19 @@
 namespace tidemark::render {
 
 PassPreview::PassPreview(Renderer& renderer, size_t pass, const FrameInputs& inputs)
-    : renderer_(&renderer), pass_(pass), inputs_(inputs) {
+    : renderer_(&renderer, Reset{true}), pass_(pass), inputs_(inputs) {
     renderer.draw_before(pass, inputs);
 }
 
+PassPreview::PassPreview(Again, Renderer& renderer, const FrameInputs& inputs)
+    : renderer_(&renderer, Reset{false}), pass_(renderer.shown_index()), inputs_(inputs) {}
+
+PassPreview PassPreview::again(Renderer& renderer, const FrameInputs& inputs) {
+    return {Again(), renderer, inputs};
+}
+
 void PassPreview::Reset::operator()(Renderer* renderer) const {
-    if (renderer->plan().feedback)
+    if (needed && renderer->plan().feedback)
         renderer->reset();
 }
 
@@ -50,13 +57,7 @@ FrameSteps FrameStepper::step(int end, int last, const MayDraw& may_draw) {
         steps.complete = !may_draw || may_draw(*next_, last);
         if (!steps.complete)
             break;
-        const FrameInputs inputs = inputs_of(states_(*next_));
-        if (draw_frame_)
-            steps.complete = draw_frame_(inputs);
-        else
-            renderer_.draw(inputs);
-        if (!steps.complete)
-            break;
+        renderer_.draw(inputs_of(states_(*next_)));
         ++steps.frames;
     }
     steps.passes = renderer_.passes_drawn() - before;

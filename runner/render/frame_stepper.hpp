@@ -1,3 +1,5 @@
+// Drawing a given frame: previews of a pass, and the steps up to a frame.
+//
 // A pass just before it is drawn, after all earlier passes of the frame: other programs can be drawn in its
 // place.
 #pragma once
@@ -23,6 +25,10 @@ public:
     /// Draws the passes of the frame before `pass`.
     PassPreview(Renderer& renderer, size_t pass, const FrameInputs& inputs);
 
+    /// Returns a preview of the shown pass after the `draw` of those inputs. Draws nothing, and leaves the
+    /// buffers as they are. Requires Renderer::can_draw_again.
+    static PassPreview again(Renderer& renderer, const FrameInputs& inputs);
+
     const scene::Scene& scene() const { return renderer_->scene(); }
     const scene::Pass& pass() const { return scene().passes[pass_]; }
     /// The pass's own program, and the dialect that it was linked in.
@@ -37,8 +43,11 @@ public:
 
 private:
     struct Reset {
+        bool needed; ///< false: the buffers hold a whole frame
         void operator()(Renderer* renderer) const;
     };
+    struct Again {};
+    PassPreview(Again, Renderer& renderer, const FrameInputs& inputs);
     std::unique_ptr<Renderer, Reset> renderer_; ///< not owned
     size_t pass_;
     FrameInputs inputs_;
@@ -67,12 +76,6 @@ public:
         : FrameStepper(
               renderer, [state](int frame) { return state.at_frame(frame); }, first) {}
 
-    /// Draws a frame. Returns false while the frame is incomplete; it is then not counted and will be
-    /// requested again.
-    using DrawFrame = std::function<bool(const FrameInputs&)>;
-    /// Replaces the renderer's whole-frame drawing.
-    void draw_by(DrawFrame draw) { draw_frame_ = std::move(draw); }
-
     FrameSteps draw(int frame, const MayDraw& may_draw = {});
     /// Draws all that `draw` draws except the frame itself, so that the buffers hold that frame's inputs.
     FrameSteps lead_to(int frame, const MayDraw& may_draw = {});
@@ -88,7 +91,6 @@ private:
     Renderer& renderer_;
     FrameStates states_;
     int first_;
-    DrawFrame draw_frame_{};
     std::optional<int> next_{}; ///< frame whose inputs the buffers hold; none: unknown
 };
 

@@ -1,18 +1,21 @@
 #include "render/gl_context.hpp"
 
-#include "base/software_renderer.hpp"
-
 #include <GL/glcorearb.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <utility>
+
+#if defined(__x86_64__) || defined(__i386__)
+#include <cpuid.h>
+#endif
 
 namespace tidemark::gl {
 namespace {
 
-std::string text_of(GLenum name) {
+const char* text_of(GLenum name) {
     const GLubyte* text = glGetString(name);
     return text ? reinterpret_cast<const char*>(text) : "unknown";
 }
@@ -38,7 +41,28 @@ void APIENTRY keep(GLenum source, GLenum, GLuint, GLenum, GLsizei length, const 
             ->emplace_back(text, length < 0 ? std::strlen(text) : size_t(length));
 }
 
+/// Returns `GenuineIntel` or `AuthenticAMD`, for example; empty if the processor has no such instruction.
+/// Software drivers round as its instructions do (rcpps).
+std::string processor_maker() {
+#if defined(__x86_64__) || defined(__i386__)
+    unsigned level = 0;
+    unsigned words[3] = {}; // four letters each, in this order
+    if (__get_cpuid(0, &level, &words[0], &words[2], &words[1])) {
+        char letters[sizeof words];
+        std::memcpy(letters, words, sizeof words);
+        return {letters, sizeof letters};
+    }
+#endif
+    return {};
+}
+
 } // namespace
+
+bool is_software_renderer(std::string_view renderer) {
+    constexpr std::array<std::string_view, 4> k_software{"llvmpipe", "softpipe", "SwiftShader", "Software"};
+    return std::ranges::any_of(
+        k_software, [&](std::string_view name) { return renderer.find(name) != std::string_view::npos; });
+}
 
 Capabilities query_capabilities() {
     GLint texture = 0;
@@ -48,6 +72,10 @@ Capabilities query_capabilities() {
     const std::string renderer = text_of(GL_RENDERER);
     return {text_of(GL_VENDOR), renderer, text_of(GL_VERSION), std::min({texture, viewport[0], viewport[1]}),
             is_software_renderer(renderer) ? processor_maker() : ""};
+}
+
+bool is_es() {
+    return std::string_view(text_of(GL_VERSION)).starts_with("OpenGL ES");
 }
 
 std::vector<std::string> query_extensions() {

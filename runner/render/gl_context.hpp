@@ -1,3 +1,5 @@
+// The current OpenGL context: limits, resets, compiler messages.
+//
 // Reads the names and limits of the current context.
 #pragma once
 
@@ -17,14 +19,24 @@ struct Capabilities {
     int largest_target = 0;  ///< pixels on a side
     std::string processor{}; ///< CPU vendor, for a software renderer; else empty
 
-    /// Returns what determines rounding: the renderer and, for a software renderer, the CPU vendor.
-    std::string device() const { return processor.empty() ? renderer : renderer + " on " + processor; }
+    /// Returns what determines rounding: the renderer, for a software renderer the CPU vendor, and whether
+    /// it compiles for OpenGL ES.
+    std::string device() const {
+        return renderer + (processor.empty() ? "" : " on " + processor) +
+               (version.starts_with("OpenGL ES") ? " with OpenGL ES" : "");
+    }
 };
 
 Capabilities query_capabilities();
 
+/// Returns whether the current context is one of OpenGL ES (3.1 or later).
+bool is_es();
+
 /// Returns the names of the extensions, each of which a shader sees as a macro.
 std::vector<std::string> query_extensions();
+
+/// Returns whether the driver named `renderer` (the value of GL_RENDERER) draws on the CPU.
+bool is_software_renderer(std::string_view renderer);
 
 // Detects context resets and exhausted memory after work was given to the driver.
 

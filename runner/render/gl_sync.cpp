@@ -1,5 +1,7 @@
 #include "render/gl_sync.hpp"
 
+#include "render/gl_context.hpp"
+
 #include <cassert>
 #include <limits>
 
@@ -16,8 +18,11 @@ bool Fence::wait(double seconds) const {
 
 namespace {
 
+/// Returns no query in OpenGL ES.
 QueryHandle create_query() {
     GLuint id = 0;
+    if (is_es())
+        return {};
     glCreateQueries(GL_TIME_ELAPSED, 1, &id);
     return QueryHandle(id);
 }
@@ -25,14 +30,18 @@ QueryHandle create_query() {
 } // namespace
 
 ElapsedTime::ElapsedTime() : query_(create_query()) {
-    glBeginQuery(GL_TIME_ELAPSED, query_.id());
+    if (query_.id() != 0)
+        glBeginQuery(GL_TIME_ELAPSED, query_.id());
 }
 
 void ElapsedTime::stop() {
-    glEndQuery(GL_TIME_ELAPSED);
+    if (query_.id() != 0)
+        glEndQuery(GL_TIME_ELAPSED);
 }
 
 std::optional<double> ElapsedTime::milliseconds() const {
+    if (query_.id() == 0)
+        return std::nullopt;
     GLint bits = 0;
     glGetQueryiv(GL_TIME_ELAPSED, GL_QUERY_COUNTER_BITS, &bits);
     if (bits == 0)
@@ -72,7 +81,7 @@ bool PixelRing::make_room(Buffer& buffer, size_t bytes) const {
 bool PixelRing::read(const RenderTarget& target, Extent size, GLenum format, GLenum type, size_t bytes) {
     assert(!full());
     Buffer& buffer = buffers_[next_];
-    if (!make_room(buffer, bytes))
+    if (target.texture.es || !make_room(buffer, bytes))
         return false;
     glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer.handle.id());
     read_corner(target, size, format, type, 0, nullptr);

@@ -1,3 +1,5 @@
+// Waiting for the GPU: fences, timers, asynchronous read-back.
+//
 // Tests whether the driver has finished all commands up to a point.
 #pragma once
 
@@ -31,7 +33,7 @@ private:
 // Measures GPU time with the driver's timer (GL_TIME_ELAPSED). The timer may be wrong: users compare it with
 // a wall clock, as a study of the lab does.
 
-/// Runs from construction to `stop`; a context can run one at a time.
+/// Runs from construction to `stop`; a context can run one at a time. OpenGL ES has no such timer.
 class ElapsedTime {
 public:
     ElapsedTime();
@@ -59,7 +61,7 @@ public:
 
     /// Starts to copy the rectangle of that size in the target's bottom left corner: rows from the bottom,
     /// tightly packed, `bytes` in all. The ring must not be full. Returns false when the driver has no memory
-    /// for it.
+    /// for it, and with OpenGL ES, which cannot keep a buffer mapped.
     bool read(const RenderTarget& target, Extent size, GLenum format, GLenum type, size_t bytes);
 
     /// Returns whether the oldest picture has arrived.

@@ -66,6 +66,8 @@ struct Texture {
     int depth = 1; ///< 6 for a cube
     GLenum internal_format = 0;
     int levels = 0;
+    bool es =
+        false; ///< made with OpenGL ES, as its context: asking the driver in each draw would wait for it
 
     GLuint id() const { return handle.id(); }
 };
@@ -91,6 +93,12 @@ bool has_storage(const Texture& texture);
 /// Fills level 0 from tightly packed rows, row 0 first (`layer`: a cube's face, a volume's slice). Does not
 /// change other levels: see `make_mipmaps`.
 void upload(const Texture& texture, int layer, GLenum format, GLenum type, std::span<const std::byte> pixels);
+
+/// Sets the components (GL_RED … GL_ALPHA, GL_ZERO, GL_ONE) that samples have as red, green, blue and alpha.
+void set_swizzle(const Texture& texture, const std::array<GLint, 4>& components);
+
+/// Binds the texture to a unit of the current context, for drawing.
+void bind_texture(GLuint unit, const Texture& texture);
 
 /// Returns the texture's size in the driver's memory, all levels included.
 size_t bytes_of(const Texture& texture);

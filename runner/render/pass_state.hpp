@@ -1,3 +1,5 @@
+// State of passes between frames: compared inputs, and saved pictures.
+//
 // Values of uniforms with bitwise comparison.
 #pragma once
 

@@ -12,7 +12,6 @@
 #include "render/gl_sync.hpp"
 #include "render/pass_state.hpp"
 #include "render/picture_parts.hpp"
-#include "render/uniform_table.hpp"
 #include "scene/scene.hpp"
 
 #include <array>

@@ -1,5 +1,6 @@
 #include "render/sound_renderer.hpp"
 
+#include "base/overloaded.hpp"
 #include "base/supervision.hpp"
 #include "media/sound_file.hpp"
 #include "render/compiled_scene.hpp"
@@ -7,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace tidemark::render {
 
@@ -95,6 +98,30 @@ std::vector<int16_t> SoundRenderer::draw_rows(int first, int rows) {
     std::vector<uint8_t> texels(size_t(samples_in(rows)) * 4);
     glReadPixels(0, row, glsl::k_sound_tile, rows, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
     return sound::decode_sound_texels(texels);
+}
+
+std::vector<HeardChannel> heard_channels(const scene::Scene& scene) {
+    std::vector<HeardChannel> heard;
+    const auto add = [&](const scene::Pass& pass, size_t number, const std::filesystem::path& file,
+                         bool video) {
+        if (file.empty() || std::ranges::find(heard, file, &HeardChannel::file) != heard.end())
+            return;
+        const std::string name = fmt::format("iChannel{} {}", number, file.filename().string());
+        heard.push_back({pass.kind == scene::PassKind::image ? name : pass.name + ' ' + name, file, video});
+    };
+    for (const scene::Pass& pass : scene.passes)
+        for (size_t i = 0; pass.kind != scene::PassKind::sound && i < pass.channels.size(); ++i)
+            std::visit(Overloaded{[&](const scene::Music& music) { add(pass, i, music.file, false); },
+                                  [&](const scene::Video& video) { add(pass, i, video.file, true); },
+                                  [](const auto&) {}},
+                       pass.channels[i].input);
+    return heard;
+}
+
+Result<std::optional<sound::InputSound>> read_sound_of(const HeardChannel& channel) {
+    if (channel.video)
+        return sound::read_video_sound(channel.file);
+    return std::optional(TRY(sound::read_music(channel.file)));
 }
 
 } // namespace tidemark::render

@@ -1,16 +1,21 @@
-// Draws a scene's Sound pass as 16-bit stereo samples. A context must be current.
+// The sound of a scene: draws its Sound pass as 16-bit stereo samples, for which a context must be current,
+// and finds the channels that have a sound.
 #pragma once
 
 #include "base/error.hpp"
+#include "media/sound_file.hpp"
 #include "render/channel_textures.hpp"
+#include "render/compiled_scene.hpp"
 #include "render/frame_state.hpp"
 #include "render/gl_program.hpp"
 #include "render/gl_textures.hpp"
-#include "render/uniform_table.hpp"
 #include "scene/scene.hpp"
 #include "shader/shader_source.hpp"
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace tidemark::render {
@@ -48,5 +53,25 @@ private:
     ChannelTextures textures_;
     std::vector<BoundChannel> channels_;
 };
+
+/// The kinds of sound that are taken from a scene.
+struct HeardParts {
+    bool pass = true;   ///< the Sound pass
+    bool inputs = true; ///< `heard_channels`
+};
+
+/// A channel that reads a sound file or a video.
+struct HeardChannel {
+    std::string name; ///< `iChannel0 song.ogg`; of another pass than Image `Buffer A iChannel0 song.ogg`
+    std::filesystem::path file;
+    bool video = false;
+};
+
+/// Returns the channels that have a sound, one for each file. The Sound pass reads no sound, so its own
+/// channels are left out.
+std::vector<HeardChannel> heard_channels(const scene::Scene& scene);
+
+/// Reads the sound of a channel; nothing for a video without an audio track.
+Result<std::optional<sound::InputSound>> read_sound_of(const HeardChannel& channel);
 
 } // namespace tidemark::render

@@ -1,3 +1,5 @@
+// Channels of a pass: sampling parameters, kinds of input, and the channel itself.
+//
 // Sampling parameters of textures, and the defaults of ShaderToy's editor for each kind of input.
 #pragma once
 

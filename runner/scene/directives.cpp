@@ -159,8 +159,8 @@ Result<std::string> DirectiveReader::expect_string() {
     const std::string_view quoted = tokens_[position_++].text;
     std::string name;
     for (size_t i = 1; i + 1 < quoted.size(); ++i) {
-        if (quoted[i] == '\\')
-            ++i;
+        if (quoted[i] == '\\' && (quoted[i + 1] == '"' || quoted[i + 1] == '\\'))
+            ++i; // any other backslash is one of a path, which then gets a hint
         name += quoted[i];
     }
     return name;

@@ -51,8 +51,12 @@ struct OtherHosts {
     std::vector<Diagnostic> warnings; ///< declarations that nothing fills; the dialect of another host
 };
 
-/// Blanks out declarations that `definitions` replaces. `is_taken` tells which channels and names the text's
-/// directives use.
+/// Returns what to write for a file that another host brings along (`#include "DE-Raytracer.frag"`), as a
+/// sentence without its full stop; empty for any other.
+std::string_view advice_on_missing_include(std::string_view name);
+
+/// Blanks out declarations that `definitions` replaces. `taken_channels` and `declared` are those that the
+/// text's directives use already.
 OtherHosts read_other_hosts(text::MappedText& text, const std::array<bool, k_channel_count>& taken_channels,
                             const std::vector<Knob>& declared);
 

@@ -1,5 +1,5 @@
 // The table of the uniforms that the host sets: ShaderToy's, those of the VS Code extension, Tidemark's own,
-// and other hosts' names for the same values. A row holds all that the program knows about a uniform, except
+// and other hosts' names for the same values. A row holds all properties of a uniform, except
 // for its value in a frame: `render::value_of`.
 #pragma once
 

@@ -2,6 +2,7 @@
 
 #include "base/encoding.hpp"
 #include "base/error.hpp"
+#include "base/mapped_text.hpp"
 #include "base/tokens.hpp"
 
 #include <fmt/format.h>
@@ -221,6 +222,12 @@ std::string to_string(const Knob& knob, const KnobValue& value) {
     return to_text(knob, value, info(knob.type).glsl_name);
 }
 
+std::string as_glsl(const Knob& knob, std::string_view type) {
+    if (type == "bool")
+        return knob.value[0] != 0 ? "true" : "false";
+    return knob.type == KnobType::float1 ? float_literal(to_string(knob)) : to_string(knob);
+}
+
 std::string to_literal(const Knob& knob) {
     return to_text(knob, knob.value, info(knob.type).directive_name);
 }
@@ -229,10 +236,11 @@ namespace {
 
 using text::Token;
 
-/// A range of byte offsets in a text.
-struct Span {
+/// The default of a knob, as a range of byte offsets in a text.
+struct DefaultPlace {
     size_t begin;
     size_t end;
+    std::string_view type; ///< of a plain declaration
 };
 
 /// Returns the index after the tokens of `= VALUE`, with `equals` at the `=`: a number with its sign, or
@@ -249,39 +257,62 @@ size_t end_of_value(const std::vector<Token>& tokens, size_t equals) {
     return std::min(i + 1, tokens.size());
 }
 
-/// Returns whether the token is the name in `#iUniform TYPE NAME`, or in `uniform TYPE NAME` for a plain
-/// knob.
-bool declares(const std::vector<Token>& tokens, size_t name, bool plain) {
+/// Returns the index of `iUniform` if the token is the name in `#iUniform TYPE NAME`, or of `uniform` if it
+/// is a name in `uniform TYPE NAME`, for a plain knob.
+std::optional<size_t> declaration_of(const std::vector<Token>& tokens, size_t name, bool plain) {
     if (!plain)
-        return name >= 3 && tokens[name - 3].is("#") && tokens[name - 2].is("iUniform");
+        return name >= 3 && tokens[name - 3].is("#") && tokens[name - 2].is("iUniform")
+                   ? std::optional(name - 2)
+                   : std::nullopt;
     for (size_t i = name; i-- > 0 && !tokens[i].is(";") && !tokens[i].is("}");)
         if (tokens[i].is("uniform"))
-            return true;
-    return false;
+            return i;
+    return std::nullopt;
+}
+
+/// Returns the index of the type's token, for a `uniform` at `first`.
+size_t type_after(const std::vector<Token>& tokens, size_t first) {
+    size_t i = first + 1;
+    while (i < tokens.size() && (tokens[i].is("lowp") || tokens[i].is("mediump") || tokens[i].is("highp")))
+        ++i;
+    return i;
 }
 
 /// Returns the range from the end of a knob's name to the end of its default, if it has one.
-std::optional<Span> place_of_default(const std::vector<Token>& tokens, const Knob& knob) {
+std::optional<DefaultPlace> place_of_default(const std::vector<Token>& tokens, const Knob& knob) {
     for (size_t i = 0; i < tokens.size(); ++i) {
-        if (!tokens[i].is(knob.name) || !declares(tokens, i, knob.plain))
+        const auto first = tokens[i].is(knob.name) ? declaration_of(tokens, i, knob.plain) : std::nullopt;
+        if (!first)
             continue;
         const size_t next = i + 1;
         const bool has_default = next < tokens.size() && tokens[next].is("=");
         const size_t end = has_default ? end_of_value(tokens, next) : next;
-        return Span{tokens[i].end(), tokens[end - 1].end()};
+        return DefaultPlace{tokens[i].end(), tokens[end - 1].end(), tokens[type_after(tokens, *first)].text};
     }
     return std::nullopt;
 }
 
-/// Formats the knob's value for the place of its default: `2.0`, `vec2(1, 0.5)` for a plain knob, whose
-/// default is GLSL.
-std::string default_of(const Knob& knob) {
-    if (!knob.plain)
-        return to_literal(knob);
-    std::string text = to_string(knob);
-    if (knob.type == KnobType::float1 && text.find_first_of(".e") == std::string::npos)
-        text += ".0";
-    return text;
+/// A declaration `uniform TYPE NAME = VALUE, NAME;`.
+struct PlainUniforms {
+    std::string_view type;
+    std::vector<size_t> names; ///< indices of the tokens; empty: another form
+};
+
+PlainUniforms uniforms_at(const std::vector<Token>& tokens, size_t first) {
+    PlainUniforms found;
+    const size_t type = type_after(tokens, first);
+    if (type >= tokens.size() || (first > 0 && tokens[first - 1].is(")"))) // a layout
+        return found;
+    found.type = tokens[type].text;
+    for (size_t i = type + 1; i + 1 < tokens.size();) {
+        found.names.push_back(i);
+        i = tokens[i + 1].is("=") ? end_of_value(tokens, i + 1) : i + 1;
+        if (i < tokens.size() && tokens[i].is(";"))
+            return found;
+        if (i >= tokens.size() || !tokens[i++].is(","))
+            break;
+    }
+    return {};
 }
 
 } // namespace
@@ -289,11 +320,51 @@ std::string default_of(const Knob& knob) {
 Result<std::string> with_defaults(std::string_view text, const std::vector<Knob>& knobs) {
     std::string changed(text);
     for (const Knob& knob : knobs) {
-        const auto place = place_of_default(text::tokenize(changed), knob);
+        const std::vector<Token> tokens = text::tokenize(changed);
+        const auto place = place_of_default(tokens, knob);
         if (!place)
             return fail(ErrorCode::write, fmt::format("there is no line '{} … {}' in it",
                                                       knob.plain ? "uniform" : "#iUniform", knob.name));
-        changed.replace(place->begin, place->end - place->begin, " = " + default_of(knob));
+        changed.replace(place->begin, place->end - place->begin,
+                        " = " + (knob.plain ? as_glsl(knob, place->type) : to_literal(knob)));
+    }
+    return changed;
+}
+
+std::vector<text::Edit> without_plain_defaults(std::string_view text, const std::vector<Knob>& knobs) {
+    const std::vector<Token> tokens = text::tokenize(text);
+    std::vector<text::Edit> edits;
+    for (size_t i = 0; i + 1 < tokens.size(); ++i)
+        if (tokens[i + 1].is("=") && declaration_of(tokens, i, true) &&
+            std::ranges::any_of(knobs,
+                                [&](const Knob& knob) { return knob.plain && tokens[i].is(knob.name); }))
+            edits.push_back({tokens[i].end(), tokens[end_of_value(tokens, i + 1) - 1].end(), {}});
+    return edits;
+}
+
+std::string with_plain_knobs_as_constants(std::string_view text, const std::vector<Knob>& knobs) {
+    const auto find = [&](const Token& token) {
+        return std::ranges::find_if(knobs,
+                                    [&](const Knob& knob) { return knob.plain && token.is(knob.name); });
+    };
+    const std::vector<Token> tokens = text::tokenize(text);
+    std::string changed(text);
+    for (size_t i = tokens.size(); i-- > 0;) {
+        if (!tokens[i].is("uniform"))
+            continue;
+        const PlainUniforms found = uniforms_at(tokens, i);
+        if (found.names.empty() ||
+            !std::ranges::all_of(found.names, [&](size_t name) { return find(tokens[name]) != knobs.end(); }))
+            continue;
+        for (size_t last = found.names.size(); last-- > 0;) {
+            const size_t name = found.names[last];
+            const bool has_value = tokens[name + 1].is("=");
+            const size_t end = has_value ? end_of_value(tokens, name + 1) : name + 1;
+            const size_t begin = tokens[name].end();
+            changed.replace(begin, tokens[end - 1].end() - begin,
+                            " = " + as_glsl(*find(tokens[name]), found.type));
+        }
+        changed.replace(tokens[i].begin, tokens[i].end() - tokens[i].begin, "const");
     }
     return changed;
 }

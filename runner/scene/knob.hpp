@@ -12,6 +12,10 @@
 #include <string_view>
 #include <vector>
 
+namespace tidemark::text {
+struct Edit;
+}
+
 namespace tidemark::scene {
 
 /// A definition and its text. In a study, also a knob.
@@ -123,6 +127,9 @@ inline std::string to_string(const Knob& knob) {
     return to_string(knob, knob.value);
 }
 
+/// Formats the knob's value as GLSL of the type that its declaration has: `2.0`, `vec2(1, 0.5)`, `true`.
+std::string as_glsl(const Knob& knob, std::string_view type);
+
 /// Formats the knob's value as in a directive, which has its own name for colours: `color3(1, 0.5, 0)`.
 std::string to_literal(const Knob& knob);
 
@@ -132,5 +139,12 @@ std::string to_literal(const Knob& knob);
 /// Returns the text of a file with the value of each of these knobs as its default; nothing else changes.
 /// Fails (ErrorCode::write) if it does not declare one of them.
 Result<std::string> with_defaults(std::string_view text, const std::vector<Knob>& knobs);
+
+/// Returns edits that remove the defaults of plain knobs, as in `uniform float a = 1.0;`: GLSL ES has none.
+std::vector<text::Edit> without_plain_defaults(std::string_view text, const std::vector<Knob>& knobs);
+
+/// Returns the text with plain knobs as constants: `uniform float a;` becomes `const float a = 0.5;`.
+/// Unchanged: declarations with a layout, and those that also declare other names.
+std::string with_plain_knobs_as_constants(std::string_view text, const std::vector<Knob>& knobs);
 
 } // namespace tidemark::scene

@@ -2,6 +2,7 @@
 
 #include "scene/load_scene.hpp"
 
+#include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/folders.hpp"
@@ -169,7 +170,9 @@ void warn_of_unused(Scene& scene, const PassFiles& files, const fs::path& projec
 Result<Scene> load_by_project(const fs::path& folder, const PassFiles& files, const LoadOptions& options) {
     const fs::path file = folder / k_project_file;
     const Bounds bounds(folder, options.allow_outside, &options.unsaved);
-    const auto json = bounds.check(file).and_then([&] { return read_file(file); });
+    const std::string* const unsaved = bounds.unsaved(file);
+    const auto json = bounds.check(file).and_then(
+        [&] { return unsaved ? Result<std::string>(*unsaved) : read_file(file); });
     if (!json)
         return fail(json.error());
     auto project = TRY(read_project(*json, file.string(), CodeIn::files));
@@ -311,6 +314,70 @@ Result<Scene> load_scene(const fs::path& path, const LoadOptions& options) {
     if (fs::is_directory(path, ignored))
         return load_folder_scene(path, options);
     return path.extension() == ".json" ? load_json_scene(path, options) : load_file_scene(path, options);
+}
+
+namespace {
+
+bool is_folder(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
+bool is_scene_folder(const fs::path& folder) {
+    return std::ranges::any_of(scene_files_in(folder), [](const fs::path& file) {
+        const auto pass = parse_pass_name(file.stem().string());
+        return file.filename() == k_project_file || (pass && pass->kind == PassName::Kind::image);
+    });
+}
+
+/// Returns whether the name is one of ShaderToy's projects, and not of a file that Tidemark keeps.
+bool is_project(const fs::path& file) {
+    const std::string name = lower_case(file.filename().string());
+    const auto is_kept = [&](std::string_view kept) {
+        return name == kept || name.ends_with("." + std::string(kept));
+    };
+    return name.ends_with(".json") && !is_kept("presets.json") && !is_kept("check.json");
+}
+
+/// Returns whether a file of a folder is a scene: a shader with an entry point, or a project.
+bool is_scene_in_folder(const fs::path& file) {
+    if (is_folder(file))
+        return is_scene_folder(file);
+    const auto text =
+        is_project(file) || is_shader_file(file) ? read_text_file(file) : Result<std::string>("");
+    if (!text)
+        return true; // its error is of use
+    if (is_project(file))
+        return text->find("renderpass") != std::string::npos;
+    return text->find("mainImage") != std::string::npos || text->find("void main") != std::string::npos;
+}
+
+} // namespace
+
+bool is_scene_file(const fs::path& path) {
+    return is_folder(path) || is_shader_file(path) || is_project(path);
+}
+
+bool is_folder_of_scenes(const fs::path& path) {
+    return is_folder(path) && !is_scene_folder(path) && !scenes_of({path}).empty();
+}
+
+std::vector<fs::path> scenes_of(const std::vector<fs::path>& paths) {
+    std::vector<fs::path> scenes;
+    for (const fs::path& path : paths) {
+        if (!is_folder(path) || is_scene_folder(path)) {
+            scenes.push_back(path);
+            continue;
+        }
+        std::vector<fs::path> inside;
+        std::error_code error;
+        for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error))
+            if (is_scene_in_folder(entry->path()))
+                inside.push_back(entry->path());
+        std::ranges::sort(inside);
+        scenes.insert(scenes.end(), inside.begin(), inside.end());
+    }
+    return scenes;
 }
 
 } // namespace tidemark::scene

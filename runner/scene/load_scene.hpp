@@ -1,3 +1,5 @@
+// Loading scenes: options, the limits of paths, folders, and any other form.
+//
 // The options with which a user opens a scene.
 #pragma once
 
@@ -75,5 +77,15 @@ pass_files(const std::filesystem::path& folder);
 /// Reads a scene: a bare `.glsl` or `.frag`, a scene folder, or a ShaderToy `.json`. Fails (ErrorCode::load)
 /// with file and line. Pictures and other media are named, not opened.
 Result<Scene> load_scene(const std::filesystem::path& path, const LoadOptions& options = {});
+
+/// Returns whether a path can be opened as a scene, or as a folder of scenes, by its name alone.
+bool is_scene_file(const std::filesystem::path& path);
+
+/// Returns the scenes that these paths name: files and scene folders themselves, of another folder its scenes
+/// and the scene folders in it, sorted.
+std::vector<std::filesystem::path> scenes_of(const std::vector<std::filesystem::path>& paths);
+
+/// Returns whether the path is a folder of scenes and no scene itself.
+bool is_folder_of_scenes(const std::filesystem::path& path);
 
 } // namespace tidemark::scene

@@ -1,3 +1,5 @@
+// Names in scenes: passes, ShaderToy's media, inputs of directives and options.
+//
 // Names of passes: parses the forms used on tabs and files, and writes the standard form.
 #pragma once
 

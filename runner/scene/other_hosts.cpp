@@ -38,28 +38,36 @@ std::string_view value_of_varying(std::string_view type, std::string_view name) 
     return is_coordinate ? k_texture_coordinates : std::string_view();
 }
 
+/// Returns the value of a member of a block that other hosts' vertex shaders write; empty for any other.
+std::string_view value_of_input(std::string_view type, std::string_view name) {
+    const std::string lower = lower_case(std::string(name));
+    if (type == "vec4" && lower.find("position") != std::string::npos)
+        return "vec4(2.0 * gl_FragCoord.xy / iResolution.xy - 1.0, 0.0, 1.0)";
+    if (type == "vec3" && lower.find("normal") != std::string::npos)
+        return "vec3(0.0, 0.0, 1.0)";
+    return value_of_varying(type, name);
+}
+
 bool is_number_type(std::string_view type) {
     return type == "bool" || (find_knob_type(type) && type != "color3");
 }
+
+/// ShaderToy's old name of iTime, which has its value if a text declares it (shader/rewrite.hpp).
+constexpr std::string_view k_old_time = "iGlobalTime";
 
 KnobType knob_type_of(std::string_view type) {
     return type == "bool" ? KnobType::int1 : find_knob_type(type)->type;
 }
 
-/// A range in the comment after a declaration: `// 0 2`, `// 0.0, 2.0`, `// 0 .. 2`, or Fragmentarium's
-/// `slider[0, 0.5, 2]` with the default in the middle.
-struct CommentRange {
-    double low = 0;
-    double high = 0;
-    std::optional<double> initial{};
-};
+constexpr KnobValue all(double number) {
+    return {number, number, number, number};
+}
 
-std::optional<CommentRange> range_in(std::string_view rest_of_line) {
+/// Returns the range in the comment after a declaration: `// 0 2`, `// 0.0, 2.0`, `// 0 .. 2`.
+std::optional<KnobRange> range_in(std::string_view rest_of_line) {
     static const std::string number = R"(([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?))";
     static const std::regex comment("^\\s*//\\s*\\[?\\s*" + number + R"((?:\s*(?:,|\.\.|to|-)\s*|\s+))" +
                                     number + R"(\s*\]?\s*$)");
-    static const std::regex slider("^\\s*slider\\s*\\[\\s*" + number + "\\s*,\\s*" + number + "\\s*,\\s*" +
-                                   number + R"(\s*\])");
     constexpr size_t k_longest = 200; // std::regex is recursive
     const std::string line(rest_of_line.substr(0, k_longest));
     const auto value = [](const std::ssub_match& match) {
@@ -68,12 +76,85 @@ std::optional<CommentRange> range_in(std::string_view rest_of_line) {
             .value_or(0);
     };
     std::smatch found;
-    CommentRange range;
-    if (std::regex_search(line, found, slider))
-        range = {value(found[1]), value(found[3]), value(found[2])};
-    else if (std::regex_search(line, found, comment))
-        range = {value(found[1]), value(found[2])};
-    return range.low < range.high ? std::optional(range) : std::nullopt;
+    if (!std::regex_search(line, found, comment) || !(value(found[1]) < value(found[2])))
+        return std::nullopt;
+    return KnobRange{all(value(found[1])), all(value(found[2]))};
+}
+
+/// The widget of a uniform in Fragmentarium: `slider[0, 0.5, 2]`, `slider[(0,0),(1,1),(2,2)]`,
+/// `color[1, 0.5, 0]`, `checkbox[true]`, `file[wood.jpg]`.
+struct Widget {
+    std::optional<KnobValue> initial{};
+    std::optional<KnobRange> range{};
+    bool is_colour = false;
+    std::string_view file{};
+};
+
+/// Returns the widget of a uniform with so many components; empty if the numbers do not suit them.
+Widget widget_of(std::string_view kind, const std::vector<double>& numbers, size_t components) {
+    Widget widget;
+    const auto some = [&](size_t first, size_t count) {
+        KnobValue value{};
+        for (size_t i = 0; i < count; ++i)
+            value[i] = numbers[first + i];
+        return count == 1 ? all(value[0]) : value;
+    };
+    if (kind == "slider" && (numbers.size() == 3 || numbers.size() == 3 * components)) {
+        const size_t count = numbers.size() / 3;
+        widget.initial = some(count, count);
+        widget.range = KnobRange{some(0, count), some(2 * count, count)};
+    } else if (kind == "color" && numbers.size() == 3 && components == 3) {
+        widget.initial = some(0, 3);
+        widget.is_colour = true;
+    } else if (kind == "color" && numbers.size() == 6 && components == 4) { // a strength, then its colour
+        widget.initial = {numbers[3], numbers[4], numbers[5], numbers[1]};
+        widget.range = KnobRange{{0, 0, 0, numbers[0]}, {1, 1, 1, numbers[2]}};
+    } else if (kind == "checkbox" && numbers.size() == 1) {
+        widget.initial = all(numbers[0]);
+    }
+    const auto is_empty = [&](size_t i) { return !(widget.range->low[i] < widget.range->high[i]); };
+    for (size_t i = 0; widget.range && i < components; ++i)
+        if (is_empty(i))
+            widget.range.reset();
+    return widget;
+}
+
+/// The lines of a text that only Fragmentarium reads.
+struct FragmentariumLines {
+    std::optional<int> first{};
+    bool vertex_shader = false;
+};
+
+/// Blanks out the lines of Fragmentarium that are not GLSL, and its vertex shader.
+FragmentariumLines remove_lines_of_fragmentarium(text::MappedText& mapped) {
+    constexpr std::string_view k_vertex = "#vertex";
+    constexpr std::string_view k_lines[] = {"#group",  "#donotrun",     "#camera",
+                                            "#buffer", "#buffershader", "#TexParameter"};
+    constexpr std::string_view k_blocks[][2] = {{"#preset", "#endpreset"}, {k_vertex, "#endvertex"}};
+    const std::string_view text = mapped.text();
+    std::vector<text::Edit> edits;
+    FragmentariumLines found;
+    std::string_view end_of_block;
+    int number = 1;
+    for (size_t begin = 0; begin < text.size(); ++number) {
+        const size_t end = std::min(text.find('\n', begin), text.size());
+        const std::string_view line = trimmed(text.substr(begin, end - begin));
+        const std::string_view word = line.substr(0, line.find_first_of(" \t"));
+        for (const auto& [opening, closing] : k_blocks)
+            if (end_of_block.empty() && word == opening)
+                end_of_block = closing;
+        if (!end_of_block.empty() || word.starts_with("#info") ||
+            std::ranges::find(k_lines, word) != std::end(k_lines)) {
+            found.first = found.first.value_or(number);
+            found.vertex_shader = found.vertex_shader || word == k_vertex;
+            edits.push_back({begin, end, {}});
+        }
+        if (word == end_of_block)
+            end_of_block = {};
+        begin = end + 1;
+    }
+    mapped.apply(edits);
+    return found;
 }
 
 /// Reads the declarations of one text.
@@ -81,7 +162,8 @@ class Reader {
 public:
     Reader(text::MappedText& text, const std::array<bool, k_channel_count>& taken,
            const std::vector<Knob>& declared)
-        : text_(text), tokens_(text::tokenize(text.text())), declared_(declared), taken_(taken) {
+        : text_(text), fragmentarium_(remove_lines_of_fragmentarium(text)),
+          tokens_(text::tokenize(text.text())), declared_(declared), taken_(taken) {
         for (const Token& token : tokens_)
             if (token.kind == TokenKind::identifier)
                 ++uses_[token.text];
@@ -103,6 +185,7 @@ public:
             else if (token.is("varying") || (token.is("in") && starts_declaration()))
                 read_varying();
         }
+        std::ranges::stable_sort(edits_, {}, &text::Edit::begin);
         text_.apply(edits_);
         return std::move(result_);
     }
@@ -118,9 +201,23 @@ private:
     void warn(const Token& at, std::string message) {
         result_.warnings.push_back({place_of(at), Severity::warning, std::move(message)});
     }
+    /// Returns the first token of the declaration at the current one: that of its `layout(…)`, if it has one.
+    size_t begin_of_declaration() const {
+        size_t begin = at_;
+        if (begin == 0 || !tokens_[begin - 1].is(")"))
+            return at_;
+        for (int depth = 0; begin-- > 0;) {
+            depth += tokens_[begin].is(")") ? 1 : tokens_[begin].is("(") ? -1 : 0;
+            if (depth == 0)
+                break;
+        }
+        return begin > 0 && begin < at_ && tokens_[begin - 1].is("layout") ? begin - 1 : at_;
+    }
     /// Returns whether an `in` begins a global variable, and not a parameter.
     bool starts_declaration() const {
-        return at_ == 0 || tokens_[at_ - 1].is(";") || tokens_[at_ - 1].is("}") || tokens_[at_].first_on_line;
+        const size_t begin = begin_of_declaration();
+        return begin == 0 || tokens_[begin - 1].is(";") || tokens_[begin - 1].is("}") ||
+               tokens_[begin].first_on_line;
     }
     /// Returns the distance from the qualifier to the type, past a precision.
     size_t offset_of_type() const {
@@ -152,6 +249,15 @@ private:
                  "and write iTime for TIME, iResolution for RENDERSIZE, gl_FragCoord.xy / iResolution.xy for "
                  "isf_FragNormCoord, texture(iChannel0, uv) for IMG_NORM_PIXEL"});
         }
+        const bool complete =
+            !fragmentarium_.vertex_shader && (uses_.contains("main") || uses_.contains("mainImage"));
+        if (fragmentarium_.first)
+            result_.warnings.push_back(
+                {text_.lines().locate(*fragmentarium_.first), Severity::warning,
+                 fmt::format(
+                     "this text is written for Fragmentarium: its sliders are knobs, its lines with # "
+                     "and its vertex shader are left out{}",
+                     complete ? "" : ". `tidemark help fragmentarium` shows the mainImage that it needs")});
     }
 
     /// glslViewer compiles a text once for each `BUFFER_N` that it tests.
@@ -163,13 +269,14 @@ private:
     }
 
     void read_uniform() {
+        const size_t begin = begin_of_declaration();
         const size_t first = at_;
         const size_t type = offset_of_type();
         at_ += type;
-        if (peek(0).is("struct") || peek(1).is("{")) {
-            read_block();
-            return;
-        }
+        if (peek(0).is("struct"))
+            return warn_of_block();
+        if (peek(1).is("{"))
+            return read_block(begin);
         const std::string_view type_name = peek(0).text;
         for (++at_; peek(0).kind == TokenKind::identifier; ++at_) {
             const bool alone = peek(1).is(";") && at_ == first + type + 1;
@@ -187,20 +294,22 @@ private:
         ++at_;
         const bool is_array = peek(0).is("[");
         const std::optional<KnobValue> initial = read_initial(type);
+        const Widget widget = read_widget(type);
         const bool ends = peek(0).is(";") || peek(0).is(",");
         const bool known = find_host_uniform(name.text, true) || is_host_uniform(name.text) ||
+                           name.text == k_old_time ||
                            std::ranges::find(declared_, name.text, &Knob::name) != declared_.end();
         if (known || !is_read(name.text) || !seen_.insert(name.text).second)
             return ends;
         if (type.starts_with("sampler") || type.starts_with("isampler") || type.starts_with("usampler"))
-            read_sampler(first, name, alone && type == "sampler2D");
+            read_sampler(first, name, alone && type == "sampler2D", widget.file);
         else if (is_array || !is_number_type(type))
             warn(name,
                  fmt::format("nothing sets the uniform '{}': it is 0. Tidemark sets uniforms of the types "
                              "float, vec2, vec3, vec4, int, ivec2, ivec3, ivec4 and bool with --set",
                              name.text));
         else if (ends)
-            add_knob(name, type, initial);
+            add_knob(name, type, initial, widget);
         return ends;
     }
 
@@ -242,49 +351,70 @@ private:
         return count == 1 || count == components ? std::optional(value) : std::nullopt;
     }
 
-    /// Reads a range after the `;` that ends the declaration, and blanks out a slider.
-    std::optional<CommentRange> read_range() {
+    /// Reads the widget after the `;` that ends a declaration, and blanks it out with what follows it
+    /// (`slider[0,1,2] Locked`).
+    Widget read_widget(std::string_view type) {
+        const Token& kind = peek(1);
+        constexpr std::string_view k_kinds[] = {"slider", "color", "checkbox", "file"};
+        if (!peek(0).is(";") || !peek(2).is("[") || kind.line != peek(0).line ||
+            std::ranges::find(k_kinds, kind.text) == std::end(k_kinds))
+            return {};
+        std::vector<double> numbers;
+        double sign = 1;
+        size_t end = 3;
+        for (; at_ + end < tokens_.size() && peek(end).line == kind.line && !peek(end).is("]"); ++end) {
+            const Token& token = peek(end);
+            if (token.kind == TokenKind::number)
+                numbers.push_back(sign * number_from<double>(token.text).value_or(0));
+            else if (token.is("true") || token.is("false"))
+                numbers.push_back(token.is("true") ? 1 : 0);
+            sign = token.is("-") ? -1 : 1;
+        }
+        if (!peek(end).is("]"))
+            return {};
+        const std::string_view file =
+            std::string_view(text_.text()).substr(peek(2).end(), peek(end).begin - peek(2).end());
+        while (peek(end + 1).kind == TokenKind::identifier && peek(end + 1).line == kind.line &&
+               peek(end + 1).text.find("Lock") != std::string_view::npos)
+            ++end;
+        edits_.push_back({kind.begin, peek(end).end(), {}});
+        if (kind.is("file"))
+            return {.file = trimmed(file)};
+        return is_number_type(type)
+                   ? widget_of(kind.text, numbers, size_t(info(knob_type_of(type)).components))
+                   : Widget();
+    }
+
+    /// Returns the range in a comment after the `;` that ends the declaration.
+    std::optional<KnobRange> read_range() const {
         if (!peek(0).is(";"))
             return std::nullopt;
         const size_t begin = peek(0).end();
-        const std::string_view line =
-            std::string_view(text_.text()).substr(begin, text_.text().find('\n', begin) - begin);
-        if (peek(1).is("slider") && peek(2).is("["))
-            for (size_t i = 1; at_ + i < tokens_.size() && peek(i).line == peek(0).line; ++i)
-                if (peek(i).is("]")) {
-                    edits_.push_back({peek(1).begin, peek(i).end(), {}});
-                    break;
-                }
-        return range_in(line);
+        return range_in(std::string_view(text_.text()).substr(begin, text_.text().find('\n', begin) - begin));
     }
 
-    void add_knob(const Token& name, std::string_view type, const std::optional<KnobValue>& initial) {
+    void add_knob(const Token& name, std::string_view type, const std::optional<KnobValue>& initial,
+                  const Widget& widget) {
         Knob knob;
         knob.name = std::string(name.text);
-        knob.type = knob_type_of(type);
+        knob.type = widget.is_colour ? KnobType::color3 : knob_type_of(type);
         knob.plain = true;
         knob.where = place_of(name);
-        const std::optional<CommentRange> range = read_range();
-        if (initial)
-            knob.initial = *initial;
-        else if (range && range->initial)
-            knob.initial = {*range->initial, *range->initial, *range->initial, *range->initial};
-        if (range)
-            knob.range = KnobRange{{range->low, range->low, range->low, range->low},
-                                   {range->high, range->high, range->high, range->high}};
-        else if (type == "bool")
-            knob.range = KnobRange{{0, 0, 0, 0}, {1, 1, 1, 1}};
+        knob.initial = initial ? *initial : widget.initial.value_or(KnobValue{});
+        knob.range = widget.range ? widget.range : read_range();
+        if (type == "bool")
+            knob.range = KnobRange{all(0), all(1)};
         if (info(knob.type).whole)
-            knob.step = KnobValue{1, 1, 1, 1};
+            knob.step = all(1);
         knob.value = knob.initial;
-        if (!initial && !(range && range->initial))
+        if (!initial && !widget.initial)
             warn(name, fmt::format("nothing sets the uniform '{0}': it is 0. Give it a value with --set "
                                    "{0}=VALUE or in the window's controls",
                                    name.text));
         result_.knobs.push_back(std::move(knob));
     }
 
-    void read_sampler(size_t first, const Token& name, bool alone) {
+    void read_sampler(size_t first, const Token& name, bool alone, std::string_view file) {
         std::optional<size_t>* channel = nullptr;
         if (std::ranges::find(k_last_frame_names, name.text) != std::end(k_last_frame_names))
             channel = &result_.last_frame;
@@ -296,15 +426,69 @@ private:
         if (!channel || !alone || !*channel) {
             warn(name,
                  fmt::format("nothing fills the sampler '{}': reads give black. Write iChannel0 for it, "
-                             "and name the picture with #iChannel0 \"FILE\"",
-                             name.text));
+                             "and name the picture with #iChannel0 \"{}\"",
+                             name.text, file.empty() ? "FILE" : file));
             return;
         }
         edits_.push_back({tokens_[first].begin, peek(0).end(), {}});
         result_.definitions += fmt::format("#define {} {}\n", name.text, k_channel_names[**channel]);
     }
 
-    void read_block() {
+    /// Makes each member of a block a uniform of its own, and removes the block's name before its members.
+    void read_block(size_t begin) {
+        const size_t name = at_;
+        size_t end = at_ + 2;
+        bool plain = true; // members like `float a, b;`
+        for (; end < tokens_.size() && !tokens_[end].is("}"); ++end)
+            plain = plain && !tokens_[end].is("[") && !tokens_[end].is("{") && !tokens_[end].is("layout");
+        const bool named = end + 2 < tokens_.size() && tokens_[end + 1].kind == TokenKind::identifier;
+        const size_t last = end + (named ? 2 : 1);
+        if (!plain || last >= tokens_.size() || !tokens_[last].is(";"))
+            return warn_of_block();
+        edits_.push_back({tokens_[begin].begin, tokens_[name + 1].end(), {}});
+        edits_.push_back({tokens_[end].begin, tokens_[last].end(), {}});
+        bool starts = true;
+        for (at_ = name + 2; at_ < end;) {
+            const size_t first = at_;
+            if (starts)
+                edits_.push_back({tokens_[at_].begin, tokens_[at_].begin, "uniform "});
+            at_ += peek(0).is("lowp") || peek(0).is("mediump") || peek(0).is("highp") ? 1 : 0;
+            const std::string_view type = peek(0).text;
+            for (++at_; at_ < end && !peek(0).is(";");)
+                if (peek(0).kind != TokenKind::identifier || !name_uniform(first, type, false))
+                    ++at_;
+            ++at_;
+        }
+        at_ = last;
+        if (named)
+            for (size_t i = last; i + 1 < tokens_.size(); ++i)
+                if (tokens_[i].is(tokens_[end + 1].text) && tokens_[i + 1].is("."))
+                    edits_.push_back({tokens_[i].begin, tokens_[i + 1].end(), {}});
+    }
+
+    /// Makes a block that a vertex shader writes, as KodeLife's VertexData, a struct with the values that it
+    /// has at a pixel.
+    void read_input_block(size_t begin) {
+        const size_t name = at_ + 1;
+        std::string values;
+        size_t end = name + 2;
+        for (; end + 2 < tokens_.size() && !tokens_[end].is("}"); end += 3) {
+            const std::string_view type = tokens_[end].text;
+            const std::string_view value = value_of_input(type, tokens_[end + 1].text);
+            if (!tokens_[end + 2].is(";") || value.empty())
+                return;
+            values += fmt::format("{}{}", values.empty() ? "" : ", ", value);
+        }
+        if (end + 2 >= tokens_.size() || !tokens_[end + 2].is(";"))
+            return;
+        edits_.push_back({tokens_[begin].begin, tokens_[at_].end(), "struct"});
+        edits_.push_back({tokens_[end + 1].begin, tokens_[end + 1].end(), {}});
+        result_.definitions +=
+            fmt::format("#define {} {}({})\n", tokens_[end + 1].text, tokens_[name].text, values);
+        at_ = end + 2;
+    }
+
+    void warn_of_block() {
         const Token& name = peek(0);
         while (at_ < tokens_.size() && !peek(0).is("}"))
             ++at_;
@@ -317,7 +501,9 @@ private:
     }
 
     void read_varying() {
-        const size_t first = at_;
+        const size_t first = begin_of_declaration();
+        if (peek(1).kind == TokenKind::identifier && peek(2).is("{"))
+            return read_input_block(first);
         const size_t type = offset_of_type();
         const Token& name = peek(type + 1);
         if (name.kind != TokenKind::identifier || !peek(type + 2).is(";") || !is_read(name.text))
@@ -335,6 +521,7 @@ private:
     }
 
     text::MappedText& text_;
+    const FragmentariumLines fragmentarium_;
     const std::vector<Token> tokens_;
     const std::vector<Knob>& declared_;
     std::array<bool, k_channel_count> taken_;
@@ -346,6 +533,24 @@ private:
 };
 
 } // namespace
+
+std::string_view advice_on_missing_include(std::string_view name) {
+    constexpr std::string_view k_helpers[] = {"MathUtils.frag",     "Complex.frag",   "Classic-Noise.frag",
+                                              "Ashima-Noise.frag",  "QuilezLib.frag", "Sunsky.frag",
+                                              "EmulatedDouble.frag"};
+    constexpr std::string_view k_frames[] = {"2D.frag",      "2D-HP.frag",
+                                             "2DJulia.frag", "Progressive2D.frag",
+                                             "3D.frag",      "Progressive2DJulia.frag",
+                                             "Brute3D.frag"};
+    if (std::ranges::find(k_helpers, name) != std::end(k_helpers))
+        return "It comes with Fragmentarium: copy it from the folder Examples/Include to this place";
+    const bool marches = name.ends_with(".frag") && (name.find("-Raytracer") != std::string_view::npos ||
+                                                     name.find("-Pathtracer") != std::string_view::npos);
+    if (marches || std::ranges::find(k_frames, name) != std::end(k_frames))
+        return "It belongs to Fragmentarium and draws with Fragmentarium's vertex shader: `tidemark help "
+               "fragmentarium` shows what to write in its place";
+    return {};
+}
 
 OtherHosts read_other_hosts(text::MappedText& text, const std::array<bool, k_channel_count>& taken_channels,
                             const std::vector<Knob>& declared) {

@@ -69,8 +69,10 @@ Result<void> check_entry(const Scene& scene, const Draft& draft) {
     if (empty)
         return fail(ErrorCode::load,
                     fmt::format("'{}' is empty: a {} defines {}", place, what, entry_name_of(kind)));
-    return fail(ErrorCode::load, fmt::format("'{}' has no {}: a {} defines {}", place, entry_name_of(kind),
-                                             what, entry_of(kind)));
+    Error error{ErrorCode::load, fmt::format("'{}' has no {}: a {} defines {}", place, entry_name_of(kind),
+                                             what, entry_of(kind))};
+    error.diagnostics = scene.warnings; // the text may be written for another host
+    return fail(std::move(error));
 }
 
 bool is_read(const std::vector<Draft>& drafts, size_t wanted) {
@@ -168,9 +170,13 @@ Result<PassLoader::FileText> PassLoader::read(const fs::path& file) {
             TRY(bounds_.check(path));
         if (const std::string* held = bounds_.unsaved(path))
             return conditional_ == Conditional::read ? *held : plain_text(*held);
-        if (conditional_ == Conditional::read)
-            return read_text_file(path);
-        return read_file(path).map(plain_text);
+        if (conditional_ != Conditional::read)
+            return read_file(path).map(plain_text);
+        auto text = read_text_file(path);
+        const std::string_view advice = advice_on_missing_include(path.filename().string());
+        if (!text && !advice.empty())
+            return fail(text.error().code, fmt::format("{}. {}", text.error().message, advice));
+        return text;
     };
     auto expanded = TRY(text::expand_includes(file, read_text, bounds_.library()));
     for (const auto* paths : {&expanded.files, &expanded.missing}) // a missing one may appear later

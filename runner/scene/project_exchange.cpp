@@ -333,7 +333,7 @@ public:
         for (const Pass& pass : scene_.passes)
             if (pass.kind == PassKind::image)
                 passes.push_back(image_of(pass));
-        const std::string common = knobs_as_constants(scene_) + scene_.common.text();
+        const std::string common = knobs_as_constants(scene_) + code_of(scene_.common);
         if (!common.empty())
             passes.push_back({{"inputs", Json::array()},
                               {"outputs", Json::array()},
@@ -383,6 +383,10 @@ private:
                              Severity::warning, std::move(message)});
     }
 
+    std::string code_of(const text::MappedText& text) const {
+        return with_plain_knobs_as_constants(text.text(), scene_.knobs);
+    }
+
     /// Adds `size`: ShaderToy has no such field and ignores it, but an import reads it here.
     Json image_of(const Pass& pass) {
         Json json = pass_of(pass, "image", "Image", 37);
@@ -412,7 +416,7 @@ private:
                 inputs.push_back(input_of(pass.channels[i], int(i)));
         }
         return {{"inputs", std::move(inputs)}, {"outputs", Json::array({{{"id", output}, {"channel", 0}}})},
-                {"code", pass.text.text()},    {"name", name},
+                {"code", code_of(pass.text)},  {"name", name},
                 {"description", ""},           {"type", type}};
     }
 
@@ -493,10 +497,10 @@ private:
 std::string knobs_as_constants(const Scene& scene) {
     std::string text;
     for (const Knob& knob : scene.knobs) {
-        std::string value = to_string(knob);
-        if (knob.type == KnobType::float1 && value.find_first_of(".e") == std::string::npos)
-            value += ".0";
-        text += fmt::format("const {} {} = {};\n", info(knob.type).glsl_name, knob.name, value);
+        if (knob.plain)
+            continue;
+        const std::string_view type = info(knob.type).glsl_name;
+        text += fmt::format("const {} {} = {};\n", type, knob.name, as_glsl(knob, type));
     }
     return text;
 }

@@ -46,8 +46,8 @@ Result<std::vector<ProjectFile>> split_project(std::string_view json, const std:
 /// Restores the JSON that `split_project` took apart, from the folder's `scene.json`.
 Result<std::string> join_project(const std::filesystem::path& folder, const Bounds& bounds);
 
-/// Returns the knobs as GLSL constants with their present values, since ShaderToy has no user-defined
-/// uniforms.
+/// Returns the knobs of directives as GLSL constants with their present values, since ShaderToy has no
+/// user-defined uniforms. Plain knobs are declared in the text itself.
 std::string knobs_as_constants(const Scene& scene);
 
 /// Writes a scene as a project in the API's form: includes pasted, knobs as constants with their present

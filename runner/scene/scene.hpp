@@ -1,3 +1,5 @@
+// A scene as values, the size it states, and the changes that options make to it.
+//
 // The size that a scene states for its picture: `#iSize 800x450`.
 #pragma once
 

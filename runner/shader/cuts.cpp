@@ -1,5 +1,6 @@
 #include "shader/cuts.hpp"
 
+#include "base/encoding.hpp"
 #include "shader/builtin_functions.hpp"
 #include "shader/fixes.hpp"
 #include "shader/loops.hpp"
@@ -25,6 +26,26 @@ double turns_of(const ParsedText& text, NodeId loop) {
     return bound && bound->number != k_no_node ? std::max(1.0, bound->turns) : k_unknown_turns;
 }
 
+/// Returns the weight of one operation or built-in function; 0 for all else.
+double weight_of(const ParsedText& text, NodeId id) {
+    switch (text.tree()[id].kind) {
+    case NodeKind::prefix:
+    case NodeKind::postfix:
+    case NodeKind::binary:
+    case NodeKind::assign:
+    case NodeKind::conditional: return 1;
+    case NodeKind::call: {
+        const std::string_view name = called_name(text, id);
+        const BuiltinFunction* const function = find_builtin(name);
+        return !function                     ? 0
+               : name.starts_with("tex")     ? k_texture
+               : function->is(Trait::costly) ? k_costly
+                                             : 1;
+    }
+    default: return 0;
+    }
+}
+
 bool calls_function(const ParsedText& text, const TreeFacts& facts, NodeId id) {
     return text.tree()[id].kind == NodeKind::call && facts.function(called_name(text, id));
 }
@@ -34,6 +55,15 @@ constexpr double k_least_work = 4;
 /// Shares of a loop's iterations that are tried.
 constexpr std::array k_parts{0.9, 0.75, 0.5, 0.25};
 constexpr double k_fewest_turns = 2;
+
+/// A march may end early where its step or its way passes a limit. `share` estimates the iterations that are
+/// saved.
+struct Exit {
+    const char* limit;
+    double share;
+};
+constexpr std::array k_exits_of_step{Exit{"< 0.01", 0.6}, Exit{"< 0.001", 0.5}, Exit{"> 20.0", 0.3}};
+constexpr std::array k_exits_of_way{Exit{"> 20.0", 0.4}, Exit{"> 100.0", 0.2}};
 /// Coarser levels show in nearly any picture.
 constexpr int k_coarsest_level = 3;
 
@@ -50,7 +80,7 @@ std::optional<WrittenTokens> between(const ParsedText& text, size_t first, size_
 
 /// Writes a number with four digits.
 std::string number_text(double value) {
-    return as_float(fmt::format("{:.4g}", value));
+    return float_literal(fmt::format("{:.4g}", value));
 }
 
 bool has_jump(const ParsedText& text, NodeId id) {
@@ -99,24 +129,10 @@ WorkEstimate::WorkEstimate(const ParsedText& text, const TreeFacts& facts)
 }
 
 double WorkEstimate::own(NodeId id) const {
-    switch (tree_[id].kind) {
-    case NodeKind::prefix:
-    case NodeKind::postfix:
-    case NodeKind::binary:
-    case NodeKind::assign:
-    case NodeKind::conditional: return 1;
-    case NodeKind::call: {
-        const std::string_view name = called_name(text_, id);
-        const auto known = functions_.find(name);
-        if (known != functions_.end())
+    if (tree_[id].kind == NodeKind::call)
+        if (const auto known = functions_.find(called_name(text_, id)); known != functions_.end())
             return known->second;
-        const BuiltinFunction* const function = find_builtin(name);
-        if (!function)
-            return 0;
-        return name.starts_with("tex") ? k_texture : function->is(Trait::costly) ? k_costly : 1;
-    }
-    default: return 0;
-    }
+    return weight_of(text_, id);
 }
 
 /// Sums bottom-up: children come before their parents.
@@ -264,12 +280,78 @@ void Cutter::add_turns(NodeId loop, std::vector<Cut>& cuts) const {
     }
 }
 
+/// Returns the loop that a `break` at this node would end; k_no_node if there is none.
+NodeId Cutter::loop_around(NodeId id) const {
+    for (id = tree_[id].parent; id != k_no_node; id = tree_[id].parent)
+        if (is_loop(tree_[id].kind))
+            return id;
+        else if (tree_[id].kind == NodeKind::switch_on)
+            break;
+    return k_no_node;
+}
+
+/// Returns whether each iteration sets the variable to a value that costs something.
+bool Cutter::is_computed_in(NodeId loop, std::string_view name) const {
+    for (NodeId id = 1; id < loop; ++id) { // children have smaller numbers
+        const bool declared = tree_[id].kind == NodeKind::declarator && text_.word_of(id) == name;
+        const bool set = tree_[id].kind == NodeKind::assign && text_.word_of(id) == "=" &&
+                         text_.word_of(tree_.child(id, 0)) == name;
+        if ((declared || set) && tree_.child_count(id) > 0 && !is_cheap(id) && loop_around(id) == loop)
+            return true;
+    }
+    return false;
+}
+
+/// Adds exits after `t += d`, where the loop computes the step `d`, and after `t += f(p)`: rays that have
+/// arrived, or are far from everything, need no more iterations.
+void Cutter::add_exits(NodeId step, std::vector<Cut>& cuts) const {
+    const NodeId loop = loop_around(step), statement = tree_[step].parent;
+    if (loop == k_no_node || text_.word_of(step) != "+=" || tree_[statement].kind != NodeKind::expression)
+        return;
+    const auto tokens = between(text_, tree_[statement].begin, tree_[statement].end - 1);
+    if (!tokens)
+        return;
+    const auto add_exit = [&](const std::string& front, std::vector<Wrap> inner, std::string_view value,
+                              const Exit& exit) {
+        inner.push_back(
+            wrapped(text_, *tokens, "{ " + front, fmt::format(" if ({} {}) break; }}", value, exit.limit)));
+        cuts.push_back(
+            {{std::move(inner), fmt::format("{}: leaves the loop after `{}` if {} {}", place_of(step),
+                                            in_short(text_.excerpt(step)), value, exit.limit)},
+             work_.of(loop) * exit.share});
+    };
+    bool marches = false;
+    for (NodeId id = 1; id < step && !marches; ++id) {
+        if (!tree_.is_within(id, tree_.child(step, 1)))
+            continue;
+        std::string front, value;
+        std::vector<Wrap> inner;
+        if (tree_[id].kind == NodeKind::name && is_computed_in(loop, text_.word_of(id)))
+            value = fmt::format("abs({})", text_.word_of(id));
+        else if (calls_function(text_, facts_, id) && !is_cheap(id) && type_of(id) && type_of(id)->scalar()) {
+            const std::string name = fresh_name(text_, "march_step");
+            front = fmt::format("float {} = {}; ", name, text_.excerpt(id));
+            value = fmt::format("abs({})", name);
+            inner = {in_place_of(text_, *between(text_, tree_[id].begin, tree_[id].end - 1), name)};
+        } else
+            continue;
+        marches = true;
+        for (const Exit& exit : k_exits_of_step)
+            add_exit(front, inner, value, exit);
+    }
+    if (marches && tree_[tree_.child(step, 0)].kind == NodeKind::name)
+        for (const Exit& exit : k_exits_of_way)
+            add_exit("", {}, text_.word_of(tree_.child(step, 0)), exit);
+}
+
 std::vector<Cut> Cutter::cuts() const {
     std::vector<Cut> cuts;
     for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
         const NodeKind kind = tree_[id].kind;
         if (is_loop(kind))
             add_turns(id, cuts);
+        if (kind == NodeKind::assign)
+            add_exits(id, cuts);
         if (is_kept(id) || work_.of(id) == 0)
             continue;
         if (kind == NodeKind::binary)

@@ -1,3 +1,5 @@
+// Proposals of `simplify`: cost estimates, cuts, buffers at half size, hoisted expressions.
+//
 // Estimates the operations per pixel of each part of a text, from the text alone: every branch is taken, and
 // loops without a literal bound count sixteen iterations. Good enough to order what to try first, and for
 // nothing else.
@@ -8,6 +10,7 @@
 #include "shader/tree_facts.hpp"
 #include "shader/vocabulary.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <set>
 #include <span>
@@ -39,13 +42,15 @@ private:
     std::unordered_map<std::string_view, double> functions_; ///< operations of one call
 };
 
-// Proposes what could be left out of a text: terms, factors, statements, iterations of loops, the choice of a
-// texture's level, and values that a number could replace. Returns edits only; the caller measures what a cut
-// saves and what it does to the picture.
+// Proposes what could be left out of a text: terms, factors, statements, iterations of loops (all after a
+// number, or those after a march's step is small or large), the choice of a texture's level, and values that
+// a number could replace. Returns edits only; the caller measures what a cut saves and what it does to the
+// picture.
 
 struct Cut {
     Cure change;
     double work = 0;            ///< estimated operations per pixel that it may save
+    bool keeps_values = false;  ///< all values stay, but for a driver's rounding
     bool hangs_on_size = false; ///< the more pixels the picture has, the less the cut changes it
 };
 
@@ -81,6 +86,9 @@ private:
     void add_operands(NodeId id, std::vector<Cut>& cuts) const;
     void add_statement(NodeId id, std::vector<Cut>& cuts) const;
     void add_turns(NodeId loop, std::vector<Cut>& cuts) const;
+    void add_exits(NodeId step, std::vector<Cut>& cuts) const;
+    bool is_computed_in(NodeId loop, std::string_view name) const;
+    NodeId loop_around(NodeId id) const;
     void add(std::optional<WrittenTokens> tokens, std::string instead, std::string reason, double work,
              std::vector<Cut>& cuts) const;
     double work_of_call(NodeId id) const;

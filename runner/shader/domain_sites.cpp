@@ -1,12 +1,19 @@
-// Finds the operations of a text whose value can be undefined, and those that literals prove defined.
+// Finds the operations of a text whose value can be undefined, and those that literals prove defined; and
+// look-ups whose coordinates jump.
 
 #include "shader/builtin_functions.hpp"
 #include "shader/undefined_behaviour.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace tidemark::glsl {
 namespace {
@@ -107,7 +114,7 @@ bool has_exact_reciprocal(const ParsedText& text, NodeId id) {
            });
 }
 
-bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+bool is_any_of(std::string_view word, std::initializer_list<std::string_view> words) {
     return std::ranges::find(words, word) != words.end();
 }
 
@@ -125,9 +132,10 @@ bool is_place(const ParsedText& text, NodeId id) {
     }
 }
 
-class Finder {
+class SiteFinder {
 public:
-    Finder(const ParsedText& text, const TreeFacts& facts) : text_(text), tree_(text.tree()), facts_(facts) {}
+    SiteFinder(const ParsedText& text, const TreeFacts& facts)
+        : text_(text), tree_(text.tree()), facts_(facts) {}
 
     std::vector<DomainSite> run(DomainScope scope) {
         for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
@@ -175,7 +183,7 @@ private:
         if (tree_[around].kind != NodeKind::call || tree_.child_count(around) != 2)
             return false;
         const std::string_view name = called_name(text_, around);
-        const bool whole_part = is_one_of(name, {"floor", "ceil", "trunc", "fract"}) ||
+        const bool whole_part = is_any_of(name, {"floor", "ceil", "trunc", "fract"}) ||
                                 (class_of_type(name) == TypeClass::whole && !name.starts_with("b"));
         const auto type = expression_type(text_, facts_, id);
         return whole_part && !facts_.function(name) && type && !type->matrix();
@@ -195,21 +203,21 @@ private:
         const std::string_view op = text_.word_of(id);
         const NodeId right = tree_.child(id, 1);
         const auto number = number_of(text_, right);
-        if (is_one_of(op, {"<<", ">>", "<<=", ">>="})) {
+        if (is_any_of(op, {"<<", ">>", "<<=", ">>="})) {
             if (!number || *number < 0 || *number > 31)
                 add(id, DomainKind::shift);
-        } else if (is_one_of(op, {"%", "%="}) ||
-                   (is_one_of(op, {"/", "/="}) && facts_.surely_whole[tree_.child(id, 0)] &&
+        } else if (is_any_of(op, {"%", "%="}) ||
+                   (is_any_of(op, {"/", "/="}) && facts_.surely_whole[tree_.child(id, 0)] &&
                     facts_.surely_whole[right])) {
             if (!number || *number == 0)
                 add(id, DomainKind::divisor);
             if (may_have_sign(tree_.child(id, 0)) && is_place(text_, right) &&
                 (tree_[id].kind == NodeKind::binary || is_place(text_, tree_.child(id, 0))))
                 add(id, DomainKind::negative);
-        } else if (is_one_of(op, {"/", "/="}) && facts_.surely_whole[tree_.child(id, 0)] && !number) {
+        } else if (is_any_of(op, {"/", "/="}) && facts_.surely_whole[tree_.child(id, 0)] && !number) {
             add(id, DomainKind::quotient); // `7 / s.n`: the driver's overload resolution finds the type
-        } else if (is_one_of(op, {"<", ">", "<=", ">="}) ||
-                   (is_one_of(op, {"==", "!="}) && (number || number_of(text_, tree_.child(id, 0))))) {
+        } else if (is_any_of(op, {"<", ">", "<=", ">="}) ||
+                   (is_any_of(op, {"==", "!="}) && (number || number_of(text_, tree_.child(id, 0))))) {
             if (!counts(id))
                 add(id, DomainKind::comparison);
         }
@@ -270,7 +278,7 @@ std::string_view domain_name(const ParsedText& text, NodeId id) {
 }
 
 std::vector<DomainSite> find_domain_sites(const ParsedText& text, const TreeFacts& facts, DomainScope scope) {
-    return Finder(text, facts).run(scope);
+    return SiteFinder(text, facts).run(scope);
 }
 
 namespace {
@@ -354,6 +362,190 @@ std::vector<WrongEdges> find_wrong_edges(const ParsedText& text, const TreeFacts
             found.push_back({id, !above});
     }
     std::ranges::sort(found, {}, [&](const WrongEdges& each) { return tree[each.call].begin; });
+    return found;
+}
+
+namespace {
+
+/// Writes coordinates without their jumps. Follows sums, products and constructors only: any other function
+/// may hide a jump.
+class SmoothCoordinates {
+public:
+    SmoothCoordinates(const ParsedText& text, const TreeFacts& facts, NodeId look_up)
+        : text_(text), tree_(text.tree()), facts_(facts), single_(text, facts), look_up_(look_up) {}
+
+    std::optional<JumpingLookUp> run() {
+        const NodeId coordinates = tree_.child(look_up_, 2);
+        if (!jumps(coordinates) || (whole_ && part_))
+            return std::nullopt;
+        auto smooth = written(coordinates, false);
+        auto other = angle_ ? written(coordinates, true) : std::string();
+        if (!smooth || !other || smooth->size() > k_longest)
+            return std::nullopt;
+        return JumpingLookUp{look_up_, std::string(first_), *std::move(smooth), *std::move(other)};
+    }
+
+private:
+    static constexpr size_t k_longest = 240;
+    static constexpr int k_most_depth = 24;
+
+    bool is_built_in(NodeId call) const {
+        const std::string_view name = called_name(text_, call);
+        return !name.empty() && !facts_.function(name);
+    }
+
+    /// Returns the initial value of a variable that never gets another, if it jumps.
+    NodeId jumping_value(NodeId name, int depth) {
+        const NodeId value = single_.of(name);
+        return value != k_no_node && jumps(value, depth + 1) ? value : k_no_node;
+    }
+
+    bool jumps(NodeId id, int depth = 0) {
+        if (depth > k_most_depth)
+            return false;
+        bool any = false;
+        switch (tree_[id].kind) {
+        case NodeKind::name: return jumping_value(id, depth) != k_no_node;
+        case NodeKind::parenthesis:
+        case NodeKind::prefix:
+        case NodeKind::member: return jumps(tree_.child(id, 0), depth + 1);
+        case NodeKind::binary:
+            if (std::string_view("+-*/").find(text_.word_of(id)) == std::string_view::npos)
+                return false;
+            for (const size_t side : {0, 1})
+                any = jumps(tree_.child(id, side), depth + 1) || any;
+            return any;
+        case NodeKind::call: break;
+        default: return false;
+        }
+        if (!is_built_in(id))
+            return false;
+        const std::string_view name = called_name(text_, id);
+        const size_t arguments = tree_.child_count(id) - 1;
+        const bool angle = name == "atan" && arguments == 2;
+        const bool part = name == "fract" || name == "mod";
+        const bool whole = name == "floor" || name == "ceil" || name == "round" || name == "trunc";
+        if (angle || part || whole) {
+            if (first_.empty())
+                first_ = name;
+            angle_ = angle_ || angle;
+            part_ = part_ || part;
+            whole_ = whole_ || whole;
+            if (!angle)
+                jumps(tree_.child(id, 1), depth + 1); // one jump inside another
+            return true;
+        }
+        if (class_of_type(name) != TypeClass::floating)
+            return false;
+        for (size_t i = 1; i <= arguments; ++i)
+            any = jumps(tree_.child(id, i), depth + 1) || any;
+        return any;
+    }
+
+    /// Returns whether the expression has the same value at the look-up: no name in it is set between.
+    bool stays(NodeId id) const {
+        if (tree_[id].kind == NodeKind::assign || tree_[id].kind == NodeKind::postfix ||
+            (tree_[id].kind == NodeKind::call && !is_built_in(id)))
+            return false;
+        if (tree_[id].kind == NodeKind::name)
+            for (NodeId other = 1; other < tree_.nodes.size(); ++other)
+                if (tree_[other].begin > tree_[id].begin && tree_[other].begin < tree_[look_up_].begin)
+                    for (const std::string_view set : names_set(text_, facts_, other))
+                        if (set == text_.word_of(id))
+                            return false;
+        for (NodeId child = tree_[id].first_child; child != k_no_node; child = tree_[child].next)
+            if (!stays(child))
+                return false;
+        return true;
+    }
+
+    std::optional<std::string> written(NodeId id, bool other_angle, int depth = 0) {
+        if (depth > k_most_depth)
+            return std::nullopt;
+        if (!jumps(id))
+            return stays(id) ? std::optional(text_.excerpt(id)) : std::nullopt;
+        const auto part = [&](size_t index) {
+            return written(tree_.child(id, index), other_angle, depth + 1);
+        };
+        switch (tree_[id].kind) {
+        case NodeKind::name: {
+            const auto value = written(single_.of(id), other_angle, depth + 1);
+            return value ? std::optional("(" + *value + ")") : std::nullopt;
+        }
+        case NodeKind::parenthesis: {
+            const auto inside = part(0);
+            return inside ? std::optional("(" + *inside + ")") : std::nullopt;
+        }
+        case NodeKind::prefix: {
+            const auto inside = part(0);
+            return inside ? std::optional(std::string(text_.word_of(id)) + "(" + *inside + ")")
+                          : std::nullopt;
+        }
+        case NodeKind::member: {
+            const auto inside = part(0);
+            return inside ? std::optional(fmt::format("({}).{}", *inside, text_.word_of(id))) : std::nullopt;
+        }
+        case NodeKind::binary: {
+            const auto left = part(0), right = part(1);
+            return left && right ? std::optional(fmt::format("{} {} {}", *left, text_.word_of(id), *right))
+                                 : std::nullopt;
+        }
+        default: break;
+        }
+        const std::string_view name = called_name(text_, id);
+        std::vector<std::string> arguments;
+        for (size_t i = 1; i < tree_.child_count(id); ++i) {
+            auto argument = part(i);
+            if (!argument)
+                return std::nullopt;
+            arguments.push_back(*std::move(argument));
+        }
+        if (name == "fract" || name == "mod")
+            return "(" + arguments[0] + ")";
+        if (name == "atan" && arguments.size() == 2)
+            return other_angle ? fmt::format("atan(-({}), -({}))", arguments[0], arguments[1])
+                               : fmt::format("atan({}, {})", arguments[0], arguments[1]);
+        if (class_of_type(name) != TypeClass::floating)
+            return fmt::format("(0.0 * ({}))", arguments[0]); // the whole part: flat between its jumps
+        return fmt::format("{}({})", name, fmt::join(arguments, ", "));
+    }
+
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
+    const TreeFacts& facts_;
+    SingleValues single_;
+    NodeId look_up_;
+    std::string_view first_{}; ///< the function that jumps
+    bool angle_ = false, part_ = false, whole_ = false;
+};
+
+/// Returns whether the call is a look-up with a named sampler that has mipmaps, and no level or bias.
+bool chooses_mipmap(const ParsedText& text, const TreeFacts& facts, NodeId call,
+                    const std::function<bool(std::string_view sampler)>& has_mipmaps) {
+    const SyntaxTree& tree = text.tree();
+    const NodeId sampler = tree.child(call, 1);
+    return called_name(text, call) == "texture" && !facts.function("texture") &&
+           tree.child_count(call) == 3 && tree[sampler].kind == NodeKind::name &&
+           has_mipmaps(text.word_of(sampler));
+}
+
+} // namespace
+
+std::vector<JumpingLookUp>
+find_jumping_look_ups(const ParsedText& text, const TreeFacts& facts,
+                      const std::function<bool(std::string_view sampler)>& has_mipmaps) {
+    const SyntaxTree& tree = text.tree();
+    const auto reached = functions_of_main(text, facts);
+    std::vector<JumpingLookUp> found;
+    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
+        if (tree[id].kind != NodeKind::call || !chooses_mipmap(text, facts, id, has_mipmaps))
+            continue;
+        const NodeId function = tree.around(id, NodeKind::function);
+        if (function != k_no_node && reached.contains(text.word_of(function)))
+            if (auto jumping = SmoothCoordinates(text, facts, id).run())
+                found.push_back(*std::move(jumping));
+    }
+    std::ranges::sort(found, {}, [&](const JumpingLookUp& each) { return tree[each.call].begin; });
     return found;
 }
 

@@ -207,8 +207,9 @@ std::string divisors(std::string_view prefix) {
 /// only if the division leaves a remainder.
 std::string dividends(std::string_view prefix) {
     std::string text;
-    for (const auto& [name, also] : {std::pair("remainder", ""), {"dividend", "&&{1}-({1}/{2})*{2}!=0"}})
-        text += for_whole_types([&](const std::string& type, int size) {
+    for (const auto& function : {std::pair("remainder", ""), {"dividend", "&&{1}-({1}/{2})*{2}!=0"}})
+        text += for_whole_types([&, name = function.first, also = function.second](const std::string& type,
+                                                                                   int size) {
             std::string overloads;
             for (const bool scalar : {true, false}) {
                 if (!scalar && size == 1)

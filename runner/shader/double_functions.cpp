@@ -46,7 +46,7 @@ std::string definition(std::string_view name, const BuiltinOverload& overload, s
 }
 
 /// Defines a function that GLSL has for floats only, by a call with floats.
-std::string in_floats(std::string_view name, const BuiltinOverload& overload) {
+std::string through_floats(std::string_view name, const BuiltinOverload& overload) {
     const auto passed = [](auto type, size_t i) {
         return is_float_type(type) ? fmt::format("{}(a{})", type, i) : fmt::format("a{}", i);
     };
@@ -83,7 +83,7 @@ public:
             text_ += single_functions();
         for (const BuiltinFunction& function : builtin_functions())
             if (function.is(Trait::in_floats) && used.contains(function.name))
-                define(function, in_floats);
+                define(function, through_floats);
         if (used.contains("refract"))
             for (int size = 2; size <= 4; ++size)
                 if (!owns("refract", fmt::format("dvec{0},dvec{0},double", size)))

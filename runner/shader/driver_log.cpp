@@ -6,6 +6,8 @@
 #include "base/encoding.hpp"
 #include "base/error.hpp"
 #include "base/tokens.hpp"
+#include "shader/builtin_functions.hpp"
+#include "shader/vocabulary.hpp"
 
 #include <fmt/format.h>
 
@@ -288,6 +290,49 @@ std::string in_words(std::string_view message) {
     return text;
 }
 
+/// Names that Tidemark gives the driver for what authors call otherwise.
+constexpr std::pair<std::string_view, std::string_view> k_given_names[] = {
+    {"tidemark_author_main", "main"},   {"tidemark_promoted_main", "main"},
+    {"tidemark_color", "gl_FragColor"}, {"tidemark_output", "the output"},
+    {"tidemark_pixel", "fragColor"},    {"tidemark_at", "fragCoord"},
+    {"tidemark_VERSION", "__VERSION__"}};
+
+/// Returns the author's name for a name that the driver was given.
+std::string_view authors_name(std::string_view name) {
+    constexpr std::string_view k_own = "tidemark_", k_moved = "st_";
+    const auto given =
+        std::ranges::find(k_given_names, name, &std::pair<std::string_view, std::string_view>::first);
+    if (given != std::end(k_given_names))
+        return given->second;
+    if (name.starts_with(k_moved)) { // a word of today's language, or an author's overload of a function
+        const std::string_view word = name.substr(k_moved.size());
+        const bool moved =
+            is_one_of(word, k_reserved_words) || is_keyword(word) || find_builtin(word) || value_type(word);
+        return moved ? word : name;
+    }
+    if (!name.starts_with(k_own))
+        return name;
+    name.remove_prefix(k_own.size());
+    for (const std::string_view prefix : {"double_", "float_", "plain_", "setting_"})
+        if (name.starts_with(prefix) && name.size() > prefix.size())
+            return name.substr(prefix.size());
+    return name == "single" ? "float" : name;
+}
+
+/// Returns the message with the author's names.
+std::string with_authors_names(std::string_view message) {
+    std::string text;
+    while (!message.empty()) {
+        const auto end = std::ranges::find_if_not(message, text::is_word_character);
+        const std::string_view word = message.substr(0, size_t(end - message.begin()));
+        text += authors_name(word);
+        message.remove_prefix(word.size());
+        text += message.substr(0, 1);
+        message.remove_prefix(std::min<size_t>(message.size(), 1));
+    }
+    return text;
+}
+
 /// After a call that fits no overload, Mesa lists all overloads, each as an error of its own.
 class Candidates {
 public:
@@ -346,13 +391,15 @@ std::vector<DriverMessage> parse_driver_log(std::string_view log, const text::Ma
         const SourceLocation where = place_of(message, places, source.lines());
         if (candidates.take(message)) {
             if (candidates.wanted())
-                messages.push_back({{where, Severity::note,
-                                     std::string(message.text.substr(message.text.find_first_not_of(' ')))},
-                                    messages.back().follows});
+                messages.push_back(
+                    {{where, Severity::note,
+                      with_authors_names(message.text.substr(message.text.find_first_not_of(' ')))},
+                     messages.back().follows});
         } else {
             const bool follows =
                 follow_ups.take({message.line, message.column, message.severity, message.text});
-            messages.push_back({{where, message.severity, in_words(message.text)}, follows});
+            messages.push_back(
+                {{where, message.severity, with_authors_names(in_words(message.text))}, follows});
         }
     }
     return messages;

@@ -1,3 +1,5 @@
+// Fixes of faults in a text, one function for each kind of fault.
+//
 // Fixes a texture look-up so that its mipmap level comes from the text, not from neighbouring pixels.
 #pragma once
 
@@ -5,7 +7,11 @@
 #include "shader/source_edits.hpp"
 #include "shader/undefined_behaviour.hpp"
 
+#include <functional>
+#include <map>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace tidemark::glsl {
@@ -113,5 +119,34 @@ std::vector<Cure> shorter_steps(const ParsedText& text, const MarchPlace& place,
 /// Returns fixes with 4, 16, 64 and 256 times the threshold, up to 0.1; empty if the threshold is not a small
 /// literal or a constant with such a value.
 std::vector<Cure> larger_threshold(const ParsedText& text, const TreeFacts& facts, const MarchPlace& place);
+
+// Builds fixes that call a function of their own, which is inserted before the first function that calls it:
+// one fix per file.
+
+class HelperFunction {
+public:
+    /// `name` gets a number if the text already uses it.
+    HelperFunction(const ParsedText& text, std::string_view name) : text_(text), wanted_(name) {}
+
+    /// Returns the text that replaces an expression, given the function's name; nothing: the expression
+    /// stays.
+    using Say = std::function<std::optional<std::string>(const std::string& name)>;
+    void use(NodeId expression, const Say& say);
+
+    /// `define` returns the function's definition for its name, on one line.
+    std::vector<Cure> cures(const std::function<std::string(const std::string& name)>& define,
+                            const std::string& reason) const;
+
+private:
+    struct Uses {
+        std::string name;
+        Wrap first; ///< token at the start of the first function that uses it
+        std::vector<Wrap> wraps{};
+    };
+
+    const ParsedText& text_;
+    std::string wanted_;
+    std::map<std::string, Uses> files_{};
+};
 
 } // namespace tidemark::glsl

@@ -1,6 +1,5 @@
 // Replaces hashes of large sines by hashes of whole numbers, and builds the functions that fixes insert.
 #include "shader/fixes.hpp"
-#include "shader/helper_function.hpp"
 #include "shader/source_edits.hpp"
 #include "shader/tree_facts.hpp"
 #include "shader/vocabulary.hpp"

@@ -1,9 +1,8 @@
 // Insertions between words of the expanded code, made in the source text: in the code, or in a macro's body
 // if every use of that place needs the same insertion.
 
-#include "shader/initialise.hpp"
-
 #include "shader/parsed_text.hpp"
+#include "shader/portability.hpp"
 #include "shader/token_reading.hpp"
 #include "shader/variables.hpp"
 #include "shader/vocabulary.hpp"

@@ -52,9 +52,14 @@ private:
     std::unordered_map<std::string_view, double> known_;
 };
 
+/// A pixel has run at least so many iterations if the driver's limit ends a loop. Some drivers also unroll a
+/// loop of floats with an iteration less than its sums make, which is no limit.
+constexpr int k_fewest_of_a_limit = 32'767;
+
 /// `@` is the number of loops.
 constexpr std::string_view k_ends_prelude = R"(layout(std430,binding=0) buffer $Buffer{uint $out[];};
 bool $open[@];
+int $turns=0;
 bool $counts(int i,bool goes_on){if(!goes_on)$out[2*i+1]=1u;return goes_on;}
 )";
 
@@ -140,9 +145,10 @@ private:
         const NodeId body = tree_[id].kind == NodeKind::loop_do    ? tree_.child(id, 0)
                             : tree_[id].kind == NodeKind::loop_for ? tree_.child(id, 3)
                                                                    : tree_.child(id, 1);
-        edits_.wrap(body, fmt::format("{{{}open[{}]=true;", prefix_, index), "}");
+        edits_.wrap(body, fmt::format("{{{0}open[{1}]=true;++{0}turns;", prefix_, index), "}");
         edits_.wrap(id, fmt::format("{{{}open[{}]=false;", prefix_, index),
-                    fmt::format("if({0}open[{1}]){0}out[{2}]=1u;}}", prefix_, index, LoopEnds::cut(index)));
+                    fmt::format("if({0}open[{1}]&&{0}turns>={3}){0}out[{2}]=1u;}}", prefix_, index,
+                                LoopEnds::cut(index), k_fewest_of_a_limit));
     }
 
     const ParsedText& text_;

@@ -1,3 +1,4 @@
+#include "base/encoding.hpp"
 #include "shader/fixes.hpp"
 #include "shader/tree_facts.hpp"
 #include "shader/vocabulary.hpp"
@@ -17,7 +18,7 @@ namespace {
 std::string number_like(std::string_view digits, double value) {
     std::string text = fmt::format("{}", value);
     if (digits.find_first_of(".eE") != digits.npos)
-        return as_float(text);
+        return float_literal(text);
     return digits.ends_with('u') ? text + "u" : text;
 }
 
@@ -132,19 +133,19 @@ std::optional<Cure> turned_more(const ParsedText& text, NodeId loop, double fact
 }
 
 /// Returns the only literal of a product; k_no_node: there is none, or there are several.
-NodeId literal_of(const ParsedText& text, NodeId id) {
+NodeId literal_in(const ParsedText& text, NodeId id) {
     const SyntaxTree& tree = text.tree();
     id = without_brackets(tree, id);
     if (tree[id].kind != NodeKind::binary || text.word_of(id) != "*")
         return tree[id].kind == NodeKind::literal ? id : k_no_node;
-    const NodeId left = literal_of(text, tree.child(id, 0)), right = literal_of(text, tree.child(id, 1));
+    const NodeId left = literal_in(text, tree.child(id, 0)), right = literal_in(text, tree.child(id, 1));
     return left == k_no_node ? right : right == k_no_node ? left : k_no_node;
 }
 
 /// Returns the literal of an operand, or of a name's value, if it is small enough for a threshold.
 NodeId small_literal(const ParsedText& text, const SingleValues& values, NodeId id) {
     const NodeId value = values.of(without_brackets(text.tree(), id));
-    const NodeId literal = literal_of(text, value == k_no_node ? id : value);
+    const NodeId literal = literal_in(text, value == k_no_node ? id : value);
     const auto size = literal == k_no_node ? std::nullopt : number(text.word_of(literal));
     return size && *size > 0 && *size <= k_largest_threshold ? literal : k_no_node;
 }
@@ -219,7 +220,7 @@ std::vector<Cure> larger_threshold(const ParsedText& text, const TreeFacts& fact
     for (const double factor : k_larger)
         if (const double larger = factor * now; larger <= k_largest_threshold)
             cures.push_back(
-                {{in_place_of(text, *written, as_float(fmt::format("{:.3g}", larger)))},
+                {{in_place_of(text, *written, float_literal(fmt::format("{:.3g}", larger)))},
                  fmt::format(
                      "hit threshold {:.3g} instead of {:.3g}: rounding keeps the distance from becoming less",
                      larger, now)});

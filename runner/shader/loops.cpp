@@ -32,12 +32,12 @@ NodeId literal_node(const ParsedText& text, NodeId id) {
     return found;
 }
 
-std::optional<double> number_of(const ParsedText& text, NodeId literal) {
+std::optional<double> value_of_literal(const ParsedText& text, NodeId literal) {
     return literal == k_no_node ? std::nullopt : number(text.word_of(literal));
 }
 
 std::optional<double> literal(const ParsedText& text, NodeId id) {
-    return id == k_no_node ? std::nullopt : number_of(text, literal_node(text, id));
+    return id == k_no_node ? std::nullopt : value_of_literal(text, literal_node(text, id));
 }
 
 /// Returns the start value from the head of a `for`; 0 if the head has none.
@@ -109,7 +109,7 @@ std::optional<LoopBound> bound_by(const ParsedText& text, NodeId test, NodeId lo
         if (!change || *change == 0 || (*change > 0) != (up || op == "!="))
             continue;
         const NodeId number = literal_node(text, bound);
-        const auto first = first_of(text, loop, name), last = number_of(text, number);
+        const auto first = first_of(text, loop, name), last = value_of_literal(text, number);
         if (*change != 1 || !first || !last)
             return LoopBound{};
         const double distance = *last - *first;

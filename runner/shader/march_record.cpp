@@ -1,6 +1,7 @@
 #include "shader/march_record.hpp"
 
 #include "base/error.hpp"
+#include "shader/lens_text.hpp"
 #include "shader/parsed_text.hpp"
 #include "shader/source_edits.hpp"
 
@@ -284,7 +285,7 @@ Result<MarchNodes> find_march(const ParsedText& text, const TreeFacts& facts, co
 
 namespace {
 
-/// GLSL before the text; `$` is a prefix that no name of the text has, `@` the knob. `on`: this loop is the
+/// GLSL before the text; `$` is a prefix that no name of the text has, `@` the answer. `on`: this loop is the
 /// first one entered. The flags are those of HitFlag.
 constexpr std::string_view k_prelude = R"(#undef TIDEMARK_HIT
 #define mainHit tidemark_own_hit
@@ -357,7 +358,7 @@ bool $tested(bool on, bool holds, float p, bool measured, bool stops_before) {
 bool $bound(bool on, bool holds, bool stopping) {
     if (!on) return holds;
     $out = holds == stopping;
-    if ($out && @ > 3.5) {
+    if ($out && @ > 4.5) {
         if ($allowed == 0) $allowed = 4 * $begun;
         if ($begun < $allowed) {
             $out = false;
@@ -377,8 +378,10 @@ void mainHit(out vec4 hit, in vec2 fragCoord) {
     bool met = $turns > 0 && $last <= $limit;
     float none = $last == $last ? -1.0 : $last;
     hit = vec4(met ? $place : none, float($turns), $last, float($flags + ($out && !met ? 1 : 0)));
-    if (@ > 4.5) hit = color;
-    else if (@ > 3.5) return;
+    if (@ > 5.5) hit = color;
+    else if (@ > 4.5) return;
+    else if (@ > 3.5)
+        hit = $lens(vec4(float($begun), 0.0, 0.0, $entries == 0 ? 0.0 : $out && !met ? 2.0 : 1.0), color);
     else if (@ > 2.5) hit = vec4($fall, $fall_place, 0.0, 0.0);
     else if (@ > 1.5) hit = vec4($place, float($turns), $last, $limit);
     else if (@ > 0.5) hit = color;
@@ -386,15 +389,16 @@ void mainHit(out vec4 hit, in vec2 fragCoord) {
 )";
 
 /// Text to insert around the tokens [begin, end).
-struct Wrap {
+struct Around {
     size_t begin, end;
     std::string before, after;
 };
 
 class Recorder {
 public:
-    Recorder(const ParsedText& text, const TreeFacts& facts)
-        : text_(text), tree_(text.tree()), facts_(facts), prefix_(fresh_prefix(text)), edits_(text) {}
+    Recorder(const ParsedText& text, const TreeFacts& facts, std::optional<RecordAnswer> only)
+        : text_(text), tree_(text.tree()), facts_(facts), prefix_(fresh_prefix(text)),
+          answer_(only ? fmt::format("{}.0", int(*only)) : std::string(k_record_knob)), edits_(text) {}
 
     Result<text::MappedText> run(std::span<const MarchLines> marches) {
         for (const Word& word : text_.words())
@@ -405,9 +409,10 @@ public:
         TRY(check_words(marches));
         insert();
         text::MappedText whole;
-        whole.append_generated(spell(k_prelude, prefix_, k_record_knob));
+        whole.append_generated(spell(k_lens_functions, prefix_));
+        whole.append_generated(spell(k_prelude, prefix_, answer_));
         whole.append(edits_.apply());
-        whole.append_generated(spell(k_main_hit, prefix_, k_record_knob));
+        whole.append_generated(spell(k_main_hit, prefix_, answer_));
         return whole;
     }
 
@@ -461,7 +466,7 @@ private:
 
     /// Returns an error if an insertion would fall inside a macro's expansion.
     Result<void> check_words(std::span<const MarchLines> marches) const {
-        for (const Wrap& wrap : wraps_)
+        for (const Around& wrap : wraps_)
             if (!edits_.begins_alone(wrap.begin) || !edits_.begins_alone(wrap.end))
                 return fail(ErrorCode::load, fmt::format("{}:{}: the march is in a macro",
                                                          marches[0].test.file, marches[0].test.line));
@@ -474,7 +479,7 @@ private:
         for (size_t i = 0; i < order.size(); ++i)
             order[i] = i;
         std::ranges::sort(order, [&](size_t a, size_t b) {
-            const Wrap &x = wraps_[a], &y = wraps_[b];
+            const Around &x = wraps_[a], &y = wraps_[b];
             return x.begin != y.begin ? x.begin > y.begin : x.end != y.end ? x.end < y.end : a > b;
         });
         for (const size_t i : order)
@@ -489,15 +494,17 @@ private:
     const SyntaxTree& tree_;
     const TreeFacts& facts_;
     std::string prefix_;
+    std::string answer_; ///< GLSL: a float
     WordEdits edits_;
-    std::vector<Wrap> wraps_; ///< those around the same tokens: outer first
+    std::vector<Around> wraps_; ///< those around the same tokens: outer first
 };
 
 } // namespace
 
 Result<text::MappedText> record_marches(const ParsedText& text, const TreeFacts& facts,
-                                        std::span<const MarchLines> marches) {
-    return Recorder(text, facts).run(marches);
+                                        std::span<const MarchLines> marches,
+                                        std::optional<RecordAnswer> only) {
+    return Recorder(text, facts, only).run(marches);
 }
 
 } // namespace tidemark::glsl

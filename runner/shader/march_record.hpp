@@ -5,6 +5,7 @@
 #include "shader/parsed_text.hpp"
 #include "shader/tree_facts.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -62,14 +63,17 @@ enum class RecordAnswer {
     picture, ///< the colour of mainImage
     march,   ///< place on the ray, number of tested distances, the last distance, its threshold
     fall,    ///< steepest fall of the distance between two samples, per unit of the way, and its place
+    steps,   ///< a lens (shader/lens_text.hpp): iterations, marked if the march runs out of them
     /// `hit` and `picture` if the loop may take four times as many iterations.
     hit_with_more,
     picture_with_more,
 };
 
 /// Instruments `text`, which is Common and the pass as their authors wrote them. Returns an error if
-/// something is not certain or if the text discards pixels.
+/// something is not certain or if the text discards pixels. `only`: the only answer of the text, which then
+/// needs no knob.
 Result<text::MappedText> record_marches(const ParsedText& text, const TreeFacts& facts,
-                                        std::span<const MarchLines> marches);
+                                        std::span<const MarchLines> marches,
+                                        std::optional<RecordAnswer> only = {});
 
 } // namespace tidemark::glsl

@@ -120,9 +120,9 @@ struct SharedValue {
     std::string type, name, words;
 };
 
-class Finder {
+class CutFinder {
 public:
-    Finder(const ParsedText& text, const TreeFacts& facts, const WorkEstimate& work)
+    CutFinder(const ParsedText& text, const TreeFacts& facts, const WorkEstimate& work)
         : text_(text), tree_(text.tree()), facts_(facts), work_(work), globals_(find_globals(text)),
           expressions_(text, globals_), edits_(text) {}
 
@@ -236,7 +236,7 @@ private:
         auto assigned = at_word(text_, tree_[body_of_function(text_, main_)].begin, "", assignments);
         if (!declared || !assigned)
             return std::nullopt;
-        Cut cut{{{}, reason()}, saved_};
+        Cut cut{{{}, reason()}, saved_, true};
         cut.change.wraps = {*std::move(declared), *std::move(assigned)};
         std::ranges::move(uses_, std::back_inserter(cut.change.wraps));
         return cut;
@@ -280,6 +280,7 @@ std::optional<Cut> half_size(std::span<const BufferReader> passes, size_t buffer
     Cut cut{{{*std::move(drawn)},
              fmt::format("{}:{}: draws the buffer at half its width and height", where.file, where.line)},
             work.of(body_of_function(text, main)) * k_saved,
+            false,
             true};
     for (const BufferReader& reader : passes)
         for (const BufferSampler& sampler : reader.samplers) {
@@ -296,7 +297,7 @@ std::optional<Cut> half_size(std::span<const BufferReader> passes, size_t buffer
 }
 
 std::optional<Cut> once_a_pixel(const ParsedText& text, const TreeFacts& facts, const WorkEstimate& work) {
-    return Finder(text, facts, work).run();
+    return CutFinder(text, facts, work).run();
 }
 
 } // namespace tidemark::glsl

@@ -2,7 +2,7 @@
 
 #include "base/error.hpp"
 #include "scene/project_exchange.hpp"
-#include "shader/initialise.hpp"
+#include "shader/portability.hpp"
 #include "shader/rewrite.hpp"
 #include "shader/survey.hpp"
 #include "shader/vocabulary.hpp"

@@ -47,6 +47,9 @@ public:
     bool defines_function(std::string_view name) const;
     /// Returns whether the text has its own `main`; it may be written for another host.
     bool has_own_main() const { return !facts_.mains.empty(); }
+    /// Returns whether the mouse follows the pointer without a button, as in the other hosts that texts with
+    /// only a `main` are written for. Ask Image.
+    bool mouse_follows_pointer() const { return has_own_main() && !defines_function("mainImage"); }
     /// Returns whether pixels may keep their previous contents.
     bool discards() const { return facts_.discards; }
 

@@ -4,6 +4,8 @@
 #include "scene/host_uniforms.hpp"
 #include "shader/builtin_functions.hpp"
 #include "shader/token_reading.hpp"
+#include "shader/tree_facts.hpp"
+#include "shader/variables.hpp"
 #include "shader/vocabulary.hpp"
 
 #include <fmt/format.h>
@@ -444,6 +446,107 @@ private:
     std::vector<std::pair<size_t, Diagnostic>> found_; ///< with the offset of each
 };
 
+/// Finds `condition ? a : b` with arrays or structures, which browsers refuse (GLSL ES 3.00, section 5.7).
+class Conditionals {
+public:
+    explicit Conditionals(const ParsedText& text)
+        : text_(text), tree_(text.tree()), facts_(find_facts(text)), shapes_(text) {}
+
+    std::vector<Diagnostic> run() {
+        std::vector<Diagnostic> found;
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+            if (tree_[id].kind != NodeKind::conditional)
+                continue;
+            const Shape::Kind kind = kind_of(id);
+            const bool array = kind == Shape::Kind::array;
+            if (SourceLocation where = text_.spelled(tree_[id].word);
+                !where.file.empty() && (array || kind == Shape::Kind::structure))
+                found.push_back(
+                    {std::move(where), Severity::warning,
+                     fmt::format("? : of {}: the site refuses it; {}", array ? "arrays" : "structures",
+                                 array ? "choose between elements, or write an if"
+                                       : "choose between members, or write an if")});
+        }
+        return found;
+    }
+
+private:
+    Shape::Kind kind_of(NodeId id, int depth = 0) {
+        constexpr int k_deepest = 100;
+        if (depth > k_deepest)
+            return Shape::Kind::unknown;
+        switch (tree_[id].kind) {
+        case NodeKind::parenthesis: return kind_of(tree_.child(id, 0), depth + 1);
+        case NodeKind::conditional: {
+            const Shape::Kind yes = kind_of(tree_.child(id, 1), depth + 1);
+            return yes != Shape::Kind::unknown ? yes : kind_of(tree_.child(id, 2), depth + 1);
+        }
+        case NodeKind::name:
+        case NodeKind::index:
+        case NodeKind::member: {
+            const Shape* const whole = shape_of(base_of(tree_, id));
+            const Shape* const part = !whole                             ? nullptr
+                                      : tree_[id].kind == NodeKind::name ? whole
+                                                                         : shapes_.part_of(*whole, id).shape;
+            return part ? part->kind : Shape::Kind::unknown;
+        }
+        case NodeKind::call: return kind_of_call(id);
+        default: return Shape::Kind::unknown;
+        }
+    }
+
+    Shape::Kind kind_of_call(NodeId call) {
+        const std::string_view name = called_name(text_, call);
+        if (name.empty())
+            return tree_[tree_.child(call, 0)].kind == NodeKind::index ? Shape::Kind::array
+                                                                       : Shape::Kind::unknown;
+        if (facts_.structures.contains(name))
+            return Shape::Kind::structure;
+        const FunctionFacts* const function = facts_.function(name);
+        return function && !function->definitions.empty()
+                   ? shapes_.of(tree_.child(function->definitions.front(), 0), k_no_node).kind
+                   : Shape::Kind::unknown;
+    }
+
+    /// Returns the shape of the last variable of that name that is declared before it, in its function or
+    /// globally.
+    const Shape* shape_of(NodeId name) {
+        const NodeId function = tree_.around(name, NodeKind::function);
+        const Shape* shape = nullptr;
+        bool local = false;
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+            const bool parameter = tree_[id].kind == NodeKind::parameter;
+            if ((tree_[id].kind != NodeKind::declarator && !parameter) ||
+                text_.word_of(id) != text_.word_of(name) || tree_[id].begin > tree_[name].begin)
+                continue;
+            const NodeId where = tree_.around(id, NodeKind::function);
+            if ((where != function && where != k_no_node) || (local && where == k_no_node))
+                continue;
+            local = where != k_no_node;
+            const NodeId type = tree_.child(parameter ? id : tree_[id].parent, 0);
+            shape = &shapes_.of(type, parameter ? k_no_node : id);
+        }
+        return shape;
+    }
+
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
+    TreeFacts facts_;
+    Shapes shapes_;
+};
+
+/// Adds those of a pass, once: Common is part of several passes.
+void add_conditionals(const scene::Scene& scene, const scene::Pass& pass, std::vector<Diagnostic>& all) {
+    text::MappedText whole = scene.common;
+    whole.append(pass.text);
+    const auto text = ParsedText::read(std::move(whole), k_site_macros, false);
+    if (!text)
+        return; // a compiler says why
+    for (Diagnostic& each : Conditionals(**text).run())
+        if (std::ranges::find(all, each) == all.end())
+            all.push_back(std::move(each));
+}
+
 } // namespace
 
 std::vector<Diagnostic> portability_lint(const scene::Scene& scene) {
@@ -454,6 +557,7 @@ std::vector<Diagnostic> portability_lint(const scene::Scene& scene) {
         linter.know(common);
         for (Diagnostic& diagnostic : linter.run())
             all.push_back(std::move(diagnostic));
+        add_conditionals(scene, pass, all);
     }
     return all;
 }

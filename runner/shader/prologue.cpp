@@ -296,16 +296,16 @@ constexpr Key k_keys[] = {
     {"CloseBraket", 221},  {"SingleQuote", 222},
 };
 
-constexpr std::string_view k_functions[] = {"isKeyDown", "isKeyPressed", "isKeyToggled", "isKeyReleased"};
+constexpr std::string_view k_key_functions[] = {"isKeyDown", "isKeyPressed", "isKeyToggled", "isKeyReleased"};
 
 } // namespace
 
 std::string keyboard_helpers() {
     std::string text = "uniform sampler2D iKeyboard;\n";
-    for (size_t row = 0; row < std::size(k_functions); ++row)
+    for (size_t row = 0; row < std::size(k_key_functions); ++row)
         text +=
             fmt::format("bool {}(int key) {{ return texelFetch(iKeyboard, ivec2(key, {}), 0).x > 0.0; }}\n",
-                        k_functions[row], row);
+                        k_key_functions[row], row);
     const auto add = [&](std::string_view name, int code) {
         text += fmt::format("const int Key_{} = {};\n", name, code);
     };

@@ -1,7 +1,7 @@
 // Fixes of what float rounding spoils: texts that say the same with fewer lost digits, and times reduced to a
 // period.
+#include "base/encoding.hpp"
 #include "shader/fixes.hpp"
-#include "shader/helper_function.hpp"
 #include "shader/source_edits.hpp"
 #include "shader/tree_facts.hpp"
 #include "shader/vocabulary.hpp"
@@ -364,7 +364,7 @@ private:
             if (text_.words()[i].from_macro())
                 return;
         turns_.use(term, [&](const std::string& name) {
-            return fmt::format("{} * {}({})", as_float(fmt::format("{}", turn)), name, in_parts(rate));
+            return fmt::format("{} * {}({})", float_literal(fmt::format("{}", turn)), name, in_parts(rate));
         });
     }
 

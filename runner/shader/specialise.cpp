@@ -136,7 +136,7 @@ private:
 };
 
 /// Returns a value as text that GLSL reads back to the same bits.
-std::optional<std::string> spell(const scene::Knob& knob) {
+std::optional<std::string> value_text(const scene::Knob& knob) {
     const scene::KnobTypeInfo& type = scene::info(knob.type);
     std::string numbers;
     for (int i = 0; i < type.components; ++i) {
@@ -178,7 +178,7 @@ private:
             const auto knob = std::find_if(knobs_.begin(), knobs_.end(), [&](const scene::Knob& each) {
                 return each.name == global.names[0];
             });
-            const auto value = knob == knobs_.end() ? std::nullopt : spell(*knob);
+            const auto value = knob == knobs_.end() ? std::nullopt : value_text(*knob);
             const Node& node = tree_[global.node];
             if (!value || !edits_.stands_alone(node.begin, node.end))
                 continue;

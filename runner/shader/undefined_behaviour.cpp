@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
@@ -67,10 +68,13 @@ using Names = std::unordered_set<std::string_view>;
 class DivergentRegions {
 public:
     DivergentRegions(const ParsedText& text, const TreeFacts& facts)
-        : text_(text), tree_(text.tree()), facts_(facts), differs_(tree_.nodes.size(), false) {
+        : text_(text), tree_(text.tree()), facts_(facts), single_(text, facts),
+          differs_(tree_.nodes.size(), false) {
         names_.insert("gl_FragCoord");
-        for (NodeId id = 1; id < tree_.nodes.size(); ++id)
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
             declare(id);
+            note_place(id);
+        }
         while (round()) { // each round only adds entries, so this ends
         }
     }
@@ -87,7 +91,119 @@ public:
         return divergent == divergent_functions_.end() ? std::nullopt : std::optional(divergent->second);
     }
 
+    /// Returns whether neighbours on other paths have the value of an expression: its names were set before
+    /// the paths part, and it consists of their sums and multiples.
+    bool neighbours_have(NodeId expression, int depth = 0) const {
+        constexpr int k_deepest = 24;
+        if (!differs_[expression])
+            return true;
+        if (depth > k_deepest)
+            return false;
+        const auto part = [&](size_t index) {
+            return neighbours_have(tree_.child(expression, index), depth + 1);
+        };
+        const auto same = [&](size_t index) { return !differs_[tree_.child(expression, index)]; };
+        switch (tree_[expression].kind) {
+        case NodeKind::name: return neighbours_have_name(expression, depth);
+        case NodeKind::parenthesis:
+        case NodeKind::member: return part(0);
+        case NodeKind::prefix: return text_.word_of(expression) == "-" && part(0);
+        case NodeKind::binary: {
+            const std::string_view sign = text_.word_of(expression);
+            return sign == "*"   ? (same(0) || same(1)) && part(0) && part(1)
+                   : sign == "/" ? same(1) && part(0)
+                                 : (sign == "+" || sign == "-") && part(0) && part(1);
+        }
+        case NodeKind::call: {
+            const std::string_view name = called_name(text_, expression);
+            if (name.empty() || class_of_type(name) != TypeClass::floating)
+                return false;
+            for (size_t i = 1; i < tree_.child_count(expression); ++i)
+                if (!part(i))
+                    return false;
+            return true;
+        }
+        default: return false;
+        }
+    }
+
 private:
+    bool neighbours_have_name(NodeId name, int depth) const {
+        const std::string_view word = text_.word_of(name);
+        if (word == "gl_FragCoord")
+            return true;
+        const NodeId function = tree_.around(name, NodeKind::function);
+        const auto locals = locals_.find(function);
+        if (function == k_no_node || locals == locals_.end() || !locals->second.contains(word))
+            return false;
+        const auto sets = sets_.find({function, word});
+        const auto paths = where_paths_part(function, name);
+        const bool before = sets == sets_.end() || std::ranges::all_of(sets->second, [&](size_t at) {
+                                return at < paths.first || at >= paths.last;
+                            });
+        if (before && !divergent_functions_.contains(text_.word_of(function)))
+            return true;
+        const NodeId value = single_.of(name);
+        if (value != k_no_node)
+            return neighbours_have(value, depth + 1);
+        return sets == sets_.end() && callers_have(function, word, depth);
+    }
+
+    /// Returns whether neighbours have the argument in every call of the function.
+    bool callers_have(NodeId function, std::string_view parameter, int depth) const {
+        const auto calls = calls_.find(text_.word_of(function));
+        if (calls == calls_.end())
+            return false;
+        for (size_t i = 1; i < tree_.child_count(function); ++i) {
+            const NodeId each = tree_.child(function, i);
+            if (tree_[each].kind != NodeKind::parameter || text_.word_of(each) != parameter)
+                continue;
+            return std::ranges::all_of(calls->second, [&](NodeId call) {
+                const NodeId argument = tree_.child(call, i);
+                return argument != k_no_node && neighbours_have(argument, depth + 1);
+            });
+        }
+        return false;
+    }
+
+    /// The words between which some pixels of a function are on another path, or in another iteration.
+    struct Parted {
+        size_t first, last;
+    };
+
+    /// Returns the words before and around the node; its own place if no condition of the function separates
+    /// the pixels that reach it.
+    Parted where_paths_part(NodeId function, NodeId node) const {
+        Parted parted{tree_[node].begin, tree_[node].begin};
+        for (NodeId inner = node, outer = tree_[node].parent; inner != function && inner != k_no_node;
+             inner = outer, outer = tree_[outer].parent)
+            if (const NodeId condition = condition_over(inner, outer);
+                condition != k_no_node && (differs_[condition] || divergent_loops_.contains(outer))) {
+                const bool repeats = is_loop(tree_[outer].kind);
+                parted.first = std::min<size_t>(parted.first, tree_[repeats ? outer : condition].begin);
+                if (repeats)
+                    parted.last = tree_[outer].end;
+            }
+        if (const NodeId exit = exit_before(function, node); exit != k_no_node)
+            parted.first = std::min<size_t>(parted.first, tree_[exit].begin);
+        return parted;
+    }
+
+    /// Records where variables are set, and calls of functions.
+    void note_place(NodeId id) {
+        const NodeId function = tree_.around(id, NodeKind::function);
+        if (function == k_no_node)
+            return;
+        if (tree_[id].kind == NodeKind::declarator)
+            sets_[{function, text_.word_of(id)}].push_back(tree_[id].begin);
+        if (is_expression(tree_[id].kind))
+            for (const std::string_view name : names_set(text_, facts_, id))
+                sets_[{function, name}].push_back(tree_[id].begin);
+        if (tree_[id].kind == NodeKind::call)
+            if (const std::string_view name = called_name(text_, id); !name.empty())
+                calls_[name].push_back(id);
+    }
+
     /// Returns the condition of `outer` that decides whether, or how often, its child `inner` runs.
     NodeId condition_over(NodeId inner, NodeId outer) const {
         const auto first = tree_.child(outer, 0);
@@ -314,6 +430,9 @@ private:
     const ParsedText& text_;
     const SyntaxTree& tree_;
     const TreeFacts& facts_;
+    SingleValues single_;
+    std::map<std::pair<NodeId, std::string_view>, std::vector<size_t>> sets_; ///< by function and name
+    std::unordered_map<std::string_view, std::vector<NodeId>> calls_;         ///< by function
     size_t found_ = 0;          ///< number of entries in the members below
     std::vector<bool> differs_; ///< per expression
     Names names_;               ///< variables that differ
@@ -326,6 +445,19 @@ private:
     std::unordered_map<NodeId, Names> locals_;            ///< by function
     std::unordered_set<NodeId> divergent_loops_;
 };
+
+/// Returns whether a look-up has a bias, such as -100.0, by which it reads the base level whatever its
+/// coordinates' derivatives are.
+bool always_base_level(const ParsedText& text, NodeId look_up) {
+    constexpr double k_least_size = 10;
+    const NodeId bias = text.tree().child(look_up, 3);
+    if (bias == k_no_node)
+        return false;
+    if (text.tree()[bias].kind != NodeKind::prefix || text.word_of(bias) != "-")
+        return false;
+    const auto size = number(text.word_of(text.tree().child(bias, 0)));
+    return size && *size >= k_least_size;
+}
 
 } // namespace
 
@@ -341,6 +473,10 @@ std::vector<Divergent> find_divergent(const ParsedText& text, const TreeFacts& f
                            (builtin->is(Trait::implicit_lod) && sampler != k_no_node &&
                             tree[sampler].kind == NodeKind::name && has_mipmaps(text.word_of(sampler))));
     };
+    const auto coordinates = [&](NodeId call) {
+        const bool derivative = find_builtin(called_name(text, call))->is(Trait::derivative);
+        return tree.child(call, derivative ? 1 : 2);
+    };
     std::optional<DivergentRegions> regions; // created on demand: most texts need none
     std::vector<Divergent> found;
     for (NodeId id = 1; id < tree.nodes.size(); ++id) {
@@ -352,193 +488,10 @@ std::vector<Divergent> find_divergent(const ParsedText& text, const TreeFacts& f
         if (!regions)
             regions.emplace(text, facts);
         if (const auto branch = regions->before(id))
-            found.push_back({id, *branch});
+            found.push_back(
+                {id, *branch, always_base_level(text, id) || regions->neighbours_have(coordinates(id))});
     }
     std::ranges::sort(found, {}, [&](const Divergent& each) { return tree[each.call].begin; });
-    return found;
-}
-
-namespace {
-
-/// Writes coordinates without their jumps. Follows sums, products and constructors only: any other function
-/// may hide a jump.
-class SmoothCoordinates {
-public:
-    SmoothCoordinates(const ParsedText& text, const TreeFacts& facts, NodeId look_up)
-        : text_(text), tree_(text.tree()), facts_(facts), single_(text, facts), look_up_(look_up) {}
-
-    std::optional<JumpingLookUp> run() {
-        const NodeId coordinates = tree_.child(look_up_, 2);
-        if (!jumps(coordinates) || (whole_ && part_))
-            return std::nullopt;
-        auto smooth = written(coordinates, false);
-        auto other = angle_ ? written(coordinates, true) : std::string();
-        if (!smooth || !other || smooth->size() > k_longest)
-            return std::nullopt;
-        return JumpingLookUp{look_up_, std::string(first_), *std::move(smooth), *std::move(other)};
-    }
-
-private:
-    static constexpr size_t k_longest = 240;
-    static constexpr int k_most_depth = 24;
-
-    bool is_built_in(NodeId call) const {
-        const std::string_view name = called_name(text_, call);
-        return !name.empty() && !facts_.function(name);
-    }
-
-    /// Returns the initial value of a variable that never gets another, if it jumps.
-    NodeId jumping_value(NodeId name, int depth) {
-        const NodeId value = single_.of(name);
-        return value != k_no_node && jumps(value, depth + 1) ? value : k_no_node;
-    }
-
-    bool jumps(NodeId id, int depth = 0) {
-        if (depth > k_most_depth)
-            return false;
-        bool any = false;
-        switch (tree_[id].kind) {
-        case NodeKind::name: return jumping_value(id, depth) != k_no_node;
-        case NodeKind::parenthesis:
-        case NodeKind::prefix:
-        case NodeKind::member: return jumps(tree_.child(id, 0), depth + 1);
-        case NodeKind::binary:
-            if (!is_arithmetic(text_.word_of(id)))
-                return false;
-            for (const size_t side : {0, 1})
-                any = jumps(tree_.child(id, side), depth + 1) || any;
-            return any;
-        case NodeKind::call: break;
-        default: return false;
-        }
-        if (!is_built_in(id))
-            return false;
-        const std::string_view name = called_name(text_, id);
-        const size_t arguments = tree_.child_count(id) - 1;
-        const bool angle = name == "atan" && arguments == 2;
-        const bool part = name == "fract" || name == "mod";
-        const bool whole = name == "floor" || name == "ceil" || name == "round" || name == "trunc";
-        if (angle || part || whole) {
-            if (first_.empty())
-                first_ = name;
-            angle_ = angle_ || angle;
-            part_ = part_ || part;
-            whole_ = whole_ || whole;
-            if (!angle)
-                jumps(tree_.child(id, 1), depth + 1); // one jump inside another
-            return true;
-        }
-        if (class_of_type(name) != TypeClass::floating)
-            return false;
-        for (size_t i = 1; i <= arguments; ++i)
-            any = jumps(tree_.child(id, i), depth + 1) || any;
-        return any;
-    }
-
-    /// Returns whether the expression has the same value at the look-up: no name in it is set between.
-    bool stays(NodeId id) const {
-        if (tree_[id].kind == NodeKind::assign || tree_[id].kind == NodeKind::postfix ||
-            (tree_[id].kind == NodeKind::call && !is_built_in(id)))
-            return false;
-        if (tree_[id].kind == NodeKind::name)
-            for (NodeId other = 1; other < tree_.nodes.size(); ++other)
-                if (tree_[other].begin > tree_[id].begin && tree_[other].begin < tree_[look_up_].begin)
-                    for (const std::string_view set : names_set(text_, facts_, other))
-                        if (set == text_.word_of(id))
-                            return false;
-        for (NodeId child = tree_[id].first_child; child != k_no_node; child = tree_[child].next)
-            if (!stays(child))
-                return false;
-        return true;
-    }
-
-    std::optional<std::string> written(NodeId id, bool other_angle, int depth = 0) {
-        if (depth > k_most_depth)
-            return std::nullopt;
-        if (!jumps(id))
-            return stays(id) ? std::optional(text_.excerpt(id)) : std::nullopt;
-        const auto part = [&](size_t index) {
-            return written(tree_.child(id, index), other_angle, depth + 1);
-        };
-        switch (tree_[id].kind) {
-        case NodeKind::name: {
-            const auto value = written(single_.of(id), other_angle, depth + 1);
-            return value ? std::optional("(" + *value + ")") : std::nullopt;
-        }
-        case NodeKind::parenthesis: {
-            const auto inside = part(0);
-            return inside ? std::optional("(" + *inside + ")") : std::nullopt;
-        }
-        case NodeKind::prefix: {
-            const auto inside = part(0);
-            return inside ? std::optional(std::string(text_.word_of(id)) + "(" + *inside + ")")
-                          : std::nullopt;
-        }
-        case NodeKind::member: {
-            const auto inside = part(0);
-            return inside ? std::optional(fmt::format("({}).{}", *inside, text_.word_of(id))) : std::nullopt;
-        }
-        case NodeKind::binary: {
-            const auto left = part(0), right = part(1);
-            return left && right ? std::optional(fmt::format("{} {} {}", *left, text_.word_of(id), *right))
-                                 : std::nullopt;
-        }
-        default: break;
-        }
-        const std::string_view name = called_name(text_, id);
-        std::vector<std::string> arguments;
-        for (size_t i = 1; i < tree_.child_count(id); ++i) {
-            auto argument = part(i);
-            if (!argument)
-                return std::nullopt;
-            arguments.push_back(*std::move(argument));
-        }
-        if (name == "fract" || name == "mod")
-            return "(" + arguments[0] + ")";
-        if (name == "atan" && arguments.size() == 2)
-            return other_angle ? fmt::format("atan(-({}), -({}))", arguments[0], arguments[1])
-                               : fmt::format("atan({}, {})", arguments[0], arguments[1]);
-        if (class_of_type(name) != TypeClass::floating)
-            return fmt::format("(0.0 * ({}))", arguments[0]); // the whole part: flat between its jumps
-        return fmt::format("{}({})", name, fmt::join(arguments, ", "));
-    }
-
-    const ParsedText& text_;
-    const SyntaxTree& tree_;
-    const TreeFacts& facts_;
-    SingleValues single_;
-    NodeId look_up_;
-    std::string_view first_{}; ///< the function that jumps
-    bool angle_ = false, part_ = false, whole_ = false;
-};
-
-/// Returns whether the call is a look-up with a named sampler that has mipmaps, and no level or bias.
-bool chooses_mipmap(const ParsedText& text, const TreeFacts& facts, NodeId call,
-                    const std::function<bool(std::string_view sampler)>& has_mipmaps) {
-    const SyntaxTree& tree = text.tree();
-    const NodeId sampler = tree.child(call, 1);
-    return called_name(text, call) == "texture" && !facts.function("texture") &&
-           tree.child_count(call) == 3 && tree[sampler].kind == NodeKind::name &&
-           has_mipmaps(text.word_of(sampler));
-}
-
-} // namespace
-
-std::vector<JumpingLookUp>
-find_jumping_look_ups(const ParsedText& text, const TreeFacts& facts,
-                      const std::function<bool(std::string_view sampler)>& has_mipmaps) {
-    const SyntaxTree& tree = text.tree();
-    const auto reached = functions_of_main(text, facts);
-    std::vector<JumpingLookUp> found;
-    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
-        if (tree[id].kind != NodeKind::call || !chooses_mipmap(text, facts, id, has_mipmaps))
-            continue;
-        const NodeId function = tree.around(id, NodeKind::function);
-        if (function != k_no_node && reached.contains(text.word_of(function)))
-            if (auto jumping = SmoothCoordinates(text, facts, id).run())
-                found.push_back(*std::move(jumping));
-    }
-    std::ranges::sort(found, {}, [&](const JumpingLookUp& each) { return tree[each.call].begin; });
     return found;
 }
 

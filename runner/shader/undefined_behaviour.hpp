@@ -1,3 +1,5 @@
+// Finds undefined results in a text: NaN, domains, edges, derivatives, variables without a value.
+//
 // Finds the operations of a text that can make a NaN or an infinity from finite values.
 #pragma once
 
@@ -92,6 +94,10 @@ struct DivergentBranch {
 struct Divergent {
     NodeId call = k_no_node;
     DivergentBranch branch;
+    /// Neighbours on other paths have the values that the coordinates consist of: these are from before the
+    /// branch, or sums and multiples of the pixel's place. Or a bias always selects the base level. Undefined
+    /// in GLSL all the same.
+    bool harmless = false;
 };
 
 /// Returns such calls in functions reachable from `main`, in the order of the text. A value may differ

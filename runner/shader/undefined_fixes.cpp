@@ -146,9 +146,9 @@ std::optional<Cure> hoisted_derivative(const ParsedText& text, const TreeFacts& 
 namespace {
 
 /// Writes the zero of a variable, of a parameter or of a function's result.
-class Zeros {
+class ZeroFixes {
 public:
-    Zeros(const ParsedText& text, const TreeFacts& facts) : text_(text), facts_(facts), shapes_(text) {}
+    ZeroFixes(const ParsedText& text, const TreeFacts& facts) : text_(text), facts_(facts), shapes_(text) {}
 
     std::optional<Wrap> where_declared(NodeId declarator) {
         const auto zero = zero_of(tree().child(tree()[declarator].parent, 0), declarator);
@@ -190,7 +190,7 @@ private:
 std::optional<Cure> initial_value(const ParsedText& text, const TreeFacts& facts, const Unassigned& fault) {
     const bool is_function = fault.why == Unassigned::Why::no_return;
     const bool is_parameter = text.tree()[fault.what].kind == NodeKind::parameter;
-    Zeros zeros(text, facts);
+    ZeroFixes zeros(text, facts);
     auto wrap = is_function    ? zeros.where_it_ends(fault.what)
                 : is_parameter ? zeros.where_it_begins(fault.what)
                                : zeros.where_declared(fault.what);

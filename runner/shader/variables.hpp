@@ -1,3 +1,6 @@
+// Variables of a text: their parts, zeros of their types, reads before a value, and values that nothing
+// reads.
+//
 // Parts of a variable's type, down to single numbers, so that a place such as `s.light[2].xy` can be
 // distinguished from the rest of `s`.
 #pragma once
@@ -135,5 +138,16 @@ struct Assignment {
 /// Analyses the whole text. Without a `main`, every function counts as reached. `shapes` must belong to the
 /// same text.
 Assignment find_assignment(const ParsedText& text, const TreeFacts& facts, Shapes& shapes);
+
+// Finds work that no compiler leaves in a program, because nothing reads its result.
+
+/// Returns for each expression whether the colour of mainImage may depend on it. By name, for each function
+/// as a whole: a variable that is read anywhere in its function counts as read after each assignment.
+std::vector<bool> find_needed(const ParsedText& text, const TreeFacts& facts);
+
+/// Returns for each expression whether compilers know its value: literals, variables that get one such value,
+/// parameters that get only such values, and what is computed of these. `uniforms`: also what is computed of
+/// uniforms, which has one value for the frame.
+std::vector<bool> find_known(const ParsedText& text, const TreeFacts& facts, bool uniforms);
 
 } // namespace tidemark::glsl

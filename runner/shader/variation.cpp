@@ -73,26 +73,28 @@ std::string other_overloads(std::string_view function, std::string_view prefix) 
     return text;
 }
 
-/// Returns the text with the changes of `change(node, edits)`, children first; `change` returns whether it
-/// changed anything.
+/// Returns the text with the changes of `change(node, edits)` at the nodes that `may` change, children first;
+/// `change` returns whether it changed anything.
 template <class Change>
-Variation vary(const ParsedText& text, const std::string& mode, const std::string& prelude, Change change) {
-    Variation result{{}, mode};
+Variation vary(const ParsedText& text, const MayVary& may, const std::string& mode,
+               const std::string& prelude, Change change) {
+    Variation result{{}, mode, {}};
     SourceRewriter edits(text);
     for (NodeId id = 1; id < text.tree().nodes.size(); ++id)
-        result.places += change(id, edits) ? 1 : 0;
+        if ((!may || may(id)) && change(id, edits))
+            result.places.push_back(id);
     result.text = headers_with_buffers(text) + prelude + edits.text();
     return result;
 }
 
 /// Passes the result of each operation, assignment or call that `is_meant` accepts through `$off`.
 template <class IsMeant>
-Variation vary_results(const ParsedText& text, std::string_view off, IsMeant is_meant) {
+Variation vary_results(const ParsedText& text, const MayVary& may, std::string_view off, IsMeant is_meant) {
     const SyntaxTree& tree = text.tree();
     const std::string prefix = fresh_prefix(text);
     const std::string prelude = spell("uniform int $mode;\n", prefix) + spell(off, prefix) +
                                 vector_overloads("off", prefix) + other_overloads("off", prefix);
-    return vary(text, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
+    return vary(text, may, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
         if (!is_meant(id) || must_stay_constant(text, id))
             return false;
         if (tree[id].kind != NodeKind::assign) {
@@ -295,13 +297,13 @@ void reverse(const ParsedText& text, NodeId chain, SourceRewriter& edits) {
 
 } // namespace
 
-Variation vary_sines(const ParsedText& text, const TreeFacts& facts) {
+Variation vary_sines(const ParsedText& text, const TreeFacts& facts, const MayVary& may) {
     const SyntaxTree& tree = text.tree();
     const std::string prefix = fresh_prefix(text);
     std::string prelude = spell(k_unit, prefix);
     for (const std::string_view name : {"sin", "cos"})
         prelude += spell(k_sine, prefix, name) + vector_overloads(name, prefix);
-    return vary(text, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
+    return vary(text, may, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
         const auto name = tree[id].kind == NodeKind::call ? called_name(text, id) : std::string_view{};
         if ((name != "sin" && name != "cos") || facts.function(name) || must_stay_constant(text, id))
             return false;
@@ -310,11 +312,11 @@ Variation vary_sines(const ParsedText& text, const TreeFacts& facts) {
     });
 }
 
-Variation vary_inputs(const ParsedText& text, const TreeFacts& facts) {
+Variation vary_inputs(const ParsedText& text, const TreeFacts& facts, const MayVary& may) {
     const std::string prefix = fresh_prefix(text);
     const std::string prelude =
         spell(k_unit, prefix) + spell(k_input, prefix) + vector_overloads("input", prefix);
-    return vary(text, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
+    return vary(text, may, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
         const auto name = text.tree()[id].kind == NodeKind::name ? text.word_of(id) : std::string_view{};
         if ((name != "iTime" && name != "iResolution" && name != "iMouse") || must_stay_constant(text, id))
             return false;
@@ -326,8 +328,8 @@ Variation vary_inputs(const ParsedText& text, const TreeFacts& facts) {
     });
 }
 
-Variation vary_rounding(const ParsedText& text, const TreeFacts& facts) {
-    return vary_results(text, k_lot, [&](NodeId id) {
+Variation vary_rounding(const ParsedText& text, const TreeFacts& facts, const MayVary& may) {
+    return vary_results(text, may, k_lot, [&](NodeId id) {
         if (is_operation(text, facts, id))
             return text.word_of(id).front() == '/';
         const std::string_view name =
@@ -337,18 +339,29 @@ Variation vary_rounding(const ParsedText& text, const TreeFacts& facts) {
     });
 }
 
-Variation vary_halves(const ParsedText& text, const TreeFacts& facts) {
+Variation vary_last_bits(const ParsedText& text, const TreeFacts& facts, const MayVary& may) {
+    return vary_results(text, may, k_lot, [&](NodeId id) {
+        if (is_operation(text, facts, id))
+            return true;
+        const std::string_view name =
+            text.tree()[id].kind == NodeKind::call ? called_name(text, id) : std::string_view{};
+        const BuiltinFunction* const builtin = facts.function(name) ? nullptr : find_builtin(name);
+        return builtin && (builtin->is(Trait::inexact) || name == "dot" || name == "sin" || name == "cos");
+    });
+}
+
+Variation vary_halves(const ParsedText& text, const TreeFacts& facts, const MayVary& may) {
     const bool asked = std::ranges::any_of(
         text.words(), [](const Word& word) { return word.text == "mediump" || word.text == "lowp"; });
     if (!asked)
         return {};
-    return vary_results(text, k_half, [&](NodeId id) { return is_operation(text, facts, id); });
+    return vary_results(text, may, k_half, [&](NodeId id) { return is_operation(text, facts, id); });
 }
 
-Variation vary_precision(const ParsedText& text, const TreeFacts&) {
+Variation vary_precision(const ParsedText& text, const TreeFacts&, const MayVary& may) {
     const SyntaxTree& tree = text.tree();
     const std::string header = "#extension GL_ARB_gpu_shader5 : enable\n";
-    return vary(text, {}, header, [&](NodeId id, SourceRewriter& edits) {
+    return vary(text, may, {}, header, [&](NodeId id, SourceRewriter& edits) {
         if (tree[id].kind != NodeKind::declaration || tree.around(id, NodeKind::function) == k_no_node)
             return false;
         const NodeId type = tree.child(id, 0);
@@ -363,38 +376,19 @@ Variation vary_precision(const ParsedText& text, const TreeFacts&) {
 // Varies sums as other compilers write them: a product added with one rounding, and terms added from the
 // other end.
 
-namespace {
-
-/// `functions`: those to vary; null: all of the text.
-Variation contracted(const ParsedText& text, const TreeFacts& facts, const std::set<std::string>* functions) {
+Variation vary_contraction(const ParsedText& text, const TreeFacts& facts, const MayVary& may) {
     const std::string prefix = fresh_prefix(text);
     const std::string prelude = "#extension GL_ARB_gpu_shader_fp64 : enable\n"
                                 "#extension GL_ARB_gpu_shader5 : enable\n" +
                                 spell(contraction_prelude(text), prefix);
-    const auto varied = [&](NodeId id) {
-        const NodeId function = functions ? text.tree().around(id, NodeKind::function) : k_no_node;
-        return !functions ||
-               (function != k_no_node && functions->contains(std::string(text.word_of(function))));
-    };
-    return vary(text, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
-        return varied(id) && Contraction(text, facts, prefix, edits).contract(id);
+    return vary(text, may, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
+        return Contraction(text, facts, prefix, edits).contract(id);
     });
 }
 
-} // namespace
-
-Variation vary_contraction(const ParsedText& text, const TreeFacts& facts) {
-    return contracted(text, facts, nullptr);
-}
-
-Variation vary_contraction_in(const ParsedText& text, const TreeFacts& facts,
-                              const std::set<std::string>& functions) {
-    return contracted(text, facts, &functions);
-}
-
-Variation vary_order(const ParsedText& text, const TreeFacts& facts) {
+Variation vary_order(const ParsedText& text, const TreeFacts& facts, const MayVary& may) {
     const SyntaxTree& tree = text.tree();
-    return vary(text, {}, {}, [&](NodeId id, SourceRewriter& edits) {
+    return vary(text, may, {}, {}, [&](NodeId id, SourceRewriter& edits) {
         const NodeId parent = tree[id].parent;
         const bool whole_chain = !adds(text, parent) || tree.child(parent, 0) != id;
         if (!adds(text, id) || !whole_chain || !adds(text, tree.child(id, 0)) || facts.surely_whole[id] ||
@@ -403,6 +397,66 @@ Variation vary_order(const ParsedText& text, const TreeFacts& facts) {
         reverse(text, id, edits);
         return true;
     });
+}
+
+// Varies what a device measures between neighbouring pixels.
+
+Variation vary_mipmaps(const ParsedText& text, const TreeFacts& facts, const MayVary& may) {
+    const SyntaxTree& tree = text.tree();
+    const std::string prefix = fresh_prefix(text);
+    const std::string prelude =
+        spell("uniform int $mode;\nfloat $bias(){return $mode==1?0.5:$mode==2?-0.5:0.0;}\n", prefix);
+    return vary(text, may, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
+        const auto name = tree[id].kind == NodeKind::call ? called_name(text, id) : std::string_view{};
+        if ((name != "texture" && name != "texture2D" && name != "textureCube") || facts.function(name) ||
+            tree.child_count(id) != 3)
+            return false;
+        edits.wrap(tree.child(id, 2), "", fmt::format(",{}bias()", prefix));
+        return true;
+    });
+}
+
+Variation vary_derivatives(const ParsedText& text, const TreeFacts& facts, const MayVary& may) {
+    const SyntaxTree& tree = text.tree();
+    const std::string prefix = fresh_prefix(text);
+    std::string prelude =
+        "#extension GL_ARB_derivative_control : enable\n" + spell("uniform int $mode;\n", prefix);
+    for (const std::string_view name : {"dFdx", "dFdy", "fwidth"})
+        for (const std::string_view type : k_float_vectors)
+            prelude += spell(
+                fmt::format("{0} $@({0} v){{return $mode==1?@Fine(v):$mode==2?@Coarse(v):@(v);}}\n", type),
+                prefix, name);
+    return vary(text, may, prefix + "mode", prelude, [&](NodeId id, SourceRewriter& edits) {
+        const auto name = tree[id].kind == NodeKind::call ? called_name(text, id) : std::string_view{};
+        if ((name != "dFdx" && name != "dFdy" && name != "fwidth") || facts.function(name))
+            return false;
+        edits.replace(tree[tree.child(id, 0)].word, prefix + std::string(name));
+        return true;
+    });
+}
+
+VariedArithmetic varied_sines() {
+    return {vary_sines,
+            {{int(SineMode::unit_up), "sines a unit in the last place larger"},
+             {int(SineMode::unit_down), "sines a unit smaller"},
+             {int(SineMode::like_nvidia), "a sine like NVIDIA's"}}};
+}
+
+VariedArithmetic varied_inputs() {
+    return {vary_inputs, {{1, "iTime, iResolution and iMouse a unit in the last place larger", false}}};
+}
+
+std::vector<VariedArithmetic> varied_operations() {
+    return {{vary_precision, {{0, "everything `precise`", false}}},
+            {vary_contraction, {{1, "fused multiply-add"}}},
+            {vary_order, {{0, "sums added in reverse order", false}}},
+            {vary_rounding, {{1, "quotients, roots, powers and logarithms a unit off"}}}};
+}
+
+std::vector<VariedArithmetic> varied_roundings() {
+    std::vector<VariedArithmetic> all = varied_operations();
+    all.insert(all.begin(), varied_inputs());
+    return all;
 }
 
 } // namespace tidemark::glsl

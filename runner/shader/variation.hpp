@@ -6,17 +6,20 @@
 #include "shader/parsed_text.hpp"
 #include "shader/tree_facts.hpp"
 
-#include <cstddef>
-#include <set>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace tidemark::glsl {
 
 struct Variation {
     std::string text;
-    std::string mode_uniform; ///< int; 0: unchanged
-    size_t places = 0;        ///< number of changed places
+    std::string mode_uniform;   ///< int; 0: unchanged
+    std::vector<NodeId> places; ///< the changed nodes
 };
+
+/// Returns whether a variation may change a node; empty: it may change all.
+using MayVary = std::function<bool(NodeId)>;
 
 /// Modes of vary_sines.
 enum class SineMode {
@@ -29,33 +32,82 @@ enum class SineMode {
 /// Varies `sin` and `cos` as other GPUs compute them. The model of NVIDIA's is its special function unit: the
 /// argument is reduced with a rounded 1 / 2 pi, so that the error grows with the argument (2.4e-8 of it), and
 /// the result has an absolute error, not a relative one.
-Variation vary_sines(const ParsedText& text, const TreeFacts& facts);
+Variation vary_sines(const ParsedText& text, const TreeFacts& facts, const MayVary& may = {});
 
 /// Mode 1: iTime, iResolution and iMouse are one unit in the last place larger.
-Variation vary_inputs(const ParsedText& text, const TreeFacts& facts);
+Variation vary_inputs(const ParsedText& text, const TreeFacts& facts, const MayVary& may = {});
 
 /// Mode 1: about half of the quotients, roots, powers, exponentials and logarithms, chosen by their bits, are
 /// one unit in the last place larger or smaller. GLSL allows errors of two units and more for those, and
 /// rounds + - * correctly (4.50, 4.7.1).
-Variation vary_rounding(const ParsedText& text, const TreeFacts& facts);
+Variation vary_rounding(const ParsedText& text, const TreeFacts& facts, const MayVary& may = {});
+
+/// Mode 1: does the same with all results of + - * / and of functions, as if no operation were rounded as
+/// GLSL requires: a text whose picture changes amplifies its roundings.
+Variation vary_last_bits(const ParsedText& text, const TreeFacts& facts, const MayVary& may = {});
 
 /// Mode 1: where an operand of + or -, or the value of += or -=, is a product of floats, the sum is rounded
 /// only once, to 0.5 + 2^-30 units in the last place (the product is exact in double, the sum nearly so);
 /// `dot` is a chain of such sums. GPUs do this with one instruction. Needs doubles, which GLSL ES lacks.
 /// Products stored in variables, and products of matrices, are unchanged.
-Variation vary_contraction(const ParsedText& text, const TreeFacts& facts);
-/// Does the same in the functions of these names only.
-Variation vary_contraction_in(const ParsedText& text, const TreeFacts& facts,
-                              const std::set<std::string>& functions);
+Variation vary_contraction(const ParsedText& text, const TreeFacts& facts, const MayVary& may = {});
 
 /// Adds sums of three and more terms, `a + b + c`, from the other end. It has no modes.
-Variation vary_order(const ParsedText& text, const TreeFacts& facts);
+Variation vary_order(const ParsedText& text, const TreeFacts& facts, const MayVary& may = {});
 
 /// Mode 1: rounds every result of + - * / to eleven significant bits, up to 65504, as phones compute
 /// `mediump`. Has 0 places if the text uses neither mediump nor lowp.
-Variation vary_halves(const ParsedText& text, const TreeFacts& facts);
+Variation vary_halves(const ParsedText& text, const TreeFacts& facts, const MayVary& may = {});
+
+/// Mode 1: a look-up that chooses its mipmap itself chooses one half a level coarser; mode 2: finer. How
+/// a device measures the distance of neighbouring pixels' coordinates is its own affair.
+Variation vary_mipmaps(const ParsedText& text, const TreeFacts& facts, const MayVary& may = {});
+
+/// Mode 1: derivatives are taken for each pixel of a block of 2x2; mode 2: once for the block.
+Variation vary_derivatives(const ParsedText& text, const TreeFacts& facts, const MayVary& may = {});
 
 /// Declares float variables `precise`: nothing is contracted or reordered. It has no modes.
-Variation vary_precision(const ParsedText& text, const TreeFacts& facts);
+Variation vary_precision(const ParsedText& text, const TreeFacts& facts, const MayVary& may = {});
+
+/// Kinds of operations that SwiftShader computes in its own way, as bits.
+enum class SwiftShaderPart {
+    sines = 1,    ///< a polynomial of degree 5: up to 1.5e-4 off
+    arcs = 2,     ///< atan, asin and acos
+    powers = 4,   ///< pow, exp, log and what is made of them
+    products = 8, ///< dot products, matrices, quotients, mix: the order of operations
+    outside = 16, ///< pow and log of negative numbers, clamp and min of NaN, %
+    mipmaps = 32, ///< the choice of the mipmap, and no shortcut between two
+    weights = 64, ///< of linear texture filters
+};
+inline constexpr int k_swiftshader_parts = 7;
+
+/// Computes as SwiftShader does, bit for bit except for textures, the `parts` whose bits the mode has.
+/// `precise` also declares float variables so: SwiftShader reorders nothing.
+Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, int parts, bool precise,
+                                const MayVary& may = {});
+/// Returns the parts that a node of the text belongs to.
+int swiftshader_parts(const ParsedText& text, const TreeFacts& facts, NodeId id);
+
+/// A mode of a variation, with its name for reports.
+struct VariationMode {
+    int number;
+    const char* name;
+    bool of_devices = true; ///< there are devices that compute so
+};
+
+/// A way to vary a text, with the modes that it offers.
+struct VariedArithmetic {
+    std::function<Variation(const ParsedText& text, const TreeFacts& facts, const MayVary& may)> vary;
+    std::vector<VariationMode> modes;
+};
+
+/// Returns the sines of other GPUs.
+VariedArithmetic varied_sines();
+/// Returns the last bits of what the host gives to the text.
+VariedArithmetic varied_inputs();
+/// Returns the roundings of operations by other GPUs and drivers, except for sines and `mediump`.
+std::vector<VariedArithmetic> varied_operations();
+/// Returns the inputs and the operations.
+std::vector<VariedArithmetic> varied_roundings();
 
 } // namespace tidemark::glsl

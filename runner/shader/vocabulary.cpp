@@ -137,11 +137,6 @@ std::optional<double> number(std::string_view word) {
     return number_from<double>(word);
 }
 
-std::string as_float(std::string_view digits) {
-    const bool whole = digits.find_first_of(".e") == digits.npos;
-    return std::string(digits) + (whole ? ".0" : "");
-}
-
 namespace {
 
 struct Lookalike {
@@ -167,7 +162,7 @@ bool is_blank(int code) {
 
 std::optional<StrangeCharacter> strange_character(std::string_view text) {
     const auto first = static_cast<unsigned char>(text.empty() ? 0 : text.front());
-    if (first < 0x80 || (first & 0xc0u) == 0x80)
+    if (first < 0x80 || continues_character(text.front()))
         return std::nullopt;
     const auto [length, code] = first_character(text);
     if (code < 0)

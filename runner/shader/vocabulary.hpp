@@ -156,7 +156,7 @@ std::string double_type_of(std::string_view type);
 /// Maps `dvec2` to `vec2`; empty for any other name.
 std::string_view float_type_of(std::string_view double_type);
 
-// Reads and writes GLSL numbers.
+// Reads GLSL numbers.
 
 /// Reads `12`, `0x1F`, `017`, without sign and suffix. Returns nothing for other texts and if the value
 /// exceeds `long`.
@@ -164,10 +164,6 @@ std::optional<long> whole_number(std::string_view digits);
 
 /// Reads `12u`, `1.5f`, `1e2`. Returns nothing for other texts, hexadecimal numbers included.
 std::optional<double> number(std::string_view word);
-
-/// Makes a float literal of a number as C++ prints it: `2` becomes `2.0`; digits with a point or an exponent
-/// stay.
-std::string as_float(std::string_view digits);
 
 // Non-ASCII characters in code, which GLSL does not have; suggests the ASCII character that was probably
 // meant.

@@ -110,12 +110,12 @@ constexpr std::string_view k_pop = "@ $K(int n,@ v){--$depth;return v;}\n";
 
 /// Returns the function that stores a value of `type` in a slot: its code, then its numbers as bits.
 std::string store(std::string_view prefix, std::string_view type, int code, int components) {
-    constexpr std::string_view k_parts = "xyzw";
+    constexpr std::string_view k_letters = "xyzw";
     const std::string_view to_bits = type == "float" || type.starts_with("vec") ? "floatBitsToUint" : "uint";
     std::string text = fmt::format("void {0}store(int k,{1} v){{{0}out[k]={2}u;", prefix, type, code);
     for (int i = 0; i < components; ++i)
         text += fmt::format("{}out[k+{}]={}(v{});", prefix, i + 1, to_bits,
-                            components == 1 ? std::string() : fmt::format(".{}", k_parts[size_t(i)]));
+                            components == 1 ? std::string() : fmt::format(".{}", k_letters[size_t(i)]));
     return text + "}\n";
 }
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace tidemark::serve {
+namespace tidemark::web {
 namespace {
 
 constexpr size_t k_most_waiting = 4096;
@@ -21,24 +21,24 @@ SharedMessage steering_text(bool you, size_t viewers) {
 
 } // namespace
 
-void Hands::follow(const platform::InputEvent& event) {
+void Hands::follow(const host::InputEvent& event) {
     std::visit(Overloaded{
-                   [&](const platform::PointerMoved& moved) { pointer_ = moved.at; },
-                   [&](const platform::ButtonPressed& pressed) { buttons_.insert(pressed.button); },
-                   [&](const platform::ButtonReleased& released) { buttons_.erase(released.button); },
-                   [&](const platform::KeyPressed& pressed) { keys_.insert(pressed.key); },
-                   [&](const platform::KeyReleased& released) { keys_.erase(released.key); },
+                   [&](const host::PointerMoved& moved) { pointer_ = moved.at; },
+                   [&](const host::ButtonPressed& pressed) { buttons_.insert(pressed.button); },
+                   [&](const host::ButtonReleased& released) { buttons_.erase(released.button); },
+                   [&](const host::KeyPressed& pressed) { keys_.insert(pressed.key); },
+                   [&](const host::KeyReleased& released) { keys_.erase(released.key); },
                    [](const auto&) {},
                },
                event);
 }
 
-std::vector<platform::InputEvent> Hands::let_go() {
-    std::vector<platform::InputEvent> events;
-    for (const platform::Button button : buttons_)
-        events.emplace_back(platform::ButtonReleased{button, pointer_});
-    for (const platform::Key key : keys_)
-        events.emplace_back(platform::KeyReleased{key});
+std::vector<host::InputEvent> Hands::let_go() {
+    std::vector<host::InputEvent> events;
+    for (const host::Button button : buttons_)
+        events.emplace_back(host::ButtonReleased{button, pointer_});
+    for (const host::Key key : keys_)
+        events.emplace_back(host::KeyReleased{key});
     buttons_.clear();
     keys_.clear();
     return events;
@@ -49,9 +49,9 @@ bool Inbox::is_full() const {
     return content_.events.size() + content_.commands.size() >= k_most_waiting;
 }
 
-void Inbox::add(const platform::InputEvent& event) {
-    const auto moves = [](const platform::InputEvent& other) {
-        return std::holds_alternative<platform::PointerMoved>(other);
+void Inbox::add(const host::InputEvent& event) {
+    const auto moves = [](const host::InputEvent& other) {
+        return std::holds_alternative<host::PointerMoved>(other);
     };
     const std::lock_guard lock(mutex_);
     auto& events = content_.events;
@@ -61,7 +61,7 @@ void Inbox::add(const platform::InputEvent& event) {
     changed_.notify_one();
 }
 
-void Inbox::add(live::Command command) {
+void Inbox::add(overlay::Command command) {
     const std::lock_guard lock(mutex_);
     content_.commands.push_back(std::move(command));
     changed_.notify_one();
@@ -110,7 +110,7 @@ void Audience::left(ViewerId viewer) {
     const std::lock_guard lock(mutex_);
     viewers_.erase(viewer);
     if (viewers_.empty() && settings_.once)
-        inbox_.add(platform::CloseRequested{});
+        inbox_.add(host::CloseRequested{});
     if (viewer == steering_)
         steer(viewers_.empty() ? 0 : viewers_.begin()->first);
     else
@@ -127,14 +127,14 @@ void Audience::handle(ViewerId viewer, const PictureSeen& seen) {
 }
 
 /// Input of viewers without control is ignored.
-void Audience::handle(ViewerId viewer, const platform::InputEvent& event) {
+void Audience::handle(ViewerId viewer, const host::InputEvent& event) {
     if (viewer != steering_)
         return;
     hands_.follow(event);
     inbox_.add(event);
 }
 
-void Audience::handle(ViewerId viewer, const live::Command& command) {
+void Audience::handle(ViewerId viewer, const overlay::Command& command) {
     if (viewer == steering_)
         inbox_.add(command);
 }
@@ -169,7 +169,7 @@ void Audience::steer(ViewerId viewer) {
 }
 
 void Audience::let_go() {
-    for (const platform::InputEvent& event : hands_.let_go())
+    for (const host::InputEvent& event : hands_.let_go())
         inbox_.add(event);
 }
 
@@ -210,4 +210,4 @@ Result<const ServePlugIn*> load_serve_plug_in() {
                                       k_serve_version});
 }
 
-} // namespace tidemark::serve
+} // namespace tidemark::web

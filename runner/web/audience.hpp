@@ -1,3 +1,5 @@
+// The server's viewers: their input, control, and the pictures they have acknowledged.
+//
 // The keys and buttons that the controlling viewer holds down, so that they can be released when it loses
 // control.
 #pragma once
@@ -18,18 +20,18 @@
 #include <string>
 #include <vector>
 
-namespace tidemark::serve {
+namespace tidemark::web {
 
 class Hands {
 public:
-    void follow(const platform::InputEvent& event);
+    void follow(const host::InputEvent& event);
     /// Returns the events that release them all.
-    std::vector<platform::InputEvent> let_go();
+    std::vector<host::InputEvent> let_go();
 
 private:
-    std::set<platform::Button> buttons_;
-    std::set<platform::Key> keys_;
-    platform::PointerPosition pointer_{};
+    std::set<host::Button> buttons_;
+    std::set<host::Key> keys_;
+    host::PointerPosition pointer_{};
 };
 
 // Input of the controlling viewer, passed from the server's thread to the drawing thread.
@@ -37,13 +39,13 @@ private:
 class Inbox {
 public:
     struct Content {
-        std::vector<platform::InputEvent> events;
-        live::Commands commands;
+        std::vector<host::InputEvent> events;
+        overlay::Commands commands;
     };
 
     /// Adds an event; a pointer move replaces one directly before it.
-    void add(const platform::InputEvent& event);
-    void add(live::Command command);
+    void add(const host::InputEvent& event);
+    void add(overlay::Command command);
     /// Returns whether more is waiting than a user could produce.
     bool is_full() const;
 
@@ -110,8 +112,8 @@ private:
 
     void handle(ViewerId viewer, const PictureSeen& seen);
     void handle(ViewerId viewer, SteeringWanted);
-    void handle(ViewerId viewer, const platform::InputEvent& event);
-    void handle(ViewerId viewer, const live::Command& command);
+    void handle(ViewerId viewer, const host::InputEvent& event);
+    void handle(ViewerId viewer, const overlay::Command& command);
     void handle(ViewerId viewer, LetGo);
     void send_newest(ViewerId id, Viewer& viewer);
     void steer(ViewerId viewer);
@@ -123,7 +125,7 @@ private:
     mutable std::mutex mutex_;           ///< guards the members below
     std::map<ViewerId, Viewer> viewers_; ///< in the order of their arrival
     ViewerId steering_ = 0;
-    /// time of the last change that a viewer asked for
+    /// time of the last change that a viewer requested
     std::chrono::steady_clock::time_point steering_since_{};
     Hands hands_;
     NumberedPicture newest_;
@@ -134,4 +136,4 @@ private:
 
 Result<const ServePlugIn*> load_serve_plug_in();
 
-} // namespace tidemark::serve
+} // namespace tidemark::web

@@ -3,12 +3,14 @@
 #include "host/json.hpp"
 #include "web/page.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
 #include <utility>
 
-namespace tidemark::serve {
+namespace tidemark::web {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -18,9 +20,9 @@ Json or_null(const std::optional<T>& value) {
     return value ? Json(*value) : Json();
 }
 
-Json knobs_of(const std::vector<live::KnobField>& fields) {
+Json knobs_of(const std::vector<overlay::KnobField>& fields) {
     Json knobs = Json::array();
-    for (const live::KnobField& field : fields) {
+    for (const overlay::KnobField& field : fields) {
         scene::Knob knob = field.knob;
         knob.value = field.value;
         knobs.push_back(web::knob_data(knob));
@@ -29,24 +31,24 @@ Json knobs_of(const std::vector<live::KnobField>& fields) {
     return knobs;
 }
 
-Json definitions_of(const std::vector<live::DefinitionField>& fields) {
+Json definitions_of(const std::vector<overlay::DefinitionField>& fields) {
     Json definitions = Json::array();
-    for (const live::DefinitionField& field : fields)
+    for (const overlay::DefinitionField& field : fields)
         definitions.push_back({{"name", field.name},
-                               {"value", live::text_of(field)},
+                               {"value", overlay::text_of(field)},
                                {"whole", field.whole},
                                {"held", field.held}});
     return definitions;
 }
 
-Json names_of(const std::vector<live::PictureField>& fields) {
+Json names_of(const std::vector<overlay::PictureField>& fields) {
     Json names = Json::array();
-    for (const live::PictureField& field : fields)
+    for (const overlay::PictureField& field : fields)
         names.push_back(field.name);
     return names;
 }
 
-Json time_of(const live::TimeField& time) {
+Json time_of(const overlay::TimeField& time) {
     Json data = {{"paused", time.paused},           {"speed", time.speed},
                  {"turnsBack", time.turns_back},    {"hasSpeed", time.has_speed},
                  {"from", or_null(time.loop_from)}, {"to", or_null(time.loop_to)}};
@@ -55,15 +57,50 @@ Json time_of(const live::TimeField& time) {
     return data;
 }
 
-Json errors_of(const std::vector<live::ErrorField>& fields) {
+std::string hex_of(const std::array<unsigned char, 3>& colour) {
+    return fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
+}
+
+/// The legend of the lens on show; null: the picture itself is on show.
+Json lens_of(const std::optional<overlay::LensField>& lens) {
+    if (!lens)
+        return nullptr;
+    Json bar = Json::array(), entries = Json::array();
+    for (const auto& colour : lens->bar)
+        bar.push_back(hex_of(colour));
+    for (const overlay::LegendField& entry : lens->entries)
+        entries.push_back({{"box", entry.box ? Json(hex_of(*entry.box)) : Json()}, {"words", entry.words}});
+    return {{"title", lens->title},     {"basis", lens->basis},
+            {"bar", std::move(bar)},    {"low", lens->low},
+            {"high", lens->high},       {"mark", or_null(lens->mark)},
+            {"pointer", lens->pointer}, {"entries", std::move(entries)},
+            {"refusal", lens->refusal}, {"progress", lens->progress}};
+}
+
+Json lenses_of(const overlay::LensChooser& chooser) {
+    Json choices = Json::array();
+    for (const overlay::LensChoice& choice : chooser.choices)
+        choices.push_back({{"name", choice.name},
+                           {"says", choice.description},
+                           {"refusal", choice.refusal},
+                           {"takesLine", choice.takes_line},
+                           {"needsLine", choice.needs_line},
+                           {"second", choice.second}});
+    return {{"choices", std::move(choices)},
+            {"chosen", or_null(chooser.chosen)},
+            {"place", chooser.place},
+            {"variable", chooser.variable}};
+}
+
+Json errors_of(const std::vector<overlay::ErrorField>& fields) {
     constexpr size_t k_most_errors = 20;
     constexpr size_t k_longest_line = 100; // characters
     Json errors = Json::array();
-    for (const live::ErrorField& field : fields) {
+    for (const overlay::ErrorField& field : fields) {
         if (errors.size() == k_most_errors)
             break;
-        const live::Excerpt excerpt =
-            live::excerpt_of(field.line, field.diagnostic.where.column, k_longest_line);
+        const overlay::Excerpt excerpt =
+            overlay::excerpt_of(field.line, field.diagnostic.where.column, k_longest_line);
         errors.push_back({{"text", to_string(field.diagnostic)},
                           {"line", excerpt.text},
                           {"mark", field.line.empty() ? "" : excerpt.mark}});
@@ -75,21 +112,25 @@ double in_hundredths(double value) {
     return std::round(value * 100) / 100;
 }
 
-using cli::dump; // replaces bytes that are not UTF-8, which file names may contain
+using host::dump; // replaces bytes that are not UTF-8, which file names may contain
 
 using Clock = std::chrono::steady_clock;
 
 } // namespace
 
-std::string state_text(const live::Model& model, Extent extent, bool keyboard) {
+std::string state_text(const overlay::Model& model, Extent extent, SceneInput input) {
     return dump({{"state",
                   {{"size", {extent.width, extent.height}},
-                   {"keyboard", keyboard},
+                   {"keyboard", input.keyboard},
+                   {"everyMove", input.every_move},
+                   {"camera", input.camera},
                    {"knobs", knobs_of(model.knobs)},
                    {"definitions", definitions_of(model.definitions)},
                    {"pictures", names_of(model.pictures)},
                    {"large", or_null(model.large)},
                    {"time", time_of(model.time)},
+                   {"lenses", lenses_of(model.lenses)},
+                   {"lens", lens_of(model.lens)},
                    {"errors", errors_of(model.errors)}}}});
 }
 
@@ -161,4 +202,4 @@ SharedMessage picture_message(const PictureHead& picture, const std::string& fil
     return std::make_shared<Message>(Message{std::move(bytes) + head + file, true});
 }
 
-} // namespace tidemark::serve
+} // namespace tidemark::web

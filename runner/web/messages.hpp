@@ -1,3 +1,5 @@
+// Messages to browsers: JSON for the panels, and encoded pictures.
+//
 // JSON for the page's panels: the overlay's model without the values that change with every picture.
 #pragma once
 
@@ -15,10 +17,17 @@
 #include <thread>
 #include <vector>
 
-namespace tidemark::serve {
+namespace tidemark::web {
 
-/// Returns `{"state":{…}}`. `keyboard`: the scene reads the keyboard.
-std::string state_text(const live::Model& model, Extent extent, bool keyboard);
+/// The input that the scene on show reads.
+struct SceneInput {
+    bool keyboard = false;   ///< all keys: the scene reads the keyboard
+    bool every_move = false; ///< moves without a button too: the mouse follows the pointer
+    bool camera = false;     ///< drags turn the orbit camera
+};
+
+/// Returns `{"state":{…}}`.
+std::string state_text(const overlay::Model& model, Extent extent, SceneInput input);
 
 /// Data sent before a picture in its message.
 struct PictureHead {
@@ -73,4 +82,4 @@ private:
 /// Returns one message: the head's length in four bytes, lowest first, the head as JSON, the file.
 SharedMessage picture_message(const PictureHead& head, const std::string& file);
 
-} // namespace tidemark::serve
+} // namespace tidemark::web

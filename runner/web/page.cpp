@@ -12,7 +12,6 @@
 #include "scene/channel.hpp"
 #include "scene/host_uniforms.hpp"
 #include "shader/pass_reading.hpp"
-#include "web/embedded.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -216,12 +215,15 @@ std::string_view name_of(scene::PassKind kind) {
     }
 }
 
-/// Returns GLSL ES 3.00 without initialisers: WebGL sets variables to zero, as shaders written for it expect.
-text::MappedText web_source(const glsl::PassReading& reading) {
+/// Returns GLSL ES 3.00 without initialisers: WebGL sets variables to zero, as shaders written for it expect,
+/// and the page sets uniforms to the values of their knobs.
+text::MappedText web_source(const glsl::PassReading& reading, const std::vector<scene::Knob>& knobs) {
     const auto dialects = reading.dialects(glsl::Precision::single);
     glsl::Dialect dialect = *std::ranges::find(dialects, glsl::Version::es_300, &glsl::Dialect::version);
     dialect.initialise = false;
-    return std::move(reading.assemble(dialect)->source); // assembling fails only in double precision
+    text::MappedText source = reading.assemble(dialect)->source; // fails only in double precision
+    source.apply(scene::without_plain_defaults(source.text(), knobs));
+    return source;
 }
 
 /// Returns the path relative to the scene, so that a page does not reveal its author's folders.
@@ -251,7 +253,7 @@ Json line_runs(const text::MappedText& source, const scene::Scene& scene) {
 /// uniforms).
 Json pass_data(const scene::Scene& scene, const scene::Pass& pass) {
     const glsl::PassReading reading(scene, pass);
-    const text::MappedText source = web_source(reading);
+    const text::MappedText source = web_source(reading, scene.knobs);
     return {{"name", pass.name},
             {"kind", name_of(pass.kind)},
             {"source", source.text()},
@@ -317,7 +319,8 @@ public:
         Json data{{"name", scene_.name()},
                   {"passes", std::move(passes)},
                   {"inputs", std::move(inputs_)},
-                  {"knobs", std::move(knobs)}};
+                  {"knobs", std::move(knobs)},
+                  {"followsPointer", glsl::PassReading(scene_, scene_.image()).mouse_follows_pointer()}};
         if (scene_.size)
             data["size"] = {scene_.size->width, scene_.size->height};
         return data;

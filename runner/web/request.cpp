@@ -1,5 +1,6 @@
 #include "web/request.hpp"
 
+#include "base/encoding.hpp"
 #include "host/overlay_fields.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@
 #include <limits>
 #include <optional>
 
-namespace tidemark::serve {
+namespace tidemark::web {
 namespace {
 
 constexpr std::string_view k_letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
@@ -22,8 +23,8 @@ constexpr size_t k_token_letters = 22; // each holds 6 bits
 constexpr size_t k_shortest = 16;
 constexpr size_t k_longest = 128;
 
-/// Returns the value of `token` in a query.
-std::string_view token_in(std::string_view query) {
+/// Returns the value of `token` in a query; nothing if the query has none.
+std::optional<std::string_view> token_in(std::string_view query) {
     constexpr std::string_view k_name = "token=";
     while (!query.empty()) {
         const size_t end = std::min(query.find('&'), query.size());
@@ -31,7 +32,7 @@ std::string_view token_in(std::string_view query) {
             return query.substr(k_name.size(), end - k_name.size());
         query.remove_prefix(std::min(end + 1, query.size()));
     }
-    return {};
+    return std::nullopt;
 }
 
 /// Returns the host without the port.
@@ -55,9 +56,43 @@ bool is_own(std::string_view origin, std::string_view host) {
            origin.substr(scheme + 3) == host;
 }
 
+/// Returns whether the host is that of one of the origins.
+bool is_host_of(std::span<const std::string> origins, std::string_view host) {
+    return std::ranges::any_of(origins, [&](std::string_view origin) { return is_own(origin, host); });
+}
+
+bool consists_of(std::string_view text, std::string_view others) {
+    return !text.empty() && std::ranges::all_of(text, [&](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || others.find(c) != others.npos;
+    });
+}
+
+bool is_port(std::string_view text) {
+    const auto port = number_from<int>(text);
+    return port && *port >= 1 && *port <= 65535;
+}
+
+/// Returns whether the text is a host with an optional port, in small letters as browsers send it.
+bool is_authority(std::string_view text) {
+    if (text.starts_with('[')) {
+        const size_t close = std::min(text.find(']'), text.size());
+        const std::string_view rest = text.substr(std::min(close + 1, text.size()));
+        return consists_of(text.substr(1, close - 1), ":.") && close < text.size() &&
+               (rest.empty() || (rest.front() == ':' && is_port(rest.substr(1))));
+    }
+    const size_t colon = std::min(text.find(':'), text.size());
+    const std::string_view host = text.substr(0, colon);
+    return consists_of(host, "-._") && host.front() != '.' && host.find("..") == host.npos &&
+           (colon == text.size() || is_port(text.substr(colon + 1)));
+}
+
+/// Schemes that any page of the web has, or that have no origin.
+constexpr std::string_view k_open_schemes[] = {"http", "https",      "ws",   "wss",        "data",
+                                               "blob", "filesystem", "file", "javascript", "about"};
+
 using Json = nlohmann::ordered_json;
-using platform::Button;
-using platform::Key;
+using host::Button;
+using host::Key;
 
 /// Floats represent every integer up to here.
 constexpr double k_farthest_pixel = 1 << 24;
@@ -103,9 +138,9 @@ Result<std::string> identifier_in(const Json& message) {
     return name;
 }
 
-Result<platform::PointerPosition> place(const Json& message) {
+Result<host::PointerPosition> place(const Json& message) {
     const double x = TRY(number(message, "x", k_farthest_pixel));
-    return platform::PointerPosition{x, TRY(number(message, "y", k_farthest_pixel))};
+    return host::PointerPosition{x, TRY(number(message, "y", k_farthest_pixel))};
 }
 
 Result<Button> button(const Json& message) {
@@ -125,16 +160,16 @@ Result<Key> key(const Json& message) {
 
 template <class T>
 Request event(T happened) {
-    return platform::InputEvent(std::move(happened));
+    return host::InputEvent(std::move(happened));
 }
 
 template <class T>
 Request command(T wanted) {
-    return live::Command(std::move(wanted));
+    return overlay::Command(std::move(wanted));
 }
 
 Result<Request> turn_knob(const Json& message) {
-    live::TurnKnob turn{TRY(identifier_in(message))};
+    overlay::TurnKnob turn{TRY(identifier_in(message))};
     const auto values = message.find("value");
     if (values == message.end() || !values->is_array() || values->empty() ||
         values->size() > turn.value.size() ||
@@ -147,18 +182,28 @@ Result<Request> turn_knob(const Json& message) {
 
 /// Accepts only a number: other text would become part of a shader.
 Result<Request> define(const Json& message) {
-    live::Define define{TRY(identifier_in(message)), {}};
+    overlay::Define define{TRY(identifier_in(message)), {}};
     define.value = TRY(name_in(message, "value"));
-    if (!live::definition_field(define.name, define.value, true))
+    if (!overlay::definition_field(define.name, define.value, true))
         return refused("value", "a decimal number");
     return command(std::move(define));
 }
 
 Result<Request> show_picture(const Json& message) {
     if (const auto found = message.find("picture"); found != message.end() && found->is_null())
-        return command(live::ShowPicture{});
+        return command(overlay::ShowPicture{});
     const int index = TRY(whole_number(message, "picture", 0, 1000));
-    return command(live::ShowPicture{size_t(index)});
+    return command(overlay::ShowPicture{size_t(index)});
+}
+
+/// The name of a lens with its place and its variable, which may be a file's: no blanks or quotes.
+Result<Request> set_lens(const Json& message) {
+    const std::string lens = TRY(name_in(message, "lens"));
+    if (!std::ranges::all_of(lens, [](unsigned char c) {
+            return std::isalnum(c) || std::string_view("_.:@/-+").find(char(c)) != std::string_view::npos;
+        }))
+        return refused("lens", "a lens such as cost or value:12:p, or an empty text");
+    return command(overlay::SetLens{lens});
 }
 
 Result<std::optional<double>> time_or_null(const Json& message, const char* name) {
@@ -168,7 +213,7 @@ Result<std::optional<double>> time_or_null(const Json& message, const char* name
 }
 
 Result<Request> set_loop(const Json& message) {
-    live::SetLoop loop{TRY(time_or_null(message, "from")), {}};
+    overlay::SetLoop loop{TRY(time_or_null(message, "from")), {}};
     loop.to = TRY(time_or_null(message, "to"));
     return command(loop);
 }
@@ -180,45 +225,48 @@ struct Verb {
 };
 
 constexpr Verb k_events[] = {
-    {"move", [](const Json& m) -> Result<Request> { return event(platform::PointerMoved{TRY(place(m))}); }},
+    {"move", [](const Json& m) -> Result<Request> { return event(host::PointerMoved{TRY(place(m))}); }},
     {"press",
      [](const Json& m) -> Result<Request> {
          const Button pressed = TRY(button(m));
-         return event(platform::ButtonPressed{pressed, TRY(place(m))});
+         return event(host::ButtonPressed{pressed, TRY(place(m))});
      }},
     {"release",
      [](const Json& m) -> Result<Request> {
          const Button released = TRY(button(m));
-         return event(platform::ButtonReleased{released, TRY(place(m))});
+         return event(host::ButtonReleased{released, TRY(place(m))});
      }},
     {"wheel",
      [](const Json& m) -> Result<Request> {
-         return event(platform::WheelTurned{0, TRY(number(m, "up", k_most_notches))});
+         return event(host::WheelTurned{0, TRY(number(m, "up", k_most_notches))});
      }},
-    {"keydown", [](const Json& m) -> Result<Request> { return event(platform::KeyPressed{TRY(key(m))}); }},
-    {"keyup", [](const Json& m) -> Result<Request> { return event(platform::KeyReleased{TRY(key(m))}); }},
+    {"keydown", [](const Json& m) -> Result<Request> { return event(host::KeyPressed{TRY(key(m))}); }},
+    {"keyup", [](const Json& m) -> Result<Request> { return event(host::KeyReleased{TRY(key(m))}); }},
 };
 
 constexpr Verb k_commands[] = {
     {"turn", turn_knob},
     {"reset",
-     [](const Json& m) -> Result<Request> { return command(live::ResetKnob{TRY(identifier_in(m))}); }},
-    {"reset all", [](const Json&) -> Result<Request> { return command(live::ResetKnobs{}); }},
-    {"copy knobs", [](const Json&) -> Result<Request> { return command(live::CopyKnobs{}); }},
+     [](const Json& m) -> Result<Request> { return command(overlay::ResetKnob{TRY(identifier_in(m))}); }},
+    {"reset all", [](const Json&) -> Result<Request> { return command(overlay::ResetKnobs{}); }},
+    {"copy knobs", [](const Json&) -> Result<Request> { return command(overlay::CopyKnobs{}); }},
     {"define", define},
     {"undefine",
-     [](const Json& m) -> Result<Request> { return command(live::Undefine{TRY(identifier_in(m))}); }},
+     [](const Json& m) -> Result<Request> { return command(overlay::Undefine{TRY(identifier_in(m))}); }},
     {"show", show_picture},
-    {"pause", [](const Json&) -> Result<Request> { return command(live::TogglePause{}); }},
-    {"restart", [](const Json&) -> Result<Request> { return command(live::Restart{}); }},
+    {"pause", [](const Json&) -> Result<Request> { return command(overlay::TogglePause{}); }},
+    {"restart", [](const Json&) -> Result<Request> { return command(overlay::Restart{}); }},
     {"seek",
      [](const Json& m) -> Result<Request> {
-         return command(live::Seek{TRY(number(m, "seconds", std::numeric_limits<int>::max()))});
+         return command(overlay::Seek{TRY(number(m, "seconds", std::numeric_limits<int>::max()))});
      }},
-    {"give up seek", [](const Json&) -> Result<Request> { return command(live::GiveUpSeek{}); }},
+    {"give up seek", [](const Json&) -> Result<Request> { return command(overlay::GiveUpSeek{}); }},
     {"speed",
-     [](const Json& m) -> Result<Request> { return command(live::SetSpeed{TRY(number(m, "speed", 100))}); }},
+     [](const Json& m) -> Result<Request> {
+         return command(overlay::SetSpeed{TRY(number(m, "speed", 100))});
+     }},
     {"loop", set_loop},
+    {"lens", set_lens},
 };
 
 constexpr Verb k_of_viewers[] = {
@@ -263,15 +311,50 @@ Result<void> check_token(std::string_view token) {
                                               token.size(), k_shortest, k_longest));
 }
 
-Answer answer_to(const Knock& knock, std::string_view token) {
+Result<void> check_origin(std::string_view origin) {
+    const size_t scheme = origin.find("://");
+    const std::string_view name = origin.substr(0, scheme);
+    if (scheme != origin.npos && (name == "http" || name == "https") &&
+        is_authority(origin.substr(scheme + 3)))
+        return {};
+    return fail(ErrorCode::usage,
+                fmt::format("'{}' is no origin: give scheme, host and port in small letters, as in "
+                            "https://name-8080.example.dev",
+                            origin));
+}
+
+Result<void> check_ancestor(std::string_view ancestor) {
+    const size_t colon = std::min(ancestor.find(':'), ancestor.size());
+    const std::string_view scheme = ancestor.substr(0, colon);
+    std::string_view rest = ancestor.substr(std::min(colon + 1, ancestor.size()));
+    const bool has_scheme = colon < ancestor.size() && consists_of(scheme, "+-.") && scheme.front() >= 'a';
+    if (has_scheme && rest.empty() && std::ranges::find(k_open_schemes, scheme) == std::end(k_open_schemes))
+        return {};
+    const bool has_host = has_scheme && rest.starts_with("//");
+    if (has_host)
+        rest.remove_prefix(rest.starts_with("//*.") ? 4 : 2);
+    if (has_host && is_authority(rest))
+        return {};
+    return fail(ErrorCode::usage,
+                fmt::format("'{}' cannot frame the page: give an origin in small letters, as in "
+                            "https://editor.example or https://*.vscode-cdn.net, or the scheme of a "
+                            "program's own pages, as in vscode-webview:",
+                            ancestor));
+}
+
+Answer answer_to(const Knock& knock, std::string_view token, std::span<const std::string> origins) {
     const size_t question = std::min(knock.target.find('?'), knock.target.size());
     const std::string_view path = knock.target.substr(0, question);
     const std::string_view query = knock.target.substr(std::min(question + 1, knock.target.size()));
-    if (knock.through_loopback && !is_loopback_name(name_of(knock.host)))
+    if (knock.through_loopback && !is_loopback_name(name_of(knock.host)) && !is_host_of(origins, knock.host))
         return Answer::forbidden;
-    if (!is_same_token(token_in(query), token))
+    const auto given = token_in(query);
+    if (!given && path == "/" && !knock.upgrade)
+        return Answer::page; // it holds no secret
+    if (!is_same_token(given.value_or(""), token))
         return Answer::forbidden;
-    if (knock.upgrade && !knock.origin.empty() && !is_own(knock.origin, knock.host))
+    if (knock.upgrade && !knock.origin.empty() && !is_own(knock.origin, knock.host) &&
+        std::ranges::find(origins, knock.origin) == origins.end())
         return Answer::forbidden;
     if (path == "/socket" && knock.upgrade)
         return Answer::socket;
@@ -293,4 +376,4 @@ Result<Request> parse_request(std::string_view message) {
     return refused("do", "a known request");
 }
 
-} // namespace tidemark::serve
+} // namespace tidemark::web

@@ -14,7 +14,7 @@
 #include <thread>
 #include <utility>
 
-namespace tidemark::platform {
+namespace tidemark::window {
 namespace fs = std::filesystem;
 namespace {
 
@@ -392,4 +392,4 @@ std::vector<FileWatcher::Change> FileWatcher::changed() {
     return loop_->changed();
 }
 
-} // namespace tidemark::platform
+} // namespace tidemark::window

@@ -1,3 +1,5 @@
+// Watches files for changes by the user's editor: the places to watch, and the watcher.
+//
 // Lists the places at which a change can affect what a path leads to: its file and every link on the way.
 // Reads the file system, watches nothing.
 #pragma once
@@ -12,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace tidemark::platform {
+namespace tidemark::window {
 
 /// One name in one folder; an empty name means any entry. The folder's path has no links in it.
 struct Waypoint {
@@ -73,4 +75,4 @@ private:
     std::unique_ptr<Loop> loop_;
 };
 
-} // namespace tidemark::platform
+} // namespace tidemark::window

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace tidemark::cli {
+namespace tidemark::window {
 namespace {
 
 using Way = FramePace::Way;
@@ -309,4 +309,4 @@ std::optional<render::Part> FramePump::take_slow_part(double now) {
     return at->part;
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

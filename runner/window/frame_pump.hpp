@@ -1,3 +1,6 @@
+// When and how the window draws: the choice between whole frames and parts, the interface of the object that
+// draws, and the pump that runs it.
+//
 // Decides whether a frame is drawn in one go without a noticeable delay of the window, or in parts. Pure: the
 // input is the time of earlier frames.
 #pragma once
@@ -17,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::window {
 
 class FramePace {
 public:
@@ -173,7 +176,7 @@ public:
     /// are drawn, which ends it.
     std::optional<double> advance_seek(double seconds);
     /// Returns the last frame that was begun, and the last one to draw.
-    const live::Stepping& seek_progress() const { return seek_->where; }
+    const overlay::Stepping& seek_progress() const { return seek_->where; }
     /// Returns the number of the first frame that is not drawn yet.
     int seek_next() const { return seek_->next; }
 
@@ -232,7 +235,7 @@ private:
         FrameMaker* maker; ///< not owned
         render::FrameStates states;
         double seconds;
-        live::Stepping where;
+        overlay::Stepping where;
         int next = 0;
         std::unique_ptr<FrameParts> parts{}; ///< of a slow frame; null: no frame is half drawn
     };
@@ -263,4 +266,4 @@ private:
     double progress_shown_at_ = 0;
 };
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

@@ -11,20 +11,23 @@
 #include <string>
 #include <vector>
 
-namespace tidemark::platform {
+namespace tidemark::window {
+
+using namespace host;
 
 void DestroyWindow::operator()(GLFWwindow* window) const {
     glfwDestroyWindow(window);
 }
 
-void hint_window() {
+void hint_window(bool es) {
     glfwDefaultWindowHints();
-    glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
+    glfwWindowHint(GLFW_CLIENT_API, es ? GLFW_OPENGL_ES_API : GLFW_OPENGL_API);
     // EGL starts faster than GLX, headless drawing uses the same driver, and it has contexts without windows.
     glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
-    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, es ? 3 : 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, es ? 1 : 5);
+    if (!es)
+        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_ALPHA_BITS, 0);
@@ -241,4 +244,4 @@ std::optional<InputEvent> key_event(int glfw_key, int scancode, int action) {
     return KeyPressed{key, action == GLFW_REPEAT};
 }
 
-} // namespace tidemark::platform
+} // namespace tidemark::window

@@ -1,3 +1,5 @@
+// Helpers around GLFW: creating windows, monitors, keys.
+//
 // Creates GLFW windows for the program's two window classes; only they include it.
 #pragma once
 
@@ -11,28 +13,28 @@
 
 struct GLFWwindow;
 
-namespace tidemark::platform {
+namespace tidemark::window {
 
 struct DestroyWindow {
     void operator()(GLFWwindow* window) const;
 };
 using GlfwWindow = std::unique_ptr<GLFWwindow, DestroyWindow>;
 
-/// Sets GLFW's hints for the next window: an OpenGL 4.5 core context through EGL, without depth, stencil or
-/// alpha.
-void hint_window();
+/// Sets GLFW's hints for the next window: an OpenGL 4.5 core context, or with `es` one of OpenGL ES 3.1,
+/// through EGL, without depth, stencil or alpha.
+void hint_window(bool es);
 
 /// Returns GLFW's last error.
 std::string last_glfw_error();
 
-} // namespace tidemark::platform
+} // namespace tidemark::window
 
 // Finds the monitors on which a window can be, through GLFW, which must run. Only the windows include it.
 
 struct GLFWmonitor;
 struct GLFWwindow;
 
-namespace tidemark::platform {
+namespace tidemark::window {
 
 /// A rectangle in GLFW's screen coordinates, origin at the top left.
 struct ScreenArea {
@@ -65,9 +67,9 @@ Result<void> move_to_wished(GLFWwindow* window, const WindowWishes& wishes);
 /// Returns the key's JavaScript code: by the letter or digit that the user's keyboard layout prints on it (so
 /// Z is where German keyboards have it), else by its place on an American keyboard. `key_name` is
 /// glfwGetKeyName's result; it may be null.
-Key key_from_glfw(int glfw_key, const char* key_name);
+host::Key key_from_glfw(int glfw_key, const char* key_name);
 
 /// Converts the arguments of GLFW's key callback; nullopt for a key without a code.
-std::optional<InputEvent> key_event(int glfw_key, int scancode, int action);
+std::optional<host::InputEvent> key_event(int glfw_key, int scancode, int action);
 
-} // namespace tidemark::platform
+} // namespace tidemark::window

@@ -22,7 +22,9 @@
 #include <limits>
 #include <utility>
 
-namespace tidemark::cli {
+namespace tidemark::window {
+
+using namespace host;
 namespace {
 
 constexpr double k_shortest_pause_seconds = 1;
@@ -157,4 +159,4 @@ std::optional<std::string> OriginSearch::take() {
     return done_ ? std::optional(std::move(printed_)) : std::nullopt;
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

@@ -1,3 +1,5 @@
+// Measurements and checks of the frame on show: pass times, NaN and infinities, the origin of a NaN.
+//
 // The times of each pass in a window's frames, by the driver's timer. Used only while they are shown or
 // needed.
 #pragma once
@@ -15,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::window {
 
 class PassCosts {
 public:
@@ -90,4 +92,4 @@ private:
     std::thread reader_;
 };
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

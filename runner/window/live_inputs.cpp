@@ -10,33 +10,35 @@
 #include <algorithm>
 #include <variant>
 
-namespace tidemark::cli {
+namespace tidemark::window {
+
+using namespace host;
 
 void SaidOnce::say(std::string_view line) {
     line = line.substr(0, k_longest);
     if (said_.size() >= k_most_lines || !said_.emplace(line).second)
         return;
-    cli::say(line);
+    host::say(line);
     if (said_.size() == k_most_lines)
-        cli::say("live inputs: further problems are not reported");
+        host::say("live inputs: further problems are not reported");
 }
 
 namespace {
 
 /// Adds a command and removes an earlier one that sets the same thing: only the last value between two frames
 /// counts.
-void add(live::Commands& commands, live::Command command) {
-    std::erase_if(commands, [&](const live::Command& earlier) {
-        const auto* turned = std::get_if<live::TurnKnob>(&command);
+void add(overlay::Commands& commands, overlay::Command command) {
+    std::erase_if(commands, [&](const overlay::Command& earlier) {
+        const auto* turned = std::get_if<overlay::TurnKnob>(&command);
         return earlier.index() == command.index() &&
-               (!turned || turned->name == std::get<live::TurnKnob>(earlier).name);
+               (!turned || turned->name == std::get<overlay::TurnKnob>(earlier).name);
     });
     commands.push_back(std::move(command));
 }
 
 /// Updates the knobs, so that later messages of the same call start from the new value.
-void note(const live::Command& command, std::vector<scene::Knob>& knobs) {
-    const auto* turned = std::get_if<live::TurnKnob>(&command);
+void note(const overlay::Command& command, std::vector<scene::Knob>& knobs) {
+    const auto* turned = std::get_if<overlay::TurnKnob>(&command);
     if (!turned)
         return;
     const auto knob = std::ranges::find(knobs, turned->name, &scene::Knob::name);
@@ -63,8 +65,8 @@ Result<std::unique_ptr<LiveInputs>> LiveInputs::open(const LiveInputRequest& req
 }
 
 Result<void> LiveInputs::open_osc(const std::string& where) {
-    const auto socket = TRY(live::parse_osc_address(where).and_then(live::open_osc_socket));
-    osc_receiver_ = std::make_unique<live::Receiver>(socket.descriptor, osc_);
+    const auto socket = TRY(parse_osc_address(where).and_then(open_osc_socket));
+    osc_receiver_ = std::make_unique<Receiver>(socket.descriptor, osc_);
     say(fmt::format("OSC: listening at {}", socket.address));
     return {};
 }
@@ -72,9 +74,9 @@ Result<void> LiveInputs::open_osc(const std::string& where) {
 /// Opens a port, or a file if the name contains a slash.
 Result<void> LiveInputs::open_midi(const std::string& what) {
     if (what.find('/') == what.npos)
-        midi_port_ = TRY(live::MidiPort::open(what, midi_));
+        midi_port_ = TRY(MidiPort::open(what, midi_));
     else
-        midi_receiver_ = std::make_unique<live::Receiver>(TRY(live::open_midi_device(what)), midi_);
+        midi_receiver_ = std::make_unique<Receiver>(TRY(open_midi_device(what)), midi_);
     return {};
 }
 
@@ -94,21 +96,21 @@ void say_what_is_not_recorded(const LiveInputRequest& request) {
         say("the webcam is not recorded: a replay has a placeholder picture");
 }
 
-live::Commands LiveInputs::take(std::vector<scene::Knob> knobs, live::ControllerMap& controllers) {
-    live::Commands commands;
+overlay::Commands LiveInputs::take(std::vector<scene::Knob> knobs, ControllerMap& controllers) {
+    overlay::Commands commands;
     take_osc(commands, knobs);
     take_midi(commands, knobs, controllers);
     return commands;
 }
 
-void LiveInputs::take_osc(live::Commands& commands, std::vector<scene::Knob>& knobs) {
+void LiveInputs::take_osc(overlay::Commands& commands, std::vector<scene::Knob>& knobs) {
     for (const std::string& packet : osc_.take()) {
-        const auto messages = live::parse_osc(packet);
+        const auto messages = parse_osc(packet);
         if (!messages) {
             words_.say("OSC: ignored: " + messages.error().message);
             continue;
         }
-        for (const live::OscMessage& message : *messages) {
+        for (const OscMessage& message : *messages) {
             auto command = osc_command(message, knobs);
             if (!command) {
                 words_.say(command.error().message);
@@ -120,10 +122,10 @@ void LiveInputs::take_osc(live::Commands& commands, std::vector<scene::Knob>& kn
     }
 }
 
-void LiveInputs::take_midi(live::Commands& commands, std::vector<scene::Knob>& knobs,
-                           live::ControllerMap& controllers) {
+void LiveInputs::take_midi(overlay::Commands& commands, std::vector<scene::Knob>& knobs,
+                           ControllerMap& controllers) {
     for (const std::string& bytes : midi_.take())
-        for (const live::ControlChange& change : midi_parser_.parse(bytes)) {
+        for (const ControlChange& change : midi_parser_.parse(bytes)) {
             const bool learned = controllers.learning().has_value();
             auto turned = controllers.turn(change, knobs);
             if (!turned) {
@@ -139,4 +141,4 @@ void LiveInputs::take_midi(live::Commands& commands, std::vector<scene::Knob>& k
         }
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

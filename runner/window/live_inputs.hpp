@@ -1,3 +1,5 @@
+// Live inputs of a window: OSC, MIDI, microphone and webcam.
+//
 // Prints messages about live inputs, which may repeat a thousand times a second: each once, and at most 32.
 #pragma once
 
@@ -6,7 +8,6 @@
 #include "media/video_input.hpp"
 #include "render/channel_textures.hpp"
 #include "window/midi.hpp"
-#include "window/receiver.hpp"
 
 #include <functional>
 #include <memory>
@@ -16,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::window {
 
 class SaidOnce {
 public:
@@ -57,7 +58,7 @@ public:
     bool any() { return !osc_.empty() || !midi_.empty(); }
     /// Returns the commands since the last call. `knobs` have their current values; `controllers` are the
     /// MIDI bindings, which may be changed.
-    live::Commands take(std::vector<scene::Knob> knobs, live::ControllerMap& controllers);
+    overlay::Commands take(std::vector<scene::Knob> knobs, ControllerMap& controllers);
 
     /// Captures sound and webcam picture for the next frame.
     void hear();
@@ -69,20 +70,19 @@ private:
     explicit LiveInputs(const std::function<void()>& wake);
     Result<void> open_osc(const std::string& where);
     Result<void> open_midi(const std::string& what);
-    void take_osc(live::Commands& commands, std::vector<scene::Knob>& knobs);
-    void take_midi(live::Commands& commands, std::vector<scene::Knob>& knobs,
-                   live::ControllerMap& controllers);
+    void take_osc(overlay::Commands& commands, std::vector<scene::Knob>& knobs);
+    void take_midi(overlay::Commands& commands, std::vector<scene::Knob>& knobs, ControllerMap& controllers);
 
     std::optional<sound::Microphone> microphone_;
     std::optional<image::Camera> webcam_;
     std::shared_ptr<const render::LiveMedia> media_;
-    live::Inbox osc_;
-    live::Inbox midi_;
-    live::MidiParser midi_parser_;
-    std::unique_ptr<live::Receiver> osc_receiver_; ///< declared after the inboxes it writes to
-    std::unique_ptr<live::Receiver> midi_receiver_;
-    std::unique_ptr<live::MidiPort> midi_port_;
+    Inbox osc_;
+    Inbox midi_;
+    MidiParser midi_parser_;
+    std::unique_ptr<Receiver> osc_receiver_; ///< declared after the inboxes it writes to
+    std::unique_ptr<Receiver> midi_receiver_;
+    std::unique_ptr<MidiPort> midi_port_;
     SaidOnce words_;
 };
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

@@ -1,20 +1,34 @@
 #include "window/live_scene.hpp"
 
 #include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/mapped_text.hpp"
 #include "host/console.hpp"
 #include "host/diagnostics.hpp"
+#include "host/json.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/scene.hpp"
 #include "shader/definitions.hpp"
 #include "window/screen.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <ctime>
+#include <map>
+#include <span>
 
-namespace tidemark::cli {
+namespace tidemark::window {
+
+using namespace host;
 namespace fs = std::filesystem;
 namespace {
 
@@ -117,7 +131,168 @@ std::vector<std::string> edits_of_turned(const std::vector<scene::Knob>& before,
     return lines;
 }
 
-LiveScene::LiveScene(SceneRequest request, platform::FileWatcher watcher, const std::function<void()>& wake)
+namespace {
+
+/// Bytes of a line of texts; the texts of a scene are much smaller.
+constexpr size_t k_longest_line = size_t{256} << 20;
+
+/// Returns the texts of a line, null for each file that counts again; nothing if it has another form.
+std::optional<std::map<fs::path, std::optional<std::string>>> texts_in(const Json& json) {
+    if (!json.is_object() || !json.contains("texts") || !json["texts"].is_object())
+        return std::nullopt;
+    std::map<fs::path, std::optional<std::string>> texts;
+    for (const auto& [file, text] : json["texts"].items()) {
+        std::error_code error;
+        const fs::path name = fs::weakly_canonical(file, error);
+        if (error || !(text.is_string() || text.is_null()))
+            return std::nullopt;
+        texts[name] = text.is_string() ? std::optional(text.get<std::string>()) : std::nullopt;
+    }
+    return texts;
+}
+
+} // namespace
+
+Result<std::shared_ptr<EditorTexts>> EditorTexts::open() {
+    std::shared_ptr<EditorTexts> made(new EditorTexts);
+    made->shared_ = ::memfd_create("texts", MFD_CLOEXEC);
+    made->stop_ = ::eventfd(0, EFD_CLOEXEC);
+    while (made->bytes_.find('\n') == std::string::npos)
+        if (!made->read_block())
+            return fail(ErrorCode::usage, "--editor: standard input ended before the first line of texts");
+    if (!made->take_lines() || made->shared_ < 0 || made->stop_ < 0)
+        return fail(ErrorCode::usage, "--editor: standard input needs lines such as "
+                                      "{\"texts\": {\"/path/a.glsl\": \"…\"}}");
+    (void)made->take();
+    return made;
+}
+
+EditorTexts::~EditorTexts() {
+    if (thread_.joinable()) {
+        ::eventfd_write(stop_, 1);
+        thread_.join();
+    }
+    for (const int fd : {shared_, stop_})
+        if (fd >= 0)
+            ::close(fd);
+}
+
+void EditorTexts::Waking::set(std::function<void()> wake) {
+    if (!texts_)
+        return;
+    const std::lock_guard lock(texts_->mutex_);
+    texts_->wake_ = std::move(wake);
+    if (texts_->wake_ && !texts_->thread_.joinable())
+        texts_->thread_ = std::thread([texts = texts_] { texts->run(); });
+}
+
+/// Returns false at the end of the input.
+bool EditorTexts::read_block() {
+    std::array<char, 1 << 16> block;
+    ssize_t count;
+    do
+        count = ::read(STDIN_FILENO, block.data(), block.size());
+    while (count < 0 && errno == EINTR);
+    if (count <= 0 || bytes_.size() + size_t(count) > k_longest_line)
+        return false;
+    bytes_.append(block.data(), size_t(count));
+    return true;
+}
+
+/// Takes the whole lines that have arrived; returns false if one has another form.
+bool EditorTexts::take_lines() {
+    const size_t end = bytes_.rfind('\n') + 1; // 0: none
+    const std::string lines = bytes_.substr(0, end);
+    bytes_.erase(0, end);
+    for (const std::string_view line : text::lines_of(lines)) {
+        if (line.empty())
+            continue;
+        const Json json = parse_or_discard(line);
+        auto texts = texts_in(json);
+        if (!texts)
+            return false;
+        const std::lock_guard lock(mutex_);
+        if (json.contains("note") && json["note"].is_string()) {
+            note_ = json["note"].get<std::string>();
+            if (wake_)
+                wake_();
+        }
+        for (auto& [file, text] : *texts) {
+            changed_.push_back(file);
+            if (text)
+                texts_[file] = *std::move(text);
+            else
+                texts_.erase(file);
+        }
+    }
+    return true;
+}
+
+void EditorTexts::run() {
+    bool goes_on = true;
+    while (goes_on) {
+        std::array<pollfd, 2> waits{{{STDIN_FILENO, POLLIN, 0}, {stop_, POLLIN, 0}}};
+        if (::poll(waits.data(), waits.size(), -1) < 0 && errno == EINTR)
+            continue;
+        if (waits[1].revents != 0)
+            return;
+        goes_on = read_block() && take_lines();
+        const std::lock_guard lock(mutex_);
+        ended_ = !goes_on;
+        if (wake_ && (ended_ || !changed_.empty()))
+            wake_();
+    }
+}
+
+std::optional<EditorTexts::Change> EditorTexts::take() {
+    const std::lock_guard lock(mutex_);
+    if (changed_.empty())
+        return std::nullopt;
+    share();
+    return Change{texts_, std::exchange(changed_, {})};
+}
+
+/// Writes the texts into the file in memory.
+void EditorTexts::share() {
+    Json json = Json::object();
+    for (const auto& [file, text] : texts_)
+        json[file.string()] = text;
+    const std::string line = dump(Json{{"texts", std::move(json)}});
+    if (::ftruncate(shared_, 0) == 0 && ::lseek(shared_, 0, SEEK_SET) == 0)
+        (void)write_all(shared_, std::as_bytes(std::span(line)));
+}
+
+scene::UnsavedTexts EditorTexts::shared() const {
+    constexpr int k_most_tries = 100;
+    scene::UnsavedTexts texts;
+    for (int i = 0; i < k_most_tries; ++i) {
+        std::string line;
+        std::array<char, 1 << 16> block;
+        for (ssize_t count; (count = ::pread(shared_, block.data(), block.size(), off_t(line.size()))) > 0;)
+            line.append(block.data(), size_t(count));
+        const auto found = texts_in(parse_or_discard(line));
+        if (!found) { // it is being written
+            ::usleep(1000);
+            continue;
+        }
+        for (const auto& [file, text] : *found)
+            texts[file] = text.value_or("");
+        break;
+    }
+    return texts;
+}
+
+std::string EditorTexts::note() const {
+    const std::lock_guard lock(mutex_);
+    return note_;
+}
+
+bool EditorTexts::ended() const {
+    const std::lock_guard lock(mutex_);
+    return ended_;
+}
+
+LiveScene::LiveScene(SceneRequest request, FileWatcher watcher, const std::function<void()>& wake)
     : request_(std::move(request)), watcher_(std::move(watcher)), builder_(wake) {
     scene::Scene named;
     named.file = request_.path;
@@ -139,7 +314,7 @@ LiveScene::Loading LiveScene::load(const SceneRequest& request, const std::vecto
 
 Result<LiveScene> LiveScene::create(SceneRequest request, Loading first, const View& view,
                                     const std::function<void()>& wake) {
-    auto watcher = platform::FileWatcher::create(wake);
+    auto watcher = FileWatcher::create(wake);
     if (!watcher)
         return fail(std::move(watcher.error()));
     LiveScene live(std::move(request), *std::move(watcher), wake);
@@ -194,12 +369,17 @@ LiveScene::Loading LiveScene::watched(Loading loading) {
     return loading;
 }
 
-/// Returns the saved files. Ignores changes in a scene folder that add or remove no file of the scene.
-std::vector<platform::FileWatcher::Change> LiveScene::changed() {
+/// Returns the saved files. Ignores changes in a scene folder that add or remove no file of the scene, and
+/// files whose text in an editor counts instead.
+std::vector<FileWatcher::Change> LiveScene::changed() {
     auto changes = watcher_.changed();
     const auto is_folder = [&](const auto& change) { return change.file == request_.path / ""; };
     if (std::ranges::any_of(changes, is_folder) && scene::scene_files_in(request_.path) == in_folder_)
         std::erase_if(changes, is_folder);
+    std::error_code ignored;
+    std::erase_if(changes, [&](const auto& change) {
+        return request_.files.unsaved.contains(fs::weakly_canonical(change.file, ignored));
+    });
     return changes;
 }
 
@@ -230,7 +410,8 @@ std::optional<double> LiveScene::building_since() const {
 Result<std::optional<Stage>> LiveScene::follow(const View& view, double now) {
     if (const auto changes = changed(); !changes.empty()) {
         saved_ = true;
-        const auto last = std::ranges::max(changes, {}, &platform::FileWatcher::Change::at).at;
+        typed_ = false;
+        const auto last = std::ranges::max(changes, {}, &FileWatcher::Change::at).at;
         times_ = ReloadTimes{seconds_of(last), now};
         reload(view);
     }
@@ -264,7 +445,7 @@ void LiveScene::reload(const View& view) {
 
 void LiveScene::fail_with(Error error) {
     failure_ = std::move(error);
-    report_at_ = now_seconds() + k_half_written_seconds;
+    report_at_ = now_seconds() + (typed_ ? 0 : k_half_written_seconds);
 }
 
 void LiveScene::report_failure() {
@@ -302,9 +483,31 @@ void LiveScene::define(const std::string& name, const std::optional<std::string>
     hold(std::move(defines), view);
 }
 
+void LiveScene::give_channel(int channel, const std::string& what, const View& view) {
+    const std::string begin = fmt::format("{}=", channel);
+    std::erase_if(request_.channels, [&](const std::string& text) { return text.starts_with(begin); });
+    request_.channels.push_back(begin + what);
+    hold(request_.defines, view);
+}
+
 void LiveScene::hold(std::vector<std::string> defines, const View& view) {
     request_.defines = std::move(defines);
     saved_ = true;
+    const double now = now_seconds();
+    times_ = ReloadTimes{now, now};
+    reload(view);
+}
+
+void LiveScene::put(EditorTexts::Change change, const View& view) {
+    request_.files.unsaved = std::move(change.texts);
+    std::error_code ignored;
+    const auto is_read = [&](const fs::path& file) {
+        return std::ranges::any_of(
+            watched_, [&](const fs::path& each) { return fs::weakly_canonical(each, ignored) == file; });
+    };
+    if (std::ranges::none_of(change.files, is_read))
+        return;
+    saved_ = typed_ = true;
     const double now = now_seconds();
     times_ = ReloadTimes{now, now};
     reload(view);
@@ -315,4 +518,4 @@ void LiveScene::give_up() {
     times_.reset();
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

@@ -22,7 +22,7 @@
 #include <optional>
 #include <type_traits>
 
-namespace tidemark::live {
+namespace tidemark::window {
 namespace {
 
 constexpr std::string_view k_loopback = "127.0.0.1";
@@ -232,7 +232,8 @@ Result<scene::KnobValue> value_of(const scene::Knob& knob, std::span<const OscAr
     return value;
 }
 
-Result<Command> turn_component(const scene::Knob& knob, std::string_view name, const OscMessage& message) {
+Result<overlay::Command> turn_component(const scene::Knob& knob, std::string_view name,
+                                        const OscMessage& message) {
     const auto component = component_of(name, knob);
     if (!component)
         return refuse("{} ({}) has no component '{}'", knob.name, info(knob.type).directive_name, name);
@@ -240,10 +241,10 @@ Result<Command> turn_component(const scene::Knob& knob, std::string_view name, c
         return refuse("'{}' takes one number", message.address);
     scene::KnobValue value = knob.value;
     value[*component] = TRY(value_of(knob, message.arguments))[*component];
-    return TurnKnob{knob.name, value};
+    return overlay::TurnKnob{knob.name, value};
 }
 
-Result<Command> turn(const OscMessage& message, std::span<const scene::Knob> knobs) {
+Result<overlay::Command> turn(const OscMessage& message, std::span<const scene::Knob> knobs) {
     const std::string_view rest = std::string_view(message.address).substr(k_knob.size());
     const size_t slash = rest.find('/');
     const std::string_view name = rest.substr(0, slash);
@@ -255,21 +256,21 @@ Result<Command> turn(const OscMessage& message, std::span<const scene::Knob> kno
     if (slash != rest.npos)
         return turn_component(*knob, rest.substr(slash + 1), message);
     const auto value = TRY(value_of(*knob, message.arguments));
-    return TurnKnob{knob->name, value};
+    return overlay::TurnKnob{knob->name, value};
 }
 
-Result<Command> seek(const OscMessage& message) {
+Result<overlay::Command> seek(const OscMessage& message) {
     const auto seconds = number_of(message);
     if (!seconds || !(*seconds >= 0))
         return refuse("/time takes one number of seconds, 0 or more");
-    return Seek{*seconds};
+    return overlay::Seek{*seconds};
 }
 
-Result<Command> play(const OscMessage& message) {
+Result<overlay::Command> play(const OscMessage& message) {
     const auto number = message.arguments.empty() ? std::optional(1.0) : number_of(message);
     if (!number)
         return refuse("/play takes 1 or 0");
-    return SetPlaying{*number != 0};
+    return overlay::SetPlaying{*number != 0};
 }
 
 } // namespace
@@ -313,7 +314,7 @@ Result<std::vector<OscMessage>> parse_osc(std::string_view packet) {
     return messages;
 }
 
-Result<Command> osc_command(const OscMessage& message, std::span<const scene::Knob> knobs) {
+Result<overlay::Command> osc_command(const OscMessage& message, std::span<const scene::Knob> knobs) {
     if (message.address.starts_with(k_knob))
         return turn(message, knobs);
     if (message.address == "/time")
@@ -323,4 +324,4 @@ Result<Command> osc_command(const OscMessage& message, std::span<const scene::Kn
     return refuse("unknown address '{}': send /knob/NAME, /time or /play", message.address);
 }
 
-} // namespace tidemark::live
+} // namespace tidemark::window

@@ -1,3 +1,5 @@
+// OSC input: the socket, the packets, and the commands they stand for.
+//
 // The UDP socket that receives OSC messages.
 #pragma once
 
@@ -10,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-namespace tidemark::live {
+namespace tidemark::window {
 
 /// The address to listen at. `9000` is a port that only this machine reaches; `0.0.0.0:9000`,
 /// `studio.local:9000` and `[::]:9000` name an address, too.
@@ -60,6 +62,6 @@ Result<std::vector<OscMessage>> parse_osc(std::string_view packet);
 ///     /play 0                 pauses; 1, or no argument, resumes
 ///
 /// Fails with ErrorCode::usage and a one-line message.
-Result<Command> osc_command(const OscMessage& message, std::span<const scene::Knob> knobs);
+Result<overlay::Command> osc_command(const OscMessage& message, std::span<const scene::Knob> knobs);
 
-} // namespace tidemark::live
+} // namespace tidemark::window

@@ -22,12 +22,18 @@
 #include <thread>
 #include <utility>
 
-namespace tidemark::cli {
+namespace tidemark::window {
+
+using namespace host;
 namespace {
 
 /// Returns the source line as the author wrote it; empty if it cannot be read.
-std::string line_at(const SourceLocation& where) {
-    const auto file = where.line > 0 ? read_text_file(where.file) : Result<std::string>("");
+std::string line_at(const SourceLocation& where, const scene::UnsavedTexts& unsaved) {
+    std::error_code ignored;
+    const auto held = unsaved.find(std::filesystem::weakly_canonical(where.file, ignored));
+    const auto file = where.line <= 0         ? Result<std::string>("")
+                      : held != unsaved.end() ? Result<std::string>(held->second)
+                                              : read_text_file(where.file);
     const std::string text = file ? text::with_plain_line_ends(*file) : "";
     size_t begin = 0;
     for (int line = 1; line < where.line && begin < text.size(); ++line)
@@ -38,20 +44,20 @@ std::string line_at(const SourceLocation& where) {
 /// Returns the fields in order of importance: the first error with its notes, then the other diagnostics,
 /// then the message about the whole scene. A diagnostic at the same place as the one before has no source
 /// line.
-std::vector<live::ErrorField> fields_of(const Error& error) {
-    std::vector<live::ErrorField> fields;
+std::vector<overlay::ErrorField> fields_of(const Error& error, const scene::UnsavedTexts& unsaved) {
+    std::vector<overlay::ErrorField> fields;
     const SourceLocation* before = nullptr;
     for (const Diagnostic& diagnostic : error.diagnostics) {
         const bool again = before && diagnostic.where == *before;
-        fields.push_back({diagnostic, again ? "" : line_at(diagnostic.where)});
+        fields.push_back({diagnostic, again ? "" : line_at(diagnostic.where, unsaved)});
         before = &diagnostic.where;
     }
-    const auto first = std::ranges::find_if(fields, [](const live::ErrorField& field) {
+    const auto first = std::ranges::find_if(fields, [](const overlay::ErrorField& field) {
         return field.diagnostic.severity == Severity::error && field.diagnostic.where.line > 0;
     });
     if (first != fields.end())
         std::rotate(fields.begin(), first,
-                    std::find_if(first + 1, fields.end(), [](const live::ErrorField& field) {
+                    std::find_if(first + 1, fields.end(), [](const overlay::ErrorField& field) {
                         return field.diagnostic.severity != Severity::note;
                     }));
     if (!error.message.empty())
@@ -61,23 +67,14 @@ std::vector<live::ErrorField> fields_of(const Error& error) {
 }
 
 /// Adds the MIDI binding of each component to the fields.
-void add_controllers(std::vector<live::KnobField>& fields, const live::ControllerMap& map) {
-    for (live::KnobField& field : fields)
+void add_controllers(std::vector<overlay::KnobField>& fields, const ControllerMap& map) {
+    for (overlay::KnobField& field : fields)
         for (size_t i = 0; i < size_t(info(field.knob.type).components); ++i) {
-            const live::KnobPart part{field.knob.name, i};
+            const KnobPart part{field.knob.name, i};
             const auto controller = map.controller_of(part);
             field.controllers.push_back({to_string(part, field.knob),
                                          controller ? to_string(*controller) : "", map.learning() == part});
         }
-}
-
-/// Returns a label such as `2.500 s, height = 2`.
-std::string label_of(const Moment& view) {
-    const render::FrameState& state = view.sequence.state;
-    std::string label = fmt::format("{:.3f} s", state.seconds());
-    for (const scene::KnobSetting& knob : state.knobs)
-        label += fmt::format(", {} = {}", knob.name, scene::to_string(knob.value));
-    return label;
 }
 
 /// The argument formats for a line and a column.
@@ -151,12 +148,12 @@ const char* chosen_editor() {
 
 } // namespace
 
-bool ErrorBoard::show(const Error* error) {
+bool ErrorBoard::show(const Error* error, const scene::UnsavedTexts& unsaved) {
     std::string text = error ? to_string(*error) : "";
     if (text == text_)
         return false;
     text_ = std::move(text);
-    fields_ = error ? fields_of(*error) : std::vector<live::ErrorField>{};
+    fields_ = error ? fields_of(*error, unsaved) : std::vector<overlay::ErrorField>{};
     return true;
 }
 
@@ -187,11 +184,11 @@ bool Messages::take_due(double now) {
     return due;
 }
 
-std::vector<live::MessageField> Messages::fields(double now) {
+std::vector<overlay::MessageField> Messages::fields(double now) {
     constexpr double k_fading_seconds = 0.5;
     constexpr double k_step_seconds = 1 / 20.0;
     std::erase_if(entries_, [&](const Entry& entry) { return entry.until <= now; });
-    std::vector<live::MessageField> fields;
+    std::vector<overlay::MessageField> fields;
     due_ = std::numeric_limits<double>::infinity();
     for (const Entry& entry : entries_) {
         const double left = entry.until - now;
@@ -230,8 +227,8 @@ void History::follow(Edits now, double time, bool held) {
         return;
     }
     std::string changed = changed_words(*current_, now);
-    const bool quick = !held && !held_ && time - changed_at_ < k_pause_seconds && changed == changed_;
-    const bool same_step = (held && held_) || quick;
+    const bool quick = !held && time - changed_at_ < k_pause_seconds && changed == changed_;
+    const bool same_step = held_ || quick; // a release without a change clears `held_`
     if (!same_step || before_.empty())
         before_.push_back(*std::move(current_));
     if (before_.size() > k_most_steps)
@@ -261,25 +258,26 @@ std::optional<Edits> History::go(std::vector<Edits>& from, std::vector<Edits>& t
     return current_;
 }
 
-std::vector<live::KnobField> knob_fields(const scene::Scene& scene,
-                                         const std::vector<scene::KnobSetting>& turned) {
-    std::vector<live::KnobField> fields;
+std::vector<overlay::KnobField> knob_fields(const scene::Scene& scene,
+                                            const std::vector<scene::KnobSetting>& turned) {
+    std::vector<overlay::KnobField> fields;
     for (const scene::Knob& knob : scene.knobs)
         fields.push_back({knob, value_after(knob, turned)});
     return fields;
 }
 
-std::vector<live::DefinitionField> definition_fields(const scene::Scene& scene, const SceneRequest& request) {
+std::vector<overlay::DefinitionField> definition_fields(const scene::Scene& scene,
+                                                        const SceneRequest& request) {
     std::vector<scene::Setting> held;
     for (const std::string& text : request.defines)
         if (const auto split = scene::split_setting(text, "--define"))
             set(held, {std::string(split->first), std::string(split->second)});
-    std::vector<live::DefinitionField> fields;
+    std::vector<overlay::DefinitionField> fields;
     for (const glsl::NamedText& definition : glsl::plain_numbers(scene)) {
         const auto other = std::ranges::find(held, definition.name, &scene::Setting::name);
         const bool is_held = other != held.end();
         if (auto field =
-                live::definition_field(definition.name, is_held ? other->value : definition.text, is_held))
+                overlay::definition_field(definition.name, is_held ? other->value : definition.text, is_held))
             fields.push_back(*std::move(field));
     }
     return fields;
@@ -302,38 +300,62 @@ void Overlay::forget_scene() {
     show_origin(nullptr);
 }
 
-std::string Overlay::keep(Moment view) {
-    auto views = std::make_shared<std::vector<Moment>>(*views_);
+std::string Overlay::keep(Preset view) {
+    auto views = std::make_shared<std::vector<Preset>>(*views_);
+    for (size_t number = views->size() + 1; view.name.empty(); ++number) {
+        const std::string name = fmt::format("view {}", number);
+        if (std::ranges::find(*views, name, &Preset::name) == views->end())
+            view.name = name;
+    }
     views->push_back(std::move(view));
-    std::string label = label_of(views->back());
+    std::string text = fmt::format("{}: {}", views->back().name, label_of(views->back()));
     set_views(std::move(views));
-    return label;
+    return text;
 }
 
 void Overlay::forget_view(size_t index) {
     if (index >= views_->size())
         return;
-    auto views = std::make_shared<std::vector<Moment>>(*views_);
+    auto views = std::make_shared<std::vector<Preset>>(*views_);
     views->erase(views->begin() + std::ptrdiff_t(index));
     set_views(std::move(views));
 }
 
-void Overlay::set_views(std::shared_ptr<const std::vector<Moment>> views) {
+Result<void> Overlay::rename_view(size_t index, const std::string& name) {
+    if (index >= views_->size() || name == (*views_)[index].name)
+        return {};
+    mark_changed(); // a refused name is replaced
+    if (name.empty())
+        return fail(ErrorCode::usage, "a view needs a name");
+    if (std::ranges::find(*views_, name, &Preset::name) != views_->end())
+        return fail(ErrorCode::usage, fmt::format("another view has the name '{}'", name));
+    auto views = std::make_shared<std::vector<Preset>>(*views_);
+    (*views)[index].name = name;
+    set_views(std::move(views));
+    return {};
+}
+
+void Overlay::set_views(std::shared_ptr<const std::vector<Preset>> views) {
     views_ = std::move(views);
     mark_changed();
 }
 
-void Overlay::restore(bool controls_open, std::vector<Moment> views, std::vector<live::Binding> controllers) {
-    controls_open_ = controls_open;
-    views_ = std::make_shared<std::vector<Moment>>(std::move(views));
-    controllers_ = live::ControllerMap(std::move(controllers));
+void Overlay::set_morph(double seconds) {
+    morph_seconds_ = seconds;
+    mark_changed();
 }
 
-live::Model Overlay::model(const scene::Scene* scene, const SceneRequest& request,
-                           const std::vector<scene::KnobSetting>& turned, bool midi, double now) {
+void Overlay::restore(bool controls_open, double morph_seconds, std::vector<Binding> controllers) {
+    controls_open_ = controls_open;
+    morph_seconds_ = morph_seconds;
+    controllers_ = ControllerMap(std::move(controllers));
+}
+
+overlay::Model Overlay::model(const scene::Scene* scene, const SceneRequest& request,
+                              const std::vector<scene::KnobSetting>& turned, bool midi, double now) {
     changed_ = false;
-    live::Model model{.controls = controls_open_ && scene,
-                      .errors = errors_.fields().empty() ? origin_.fields() : errors_.fields()};
+    overlay::Model model{.controls = controls_open_ && scene,
+                         .errors = errors_.fields().empty() ? origin_.fields() : errors_.fields()};
     if (model.controls) {
         if (!definitions_)
             definitions_ = definition_fields(*scene, request);
@@ -341,8 +363,9 @@ live::Model Overlay::model(const scene::Scene* scene, const SceneRequest& reques
         model.knobs = knob_fields(*scene, turned);
         if (midi)
             add_controllers(model.knobs, controllers_);
-        for (const Moment& view : *views_)
-            model.views.push_back(label_of(view));
+        for (const Preset& view : *views_)
+            model.views.push_back({view.name, label_of(view)});
+        model.morph_seconds = morph_seconds_;
     }
     model.messages = messages_.fields(now);
     if (help_open_) {
@@ -382,4 +405,4 @@ Result<void> open_editor(const SourceLocation& where) {
     return {};
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

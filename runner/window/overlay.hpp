@@ -1,9 +1,12 @@
+// State of the overlay over the picture: error panel, messages, undo history, contents of the panels. Also
+// opens the user's editor.
+//
 // The error on show, with the source lines it refers to.
 #pragma once
 
 #include "base/error.hpp"
-#include "host/moment.hpp"
 #include "host/overlay_model.hpp"
+#include "host/presets.hpp"
 #include "host/requests.hpp"
 #include "scene/scene.hpp"
 #include "window/midi.hpp"
@@ -15,18 +18,18 @@
 #include <string_view>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::window {
 
 class ErrorBoard {
 public:
     /// Sets the error; null: there is none. Reads the files if the error differs from the last one. Returns
     /// whether it differs.
-    bool show(const Error* error);
-    const std::vector<live::ErrorField>& fields() const { return fields_; }
+    bool show(const Error* error, const scene::UnsavedTexts& unsaved = {});
+    const std::vector<overlay::ErrorField>& fields() const { return fields_; }
 
 private:
     std::string text_; ///< of the error
-    std::vector<live::ErrorField> fields_;
+    std::vector<overlay::ErrorField> fields_;
 };
 
 // Opens the user's own editor at a place in a file. Uses no shell and does not wait for it.
@@ -57,7 +60,7 @@ public:
     /// Returns when `take_due` will return true; infinity: not by itself.
     double due() const { return due_; }
     /// Returns the messages to show, the oldest first.
-    std::vector<live::MessageField> fields(double now);
+    std::vector<overlay::MessageField> fields(double now);
 
 private:
     struct Entry {
@@ -77,7 +80,7 @@ struct Edits {
     std::vector<scene::KnobSetting> knobs{}; ///< values that differ from the scene's
     render::OrbitCamera camera{};
     std::vector<std::string> defines{};
-    std::shared_ptr<const std::vector<Moment>> views{};
+    std::shared_ptr<const std::vector<host::Preset>> views{};
 
     bool operator==(const Edits&) const = default;
 };
@@ -112,11 +115,12 @@ private:
 // the panels' commands.
 
 /// Returns the scene's knobs with their current values: the defaults after `turned`.
-std::vector<live::KnobField> knob_fields(const scene::Scene& scene,
-                                         const std::vector<scene::KnobSetting>& turned);
+std::vector<overlay::KnobField> knob_fields(const scene::Scene& scene,
+                                            const std::vector<scene::KnobSetting>& turned);
 
 /// Returns the numeric definitions in the scene's texts, with the overrides of `request`.
-std::vector<live::DefinitionField> definition_fields(const scene::Scene& scene, const SceneRequest& request);
+std::vector<overlay::DefinitionField> definition_fields(const scene::Scene& scene,
+                                                        const host::SceneRequest& request);
 
 class Overlay {
 public:
@@ -133,35 +137,41 @@ public:
     void mark_changed_if(bool changed) { changed_ |= changed; }
     bool changed() const { return changed_; }
 
-    /// Sets the error of the scene's files; null: none.
-    void show_error(const Error* error) { mark_changed_if(errors_.show(error)); }
+    /// Sets the error of the scene's files, or of an editor's texts in their place; null: none.
+    void show_error(const Error* error, const scene::UnsavedTexts& unsaved = {}) {
+        mark_changed_if(errors_.show(error, unsaved));
+    }
     /// Sets the origin of a NaN, shown while the files have no error; null: none. Returns whether it differs.
     bool show_origin(const Error* origin);
     /// Forgets the texts of the scene on show: another one is on show from now on.
     void forget_scene();
 
-    /// Adds a view that the user keeps. Returns its label.
-    std::string keep(Moment view);
+    /// Adds a view that the user keeps, under a name that no other has. Returns name and label.
+    std::string keep(host::Preset view);
     void forget_view(size_t index);
-    const std::vector<Moment>& views() const { return *views_; }
+    /// Fails (ErrorCode::usage) if the name is empty or another view has it.
+    Result<void> rename_view(size_t index, const std::string& name);
+    const std::vector<host::Preset>& views() const { return *views_; }
     /// The same, as a value that later changes do not touch.
-    std::shared_ptr<const std::vector<Moment>> kept_views() const { return views_; }
-    void set_views(std::shared_ptr<const std::vector<Moment>> views);
+    std::shared_ptr<const std::vector<host::Preset>> kept_views() const { return views_; }
+    void set_views(std::shared_ptr<const std::vector<host::Preset>> views);
+    double morph_seconds() const { return morph_seconds_; }
+    void set_morph(double seconds);
 
     Messages& messages() { return messages_; }
     const Messages& messages() const { return messages_; }
 
     /// Bindings of MIDI controllers, of this scene, also without a device.
-    live::ControllerMap& controllers() { return controllers_; }
-    const live::ControllerMap& controllers() const { return controllers_; }
+    ControllerMap& controllers() { return controllers_; }
+    const ControllerMap& controllers() const { return controllers_; }
 
     /// Restores what the last window kept.
-    void restore(bool controls_open, std::vector<Moment> views, std::vector<live::Binding> controllers);
+    void restore(bool controls_open, double morph_seconds, std::vector<Binding> controllers);
 
     /// Returns the panels' contents, which are up to date from then on. `scene`: on show; null: none yet, and
     /// the controls stay closed. `turned`: values of its knobs. `midi`: there is a MIDI device.
-    live::Model model(const scene::Scene* scene, const SceneRequest& request,
-                      const std::vector<scene::KnobSetting>& turned, bool midi, double now = 0);
+    overlay::Model model(const scene::Scene* scene, const host::SceneRequest& request,
+                         const std::vector<scene::KnobSetting>& turned, bool midi, double now = 0);
 
     /// Sets the window's title; returns whether it differs from the last one.
     bool change_title(const std::string& title);
@@ -172,12 +182,13 @@ private:
     bool changed_ = false;
     ErrorBoard errors_;
     ErrorBoard origin_;
-    std::shared_ptr<const std::vector<Moment>> views_ = std::make_shared<std::vector<Moment>>();
+    std::shared_ptr<const std::vector<host::Preset>> views_ = std::make_shared<std::vector<host::Preset>>();
+    double morph_seconds_ = 0;
     Messages messages_;
-    live::ControllerMap controllers_;
-    std::optional<std::vector<live::DefinitionField>>
+    ControllerMap controllers_;
+    std::optional<std::vector<overlay::DefinitionField>>
         definitions_; ///< of the scene on show; none: not read yet
     std::string title_;
 };
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

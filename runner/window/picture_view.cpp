@@ -10,7 +10,9 @@
 #include <utility>
 #include <variant>
 
-namespace tidemark::cli {
+namespace tidemark::window {
+
+using namespace host;
 namespace {
 
 constexpr int k_smallest = -3;
@@ -70,15 +72,15 @@ std::string size_of(const gl::Texture& texture) {
                                                  : size;
 }
 
-render::Look look_of(const live::LookField& field) {
-    const live::ChannelChoice& choice = live::k_channel_choices[field.channels];
+render::Look look_of(const overlay::LookField& field) {
+    const overlay::ChannelChoice& choice = overlay::k_channel_choices[field.channels];
     return {choice.channel, choice.less, field.automatic ? 0 : field.stops, field.automatic};
 }
 
 constexpr Extent k_cells{15, 9};
 
 /// Fills the cells with `part`, as far as it lies within the texture.
-void show_cells(const gl::Texture& texture, const Rectangle& part, live::MagnifierField& field) {
+void show_cells(const gl::Texture& texture, const Rectangle& part, overlay::MagnifierField& field) {
     const Rectangle known = part.within({0, 0, texture.extent});
     const std::vector<float> values = gl::read_part(texture, 0, known);
     field.cells = part.extent;
@@ -88,18 +90,24 @@ void show_cells(const gl::Texture& texture, const Rectangle& part, live::Magnifi
             const size_t cell = size_t(known.y - part.y + row) * size_t(part.extent.width) +
                                 size_t(known.x - part.x + column);
             const size_t texel = size_t(row) * size_t(known.extent.width) + size_t(column);
-            field.colours[cell] = live::colour_of(&values[4 * texel]);
+            field.colours[cell] = overlay::colour_of(&values[4 * texel]);
         }
 }
 
-live::PixelValue value_at(const scene::Pass& pass, const gl::Texture& texture, const Rectangle& pixel) {
-    live::PixelValue value{pass.name, gl::read_part(texture, 0, pixel)};
+overlay::PixelValue value_at(const scene::Pass& pass, const gl::Texture& texture, const Rectangle& pixel) {
+    overlay::PixelValue value{pass.name, gl::read_part(texture, 0, pixel)};
     if (pass.kind == scene::PassKind::image)
         value.channels.pop_back();
     return value;
 }
 
 } // namespace
+
+gl::Texture texture_of(const image::Image& picture) {
+    gl::Texture texture = gl::make_texture(picture.extent, GL_RGBA8, 1);
+    gl::upload(texture, 0, picture.channels == 3 ? GL_RGB : GL_RGBA, GL_UNSIGNED_BYTE, picture.bytes);
+    return texture;
+}
 
 std::vector<RenderScale> RenderScale::all() {
     std::vector<RenderScale> scales;
@@ -192,7 +200,7 @@ const gl::Texture* PassPictures::flat(const gl::Texture& picture, int face, std:
     return view->second.draw(picture, slice.value_or(picture.depth / 2), face);
 }
 
-const gl::Texture& PassPictures::looked_at(const gl::Texture& picture, live::LookField& look) {
+const gl::Texture& PassPictures::looked_at(const gl::Texture& picture, overlay::LookField& look) {
     const render::Look wanted = look_of(look);
     if (wanted.is_plain())
         return picture;
@@ -210,14 +218,15 @@ const gl::Texture& PassPictures::looked_at(const gl::Texture& picture, live::Loo
     return drawn ? *drawn : picture;
 }
 
-std::vector<live::PictureField> PassPictures::fields(const render::Renderer& renderer, const PassCosts& costs,
-                                                     Large& large, render::ShownFloats& floats,
-                                                     const render::FrameInputs& inputs) {
-    std::vector<live::PictureField> fields;
+std::vector<overlay::PictureField> PassPictures::fields(const render::Renderer& renderer,
+                                                        const PassCosts& costs, Large& large,
+                                                        render::ShownFloats& floats,
+                                                        const render::FrameInputs& inputs) {
+    std::vector<overlay::PictureField> fields;
     for (const Source& source : sources_of(renderer)) {
         const bool is_large = large.index == fields.size();
         const gl::Texture* picture = source.texture;
-        live::PictureField field{.name = source.name, .extent = {}, .size = size_of(*picture)};
+        overlay::PictureField field{.name = source.name, .extent = {}, .size = size_of(*picture)};
         if (source.pass)
             field.milliseconds = costs.of(*source.pass);
         if (picture->target == GL_TEXTURE_3D)
@@ -237,8 +246,8 @@ std::vector<live::PictureField> PassPictures::fields(const render::Renderer& ren
     return fields;
 }
 
-bool Magnifier::follow(const platform::InputEvent& event) {
-    const auto* moved = std::get_if<platform::PointerMoved>(&event);
+bool Magnifier::follow(const host::InputEvent& event) {
+    const auto* moved = std::get_if<host::PointerMoved>(&event);
     if (moved)
         pointer_ = moved->at;
     return moved && open_;
@@ -252,16 +261,16 @@ Rectangle Magnifier::pixel(Extent picture, Extent window) const {
         at(pointer_.x, picture.width, window.width), at(pointer_.y, picture.height, window.height), {1, 1}};
 }
 
-std::optional<live::MagnifierField> Magnifier::field(const render::Renderer& renderer,
-                                                     const render::FrameInputs& inputs, Extent window,
-                                                     render::ShownFloats& floats) const {
+std::optional<overlay::MagnifierField> Magnifier::field(const render::Renderer& renderer,
+                                                        const render::FrameInputs& inputs, Extent window,
+                                                        render::ShownFloats& floats) const {
     const Extent picture = renderer.target().extent();
     const Rectangle under = pixel(picture, window);
     if (!open_ || !Rectangle{0, 0, picture}.contains(under.x, under.y))
         return std::nullopt;
     const Rectangle part{under.x - k_cells.width / 2, under.y - k_cells.height / 2, k_cells};
     const gl::Texture& shown = floats.draw(renderer, inputs, part);
-    live::MagnifierField field{.pointer = pointer_, .x = under.x, .y = under.y};
+    overlay::MagnifierField field{.pointer = pointer_, .x = under.x, .y = under.y};
     show_cells(shown, part, field);
     field.values.push_back(value_at(renderer.shown_pass(), shown, under));
     for (const render::PlannedPass& planned : renderer.plan().passes) {
@@ -331,8 +340,8 @@ void PictureView::choose(int number) {
     large_ = large_ == index ? std::nullopt : index;
 }
 
-void PictureView::add_pictures(live::Model& model, const render::Renderer& renderer, const PassCosts& costs,
-                               const render::FrameInputs& inputs, Extent window) {
+void PictureView::add_pictures(overlay::Model& model, const render::Renderer& renderer,
+                               const PassCosts& costs, const render::FrameInputs& inputs, Extent window) {
     if (!pictures_)
         pictures_.emplace();
     PassPictures::Large large{large_, look_, window};
@@ -342,8 +351,35 @@ void PictureView::add_pictures(live::Model& model, const render::Renderer& rende
     model.look = large.look;
 }
 
+void PictureView::add_thumbnails(overlay::Model& model,
+                                 const std::shared_ptr<const std::vector<Preset>>& views) {
+    if (std::exchange(thumbnails_of_, views) != views) {
+        thumbnails_.clear();
+        for (const Preset& view : *views) {
+            thumbnails_.emplace_back();
+            if (view.picture.extent.pixels() > 0)
+                thumbnails_.back() = texture_of(view.picture);
+        }
+    }
+    for (size_t i = 0; i < std::min(model.views.size(), thumbnails_.size()); ++i)
+        if (thumbnails_[i]) {
+            model.views[i].texture = thumbnails_[i]->id();
+            model.views[i].extent = thumbnails_[i]->extent;
+        }
+}
+
+std::optional<overlay::LensField> PictureView::legend(Extent window) const {
+    const Extent extent = lens_.extent();
+    if (extent.pixels() == 0)
+        return lens_.field(std::nullopt);
+    const Rectangle pixel = magnifier_.pixel(extent, window);
+    const bool inside = pixel.x >= 0 && pixel.y >= 0 && pixel.x < extent.width && pixel.y < extent.height;
+    return lens_.field(inside ? std::optional(std::array{pixel.x, pixel.y}) : std::nullopt);
+}
+
 void PictureView::leave_context() {
     forget_objects();
+    lens_.leave_context();
     if (frozen_)
         frozen_->target.framebuffer = {}; // its texture is shared with the next context
 }
@@ -363,6 +399,8 @@ void PictureView::forget_objects() {
     pictures_.reset();
     floats_.reset();
     marks_.reset();
+    thumbnails_of_.reset();
+    thumbnails_.clear();
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

@@ -1,3 +1,5 @@
+// How the drawn picture is shown: render scale, pictures of passes, magnifier, frozen frame, marks.
+//
 // Rendered pixels per window pixel along a side: a power of two.
 #pragma once
 
@@ -5,20 +7,23 @@
 #include "host/input_script.hpp"
 #include "host/moment.hpp"
 #include "host/overlay_model.hpp"
+#include "host/presets.hpp"
 #include "render/buffer_views.hpp"
 #include "render/renderer.hpp"
 #include "window/inspection.hpp"
+#include "window/lens_view.hpp"
 #include "window/recorder.hpp"
 
 #include <compare>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::window {
 
 class RenderScale {
 public:
@@ -78,22 +83,25 @@ public:
     /// The large picture and its view settings, into which the automatic exposure is written.
     struct Large {
         std::optional<size_t> index{}; ///< index into `fields`; beyond the end: none
-        live::LookField look{};
+        overlay::LookField look{};
         Extent window{};
     };
 
     /// Returns the outputs of passes, then their inputs. `floats` and `inputs` give the shown pass in floats.
-    std::vector<live::PictureField> fields(const render::Renderer& renderer, const PassCosts& costs,
-                                           Large& large, render::ShownFloats& floats,
-                                           const render::FrameInputs& inputs);
+    std::vector<overlay::PictureField> fields(const render::Renderer& renderer, const PassCosts& costs,
+                                              Large& large, render::ShownFloats& floats,
+                                              const render::FrameInputs& inputs);
 
 private:
     const gl::Texture* flat(const gl::Texture& picture, int face, std::optional<int> slice);
-    const gl::Texture& looked_at(const gl::Texture& picture, live::LookField& look);
+    const gl::Texture& looked_at(const gl::Texture& picture, overlay::LookField& look);
 
     std::map<GLuint, render::FlatView> flat_{}; ///< views of the textures that are not flat
     std::optional<render::PictureLook> look_{};
 };
+
+/// Returns a texture of a picture of three or four channels of bytes.
+gl::Texture texture_of(const image::Image& picture);
 
 // The magnifier of the window. Reads the pixels around the pointer, only while it is open.
 
@@ -102,19 +110,19 @@ public:
     void toggle() { open_ = !open_; }
     bool is_open() const { return open_; }
     /// Follows the pointer. Returns whether the magnifier must be shown again.
-    bool follow(const platform::InputEvent& event);
+    bool follow(const host::InputEvent& event);
 
     /// Returns the pixel under the pointer, for a picture that fills the window.
     Rectangle pixel(Extent picture, Extent window) const;
     /// Returns the magnifier of the frame on show, which was drawn with `inputs`. Returns nothing while it is
     /// closed or the pointer is outside the window.
-    std::optional<live::MagnifierField> field(const render::Renderer& renderer,
-                                              const render::FrameInputs& inputs, Extent window,
-                                              render::ShownFloats& floats) const;
+    std::optional<overlay::MagnifierField> field(const render::Renderer& renderer,
+                                                 const render::FrameInputs& inputs, Extent window,
+                                                 render::ShownFloats& floats) const;
 
 private:
     bool open_ = false;
-    platform::PointerPosition pointer_{};
+    host::PointerPosition pointer_{};
 };
 
 // How the drawn picture is shown: its scale, a frozen frame, marks, the magnifier, the large picture of the
@@ -124,7 +132,7 @@ private:
 struct Frozen {
     gl::RenderTarget target; ///< in the context of the scene on show
     KeptPicture picture;
-    Moment moment;
+    host::Moment moment;
 };
 
 class PictureView {
@@ -138,7 +146,7 @@ public:
     /// Returns the size of the drawn picture for a window of that size.
     Extent drawn(Extent window) const { return scale_.drawn(window); }
     /// Converts an event's place in the window to pixels of the drawn picture.
-    ControlEvent in_picture(const ControlEvent& event, Extent window) const;
+    host::ControlEvent in_picture(const host::ControlEvent& event, Extent window) const;
     bool adapts() const { return adaptive_.has_value(); }
     /// Adapts the scale to hold a frame rate; none: the scale is constant.
     void adapt_to(std::optional<double> fps);
@@ -167,14 +175,21 @@ public:
 
     void toggle_magnifier();
     bool magnifies() const { return magnifier_.is_open(); }
-    /// Follows the pointer. Returns whether the magnifier must be shown again.
-    bool follow(const platform::InputEvent& event) { return magnifier_.follow(event); }
+    /// Follows the pointer. Returns whether magnifier or legend must be shown again.
+    bool follow(const host::InputEvent& event) { return magnifier_.follow(event) || lens_.on(); }
     /// Returns the pixel under the pointer.
     Rectangle pixel(Extent picture, Extent window) const { return magnifier_.pixel(picture, window); }
-    std::optional<live::MagnifierField> magnifier(const render::Renderer& renderer,
-                                                  const render::FrameInputs& inputs, Extent window) {
+    std::optional<overlay::MagnifierField> magnifier(const render::Renderer& renderer,
+                                                     const render::FrameInputs& inputs, Extent window) {
         return magnifier_.field(renderer, inputs, window, floats());
     }
+
+    // Lenses
+
+    LensView& lens() { return lens_; }
+    const LensView& lens() const { return lens_; }
+    /// Returns the legend, with the number under the pointer.
+    std::optional<overlay::LensField> legend(Extent window) const;
 
     // The pictures of passes and inputs
 
@@ -183,10 +198,12 @@ public:
     /// Shows a picture large by its number, from 1; 0, or the same number again: the scene's own.
     void choose(int number);
     std::optional<size_t> large() const { return large_; }
-    void look(const live::LookField& look) { look_ = look; }
+    void look(const overlay::LookField& look) { look_ = look; }
     /// Adds the pictures and the large one to the model.
-    void add_pictures(live::Model& model, const render::Renderer& renderer, const PassCosts& costs,
+    void add_pictures(overlay::Model& model, const render::Renderer& renderer, const PassCosts& costs,
                       const render::FrameInputs& inputs, Extent window);
+    /// Adds the thumbnails of the views to the model.
+    void add_thumbnails(overlay::Model& model, const std::shared_ptr<const std::vector<host::Preset>>& views);
     /// Drops what only `add_pictures` needs, when the controls are closed.
     void hide_pictures() { pictures_.reset(); }
 
@@ -206,11 +223,14 @@ private:
     std::optional<Frozen> frozen_{};
     bool marks_shown_ = false;
     Magnifier magnifier_{};
+    LensView lens_{};
     std::optional<size_t> large_{};               ///< index into the overlay's pictures
-    live::LookField look_{};                      ///< how that one is viewed
+    overlay::LookField look_{};                   ///< how that one is viewed
     std::optional<render::ShownFloats> floats_{}; ///< created on demand
     std::optional<render::NumberMarks> marks_{};  ///< likewise
     std::optional<PassPictures> pictures_{};      ///< likewise, while the controls are open
+    std::shared_ptr<const std::vector<host::Preset>> thumbnails_of_{}; ///< the views that `thumbnails_` shows
+    std::vector<std::optional<gl::Texture>> thumbnails_{};
 };
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

@@ -13,7 +13,10 @@
 #include <cstdlib>
 #include <span>
 
-namespace tidemark::cli {
+namespace tidemark::window {
+
+using namespace host;
+using host::to_string;
 namespace {
 
 namespace fs = std::filesystem;
@@ -55,29 +58,34 @@ std::optional<Moment> readable(const Json& json) {
     return std::nullopt;
 }
 
-std::vector<Moment> moments_of(const Json& json) {
-    std::vector<Moment> moments;
+/// Returns views that are in no file of presets. Windows of an earlier version kept moments without a name.
+std::vector<Preset> views_of(const Json& json) {
+    std::vector<Preset> views;
     for (const Json& each : json)
-        if (auto moment = readable(each))
-            moments.push_back(*std::move(moment));
-    return moments;
+        if (each.contains("name")) {
+            if (auto view = preset_of(each))
+                views.push_back(*std::move(view));
+        } else if (auto moment = readable(each)) {
+            views.push_back(preset_of(*moment, fmt::format("view {}", views.size() + 1)));
+        }
+    return views;
 }
 
-Json json_of(const platform::WindowPlace& place) {
+Json json_of(const WindowPlace& place) {
     return {place.x, place.y, place.size.width, place.size.height};
 }
 
-std::optional<platform::WindowPlace> place_of(const Json& json) {
+std::optional<WindowPlace> place_of(const Json& json) {
     const auto numbers = json.get<std::vector<int>>();
     const auto sound = [](int number) { return std::abs(number) <= k_farthest; };
     if (numbers.size() != 4 || !std::ranges::all_of(numbers, sound) || numbers[2] < 1 || numbers[3] < 1)
         return std::nullopt;
-    return platform::WindowPlace{numbers[0], numbers[1], {numbers[2], numbers[3]}};
+    return WindowPlace{numbers[0], numbers[1], {numbers[2], numbers[3]}};
 }
 
-Json json_of(const std::vector<live::Binding>& bindings) {
+Json json_of(const std::vector<Binding>& bindings) {
     Json json = Json::array();
-    for (const live::Binding& binding : bindings)
+    for (const Binding& binding : bindings)
         json.push_back({{"channel", binding.controller.channel},
                         {"controller", binding.controller.number},
                         {"knob", binding.part.knob},
@@ -85,8 +93,8 @@ Json json_of(const std::vector<live::Binding>& bindings) {
     return json;
 }
 
-std::vector<live::Binding> bindings_of(const Json& json) {
-    std::vector<live::Binding> bindings;
+std::vector<Binding> bindings_of(const Json& json) {
+    std::vector<Binding> bindings;
     for (const Json& each : json)
         bindings.push_back({{each.at("channel").get<int>(), each.at("controller").get<int>()},
                             {each.at("knob").get<std::string>(), each.at("component").get<size_t>()}});
@@ -105,8 +113,10 @@ std::optional<Remembered> parse(const std::string& text, const fs::path& scene) 
         state.place = place_of(json.at("window"));
         state.scale = RenderScale::named(json.value("scale", "")); // older files have none
         state.controls_open = json.at("controls").get<bool>();
-        state.views = moments_of(json.at("views"));
+        state.views = views_of(json.at("views"));
+        state.morph_seconds = std::clamp(json.value("morph", 0.0), 0.0, k_longest_morph_seconds);
         state.paused = json.value("paused", false);
+        state.sound = {std::clamp(json.value("volume", 1.0), 0.0, 1.0), json.value("muted", false)};
         state.controllers = bindings_of(json.value("controllers", Json::array()));
         return state;
     } catch (const Json::exception&) {
@@ -116,7 +126,7 @@ std::optional<Remembered> parse(const std::string& text, const fs::path& scene) 
 
 std::string text_of(const fs::path& scene, const Remembered& state) {
     Json views = Json::array();
-    for (const Moment& view : state.views)
+    for (const Preset& view : state.views)
         views.push_back(to_json(view));
     return dump(Json{{"tidemark_view", k_version_of_format},
                      {"scene", whole_name(scene)},
@@ -125,6 +135,9 @@ std::string text_of(const fs::path& scene, const Remembered& state) {
                      {"scale", state.scale ? Json(state.scale->name()) : Json("")},
                      {"controls", state.controls_open},
                      {"paused", state.paused},
+                     {"volume", state.sound.volume},
+                     {"muted", state.sound.muted},
+                     {"morph", state.morph_seconds},
                      {"views", std::move(views)},
                      {"controllers", json_of(state.controllers)}},
                 2) +
@@ -172,9 +185,11 @@ std::string words_of(const Remembered& state) {
     }
     if (state.scale && *state.scale != RenderScale())
         words.push_back("scale " + state.scale->name());
-    if (!state.views.empty())
-        words.push_back(fmt::format("{} view{}", state.views.size(), state.views.size() > 1 ? "s" : ""));
+    if (state.sound.muted)
+        words.emplace_back("muted");
+    else if (state.sound.volume != 1)
+        words.push_back(fmt::format("volume {:.0f} %", 100 * state.sound.volume));
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

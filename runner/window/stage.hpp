@@ -3,28 +3,31 @@
 // program with identical output.
 #pragma once
 
+#include "base/error.hpp"
 #include "host/gl_context.hpp"
 #include "render/renderer.hpp"
 #include "window/frame_pump.hpp"
-#include "window/rehearsal.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::window {
 
 class Stage : public FrameMaker {
 public:
     /// Compiles the scene and makes the driver finish what it defers to the first draw. Meanwhile the context
     /// is current on the calling thread; afterwards on none.
-    static Result<Stage> create(platform::SharedContext context, scene::Scene scene,
+    static Result<Stage> create(host::SharedContext context, scene::Scene scene,
                                 const render::RenderOptions& options, const render::FrameInputs& first);
     /// Returns an optimised program of the same scene that draws the same bytes in frame 0 and in `shown` and
-    /// takes clearly less time; fails if there is none, which need not be reported.
-    static Result<Stage> settle(platform::SharedContext context, const scene::Scene& scene,
+    /// takes clearly less time; fails if there is none, which callers may ignore.
+    static Result<Stage> settle(host::SharedContext context, const scene::Scene& scene,
                                 const render::RenderOptions& options, const render::FrameInputs& shown);
     Stage(Stage&&) = default;
     Stage& operator=(Stage&&) = delete;
@@ -49,13 +52,51 @@ public:
     std::optional<double> share() const { return share_; }
 
 private:
-    Stage(platform::SharedContext context, std::unique_ptr<render::Renderer> renderer)
+    Stage(host::SharedContext context, std::unique_ptr<render::Renderer> renderer)
         : context_(std::move(context)), renderer_(std::move(renderer)) {}
 
-    platform::SharedContext context_;
+    host::SharedContext context_;
     std::unique_ptr<render::Renderer> renderer_;
     std::optional<double> seconds_to_settle_;
     std::optional<double> share_;
+};
+
+/// Returns whether threads may compile. Some drivers cannot compile and draw at once in shared contexts (see
+/// Dolphin's pull request 7276); with TIDEMARK_ASYNC_COMPILE=off the window waits for the compiler instead.
+bool compiles_on_threads();
+
+// A helper process that first tries what may be too much for the driver. Each try runs in a further process,
+// which may crash, use all of its allowed memory, or be cancelled.
+
+/// Current values of --set and --define, `NAME=VALUE` each.
+struct HeldTexts {
+    std::vector<std::string> sets;
+    std::vector<std::string> defines;
+};
+
+class Rehearsal {
+public:
+    using Play = std::function<void(const HeldTexts& held)>;
+    /// Starts the helper. Call it before this process has an OpenGL context or threads. `play` is the work of
+    /// each try, in a process that shares nothing with this one; `memory` in bytes, 0: no limit. Returns
+    /// nullptr where no process can be started.
+    static std::shared_ptr<Rehearsal> start(const Play& play, uint64_t memory);
+    Rehearsal(const Rehearsal&) = delete;
+    Rehearsal& operator=(const Rehearsal&) = delete;
+    /// Kills the helper and the try in progress.
+    ~Rehearsal();
+
+    /// Runs one try and waits for it; fails (ErrorCode::load) if it crashed or used too much memory. Returns
+    /// early, with any result, once `unwanted` returns true. May be called from any thread; calls run one at
+    /// a time.
+    Result<void> try_out(const HeldTexts& held, const std::function<bool()>& unwanted);
+
+private:
+    Rehearsal(int child, int socket) : child_(child), socket_(socket) {}
+
+    int child_;
+    int socket_;
+    std::mutex one_;
 };
 
 // Builds Stages on worker threads, so that the window goes on while the driver compiles. Driver calls cannot
@@ -65,7 +106,7 @@ class StageBuilder {
 public:
     /// The input of a build.
     struct Order {
-        platform::SharedContext context;
+        host::SharedContext context;
         scene::Scene scene;
         render::RenderOptions options;
         render::FrameInputs first;              ///< inputs of the first frame
@@ -106,4 +147,4 @@ private:
     std::optional<Order> waiting_;
 };
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

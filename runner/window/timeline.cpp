@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace tidemark::cli {
+namespace tidemark::window {
 namespace {
 
 constexpr double k_usual_delta = 1 / 60.0;
@@ -72,7 +72,7 @@ void Timeline::watch(bool watched, double now) {
         rest();
 }
 
-live::TimeField Timeline::field(const render::FrameState& shown) const {
+overlay::TimeField Timeline::field(const render::FrameState& shown) const {
     return {.seconds = shown.seconds(),
             .frame = shown.frame,
             .paused = paused_,
@@ -88,7 +88,7 @@ live::TimeField Timeline::field(const render::FrameState& shown) const {
 double Timeline::bar_end(double shown) const {
     if (bar_held_)
         return shortest_bar_;
-    return std::max(shortest_bar_, live::bar_end({.seconds = shown, .loop_to = loop_.to}));
+    return std::max(shortest_bar_, overlay::bar_end({.seconds = shown, .loop_to = loop_.to}));
 }
 
 void Timeline::hold_bar(double shown) {
@@ -159,4 +159,4 @@ void Timeline::measure_rate(double now) {
     window_frames_ = 0;
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

@@ -7,7 +7,7 @@
 
 #include <optional>
 
-namespace tidemark::cli {
+namespace tidemark::window {
 
 /// Follows ShaderToy: pause freezes iTime, but frames drawn meanwhile still count in iFrame; the first frame
 /// after a start, restart, resume, step or rest has iTimeDelta = 1/60; iFrameRate is a mean over at least
@@ -47,7 +47,7 @@ public:
     double speed() const { return speed_; }
     bool by_frames() const { return source_ == Source::frames; }
 
-    void set_loop(const live::SetLoop& loop) { loop_ = loop; }
+    void set_loop(const overlay::SetLoop& loop) { loop_ = loop; }
     /// Returns the time to seek to because iTime has passed the loop's end; nothing before that, or without a
     /// loop.
     std::optional<double> loop_jump(double now) const;
@@ -68,7 +68,7 @@ public:
     double frame_rate() const { return frame_rate_; }
 
     /// Returns the time bar's contents for the frame on show.
-    live::TimeField field(const render::FrameState& shown) const;
+    overlay::TimeField field(const render::FrameState& shown) const;
     /// Keeps the bar's end, at `shown` seconds, until it is released.
     void hold_bar(double shown);
     void release_bar() { bar_held_ = false; }
@@ -93,11 +93,11 @@ private:
     double window_start_;
     int window_frames_ = 0;
     double frame_rate_ = 60;
-    live::SetLoop loop_;
+    overlay::SetLoop loop_;
     double shortest_bar_ = 0; ///< the bar's end is not before this one
     bool bar_held_ = false;
     std::optional<double> next_scene_at_{};
     std::optional<double> unwatched_since_{};
 };
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

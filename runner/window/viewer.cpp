@@ -6,19 +6,23 @@
 #include "host/console.hpp"
 #include "host/scene_report.hpp"
 #include "render/gl_context.hpp"
+#include "shader/pass_reading.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <variant>
 
-namespace tidemark::cli {
+namespace tidemark::window {
+
+using namespace host;
 namespace {
 
-using platform::Key;
+using host::Key;
 
-constexpr Key k_i{'I'}, k_q{'Q'}, k_v{'V'}, k_x{'X'}, k_y{'Y'};
+constexpr Key k_i{'I'}, k_l{'L'}, k_q{'Q'}, k_u{'U'}, k_v{'V'}, k_x{'X'}, k_y{'Y'};
 
 /// Largest age of the seconds in the title.
 constexpr double k_title_seconds = 0.25;
@@ -32,14 +36,6 @@ render::RenderOptions options_for(Extent drawn, const Viewer::Settings& settings
                                   precision_of(settings.scene)};
     options.marks_non_finite = true;
     return options;
-}
-
-/// Returns the first error, on one line.
-std::string headline(const Error& error) {
-    for (const Diagnostic& diagnostic : error.diagnostics)
-        if (diagnostic.severity == Severity::error)
-            return to_string(diagnostic);
-    return error.message;
 }
 
 } // namespace
@@ -60,6 +56,8 @@ Viewer::Viewer(Settings settings, std::unique_ptr<Screen> screen, LiveScene scen
         toggle_adaptive();
     if (settings_.left)
         take_up(*settings_.left);
+    if (settings_.remembers)
+        open_presets();
 }
 
 Result<Viewer> Viewer::open(Settings settings, const OpenScreen& open_screen) {
@@ -102,16 +100,24 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
         say(to_string(saved ? Error{ErrorCode::no_context, std::string(what)} : saved.error()));
         exit_at_once(exit_code(ErrorCode::no_context));
     });
+    const EditorTexts::Waking waking(settings_.editor.get(), [this] { screen_->wake(); });
     pump_.end_round();
     while (end_ == End::none && !interrupt.requested()) {
         listen();
+        if (settings_.editor && settings_.editor->ended())
+            end_ = End::closed;
         const double now = now_seconds();
         TRY(follow_scene(now));
         take_inputs();
-        follow_edits(now);
+        const bool morphing = morph_.has_value();
+        advance_morph(now);
+        follow_edits(now, morphing);
+        write_presets();
+        report_video();
         overlay_.mark_changed_if(overlay_.messages().take_due(now));
         settle_after_rest(now);
         take_origin();
+        follow_lens(now);
         advance_seek();
         go_round(now);
         timeline_.watch(screen_->is_watched(), now);
@@ -120,8 +126,9 @@ Result<int> Viewer::run(const Interrupt& interrupt) {
         TRY(check_driver());
         look_for_numbers(now_seconds());
         show_title(now);
-        sound_->follow(timeline_.time(now), !timeline_.paused());
+        sound_->follow(timeline_.time(now), now, sound_runs());
     }
+    picture_.lens().stop();
     if (settings_.remembers && stage_)
         remember(settings_.scene.path, *state());
     return finish().map([&] { return interrupt.requested() ? Interrupt::k_exit_code : 0; });
@@ -153,16 +160,16 @@ void Viewer::listen() {
 
 /// Handles events. While a part of a frame occupies the driver, only Esc, Ctrl+Q and closing the window are
 /// handled at once; the others are kept.
-void Viewer::handle_all(const std::vector<platform::InputEvent>& events) {
-    std::vector<platform::InputEvent> happened = std::exchange(events_held_, {});
+void Viewer::handle_all(const std::vector<host::InputEvent>& events) {
+    std::vector<host::InputEvent> happened = std::exchange(events_held_, {});
     happened.insert(happened.end(), events.begin(), events.end());
     const bool held = !happened.empty() && pump_.driver_busy();
     bool control = keys_.control_down();
-    for (const platform::InputEvent& event : happened) {
-        const auto* key = std::get_if<platform::KeyPressed>(&event);
+    for (const host::InputEvent& event : happened) {
+        const auto* key = std::get_if<host::KeyPressed>(&event);
         control |= key && key->key == Key::control;
         const bool leads_out =
-            std::holds_alternative<platform::CloseRequested>(event) || (key && key->key == Key::escape);
+            std::holds_alternative<host::CloseRequested>(event) || (key && key->key == Key::escape);
         if (held && control && key && key->key == k_q)
             end_ = End::closed;
         if (held && !leads_out) {
@@ -170,9 +177,12 @@ void Viewer::handle_all(const std::vector<platform::InputEvent>& events) {
             continue;
         }
         edited_ = true;
-        if (const auto* pressed = std::get_if<platform::ButtonPressed>(&event))
+        if (std::holds_alternative<host::ButtonPressed>(event) ||
+            std::holds_alternative<host::WheelTurned>(event))
+            morph_.reset(); // the user takes over
+        if (const auto* pressed = std::get_if<host::ButtonPressed>(&event))
             buttons_.insert(pressed->button);
-        else if (const auto* released = std::get_if<platform::ButtonReleased>(&event))
+        else if (const auto* released = std::get_if<host::ButtonReleased>(&event))
             buttons_.erase(released->button);
         overlay_.mark_changed_if(picture_.follow(event));
         if (!screen_->take(event))
@@ -182,7 +192,13 @@ void Viewer::handle_all(const std::vector<platform::InputEvent>& events) {
     carry_out_all(screen_->take_commands());
 }
 
-void Viewer::handle(const platform::KeyPressed& event) {
+void Viewer::handle(const host::PointerMoved& event) {
+    if (pointer_moves_mouse_ && !buttons_.contains(host::Button::left))
+        control(PointerFollowed{event.at});
+    control(event);
+}
+
+void Viewer::handle(const host::KeyPressed& event) {
     const auto owner = keys_.press(event, stage_ && reads_keyboard(stage_->renderer()));
     if (owner == WindowKeys::Owner::window && screen_->has(event.key))
         return keys_.control_down() ? obey_with_control(event.key, now_seconds())
@@ -191,17 +207,17 @@ void Viewer::handle(const platform::KeyPressed& event) {
         control(event);
 }
 
-void Viewer::handle(const platform::KeyReleased& event) {
+void Viewer::handle(const host::KeyReleased& event) {
     if (keys_.release(event) == WindowKeys::Owner::scene)
         control(event);
 }
 
-void Viewer::handle(const platform::FramebufferResized&) {
+void Viewer::handle(const host::FramebufferResized&) {
     picture_.forget_times();
     fit_drawing();
 }
 
-void Viewer::handle(const platform::RedrawNeeded&) {
+void Viewer::handle(const host::RedrawNeeded&) {
     pump_.ask();
     overlay_.mark_changed();
 }
@@ -227,16 +243,25 @@ void Viewer::obey_with_control(Key key, double now) {
         go_to(history_.redo(), "done again");
     else if (key == k_q)
         end_ = End::closed;
+    else if (key == Key::r && !keys_.shift_down())
+        toggle_video();
+    else if (key == Key::c && keys_.shift_down())
+        copy_picture();
     else
         obey(key, now);
 }
 
 void Viewer::obey(Key key, double now) {
+    const bool is_digit = key > Key::digit_0 && key <= Key::digit_9;
+    if (keys_.alt_down() && is_digit)
+        return carry_out(overlay::GoToView{size_t(key) - size_t(Key::digit_0) - 1});
+    if (leave_by(key))
+        return;
     const bool moves_time = key == Key::left || key == Key::right || key == Key::space || key == Key::home;
     const bool resizes =
         key == Key::minus || key == Key::equal || key == Key::keypad_subtract || key == Key::keypad_add;
     if (moves_time) {
-        carry_out(live::GiveUpSeek{});
+        carry_out(overlay::GiveUpSeek{});
         cancel_frame();
     }
     if ((moves_time || resizes) && pump_.resume() && key == Key::space && !timeline_.paused())
@@ -244,7 +269,12 @@ void Viewer::obey(Key key, double now) {
     if (key == k_x)
         key = Key::z;
     else if (key == k_i)
-        return tell("state", state_words(now));
+        return toggle_status();
+    else if (key == k_l) {
+        picture_.lens().step(keys_.shift_down() ? -1 : 1);
+        return report_lens();
+    } else if (key == k_u)
+        return set_volume({volume_.volume, !volume_.muted});
     else if (key == k_v && !timeline_.by_frames()) {
         timeline_.set_speed(1, now);
         tell("speed", "speed 1");
@@ -263,6 +293,8 @@ void Viewer::obey(Key key, double now) {
         timeline_.restart(now);
         forget_what_follows();
         break;
+    case Key::up: return change_volume(1);
+    case Key::down: return change_volume(-1);
     case Key::r: return control(CameraReset{});
     case Key::f:
         screen_->toggle_full_screen();
@@ -299,7 +331,7 @@ void Viewer::obey(Key key, double now) {
 /// open. Closes the window at once while a driver that cannot be stopped blocks it.
 void Viewer::escape(double now) {
     if (pump_.seeking())
-        return carry_out(live::GiveUpSeek{});
+        return carry_out(overlay::GiveUpSeek{});
     if (pump_.just_stopped(now))
         return;
     if (stage_ && pump_.can_stop(around(), now))
@@ -344,6 +376,12 @@ void Viewer::tell(std::string_view topic, std::string text, double seconds) {
     overlay_.messages().tell(topic, std::move(text), now_seconds(), seconds);
 }
 
+/// Prints a line, and shows it over the picture.
+void Viewer::announce(std::string_view topic, const std::string& line, double seconds) {
+    say(line);
+    tell(topic, line, seconds);
+}
+
 /// Shows the most important keys over the first picture.
 void Viewer::greet() {
     tell("keys",
@@ -358,7 +396,10 @@ FramePump::Around Viewer::around() const {
 }
 
 double Viewer::seconds_to_sleep(double now) const {
+    constexpr double k_morph_step = 1 / 60.0;
     double until = pump_.due(around(), now);
+    if (morph_)
+        until = std::min(until, now + k_morph_step);
     if (scene_.building_since() || pump_.ending())
         until = std::min(until, now + k_title_seconds);
     if (!pump_.driver_held(now))
@@ -382,8 +423,11 @@ std::vector<std::filesystem::path> Viewer::scene_files() const {
 Result<void> Viewer::follow_scene(double now) {
     if (pump_.driver_held(now))
         return {};
+    if (settings_.editor)
+        if (auto change = settings_.editor->take())
+            scene_.put(*std::move(change), view());
     auto fresh = TRY(scene_.follow(view(), now));
-    overlay_.show_error(scene_.failure());
+    overlay_.show_error(scene_.failure(), scene_.request().files.unsaved);
     if (scene_.failure())
         timeline_.begin_next_scene_at(std::nullopt);
     return fresh ? show(*std::move(fresh), now) : Result<void>();
@@ -404,11 +448,14 @@ Result<void> Viewer::show(Stage fresh, double now) {
         return {};
     }
     play_sound();
+    picture_.lens().set_scene(std::make_shared<const scene::Scene>(stage_->renderer().scene()), no_lens());
     overlay_.forget_scene();
     release_knobs();
     history_.adopt(edits());
     if (first)
         greet();
+    const glsl::PassReading reading(stage_->renderer().scene(), stage_->renderer().scene().image());
+    pointer_moves_mouse_ = reading.mouse_follows_pointer();
     reloaded_ = scene_.take_times();
     settled_ = false;
     shown_.current = false;
@@ -489,16 +536,6 @@ scene::Scene Viewer::turned_scene() const {
     return scene;
 }
 
-void Viewer::play_sound() {
-    const scene::Scene& scene = stage_->renderer().scene();
-    if (!settings_.sounds || !scene.find(scene::PassKind::sound))
-        return sound_->stop();
-    if (auto context = screen_->create_context())
-        sound_->play(*std::move(context), scene, precision_of(settings_.scene));
-    else
-        say(to_string(context.error()));
-}
-
 /// Prints the times of a reload: Tidemark's share (notice, load) and the driver's (compile, first draw).
 void Viewer::report_reload() {
     stage_->finish(); // the picture is visible when drawing is complete
@@ -516,43 +553,4 @@ bool Viewer::compiles_for_long(double now) const {
     return since && now - *since > k_short_wait_seconds;
 }
 
-/// Returns the state with the frame rate, which changes twice a second at most.
-std::string Viewer::state_words(double now) const {
-    std::string state =
-        pump_.seeking() ? fmt::format("stepping to frame {}, Esc cancels", pump_.seek_progress().last)
-        : pump_.flow() == FramePump::Flow::cancelled ? "cancelled, space continues"
-        : timeline_.paused()                     ? fmt::format("paused at {:.3f} s", shown_.state.seconds())
-        : pump_.flow() == FramePump::Flow::still ? "still"
-                                                 : fmt::format("{:.0f} fps", timeline_.frame_rate());
-    if (const std::string words = pump_.progress(now, shown_.current); !words.empty())
-        state = words;
-    if (picture_.scale() != RenderScale())
-        state += fmt::format(", scale {}", picture_.scale().name());
-    if (picture_.frozen())
-        state += ", frozen";
-    if (finite_.found() > 0)
-        state += fmt::format(", {} pixel{} not finite", finite_.found(), finite_.found() > 1 ? "s" : "");
-    return state;
-}
-
-/// Sets the title: the compile time while compiling, else the error if there is one, else the state. Between
-/// two slow frames it stays, so that it does not change between progress and frame rate.
-void Viewer::show_title(double now) {
-    const bool between = pump_.frames_show_progress() && !pump_.drawing() && pump_.moving(around());
-    if (between && stage_ && !scene_.failure() && !compiles_for_long(now))
-        return;
-    std::string state = state_words(now);
-    overlay_.messages().retell("state", state);
-    if (compiles_for_long(now))
-        state = fmt::format("compiling… {:.0f} s{}", now - *scene_.building_since(),
-                            stage_ ? ", Esc cancels" : "");
-    else if (!stage_ && !scene_.failure())
-        return;
-    const std::string title = scene_.failure() && !compiles_for_long(now)
-                                  ? (stage_ ? "" : "waiting: ") + headline(*scene_.failure())
-                                  : fmt::format("{} - tidemark - {}", scene_.name(), state);
-    if (overlay_.change_title(title))
-        screen_->set_title(title);
-}
-
-} // namespace tidemark::cli
+} // namespace tidemark::window

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/moment.hpp"
+#include "host/presets.hpp"
 #include "host/requests.hpp"
 #include "host/supervision.hpp"
 #include "window/frame_pump.hpp"
@@ -24,20 +25,24 @@
 #include <set>
 #include <string>
 
-namespace tidemark::cli {
+namespace tidemark::window {
 
 // The state that a window saves for the next window of the same scene, in a file in the user's state folder
 // ($XDG_STATE_HOME/tidemark, else ~/.local/state/tidemark). Only `view` reads it.
 
 struct Remembered {
-    std::optional<Moment> moment{}; ///< last on show: its knobs, camera and time are used
-    std::optional<platform::WindowPlace> place{};
+    std::optional<host::Moment> moment{}; ///< last on show: its knobs, camera and time are used
+    std::optional<WindowPlace> place{};
     std::optional<RenderScale> scale{};
     bool controls_open = false;
-    std::vector<Moment> views{};
-    std::vector<live::Binding> controllers{}; ///< bindings of a MIDI device
+    std::vector<host::Preset> views{};  ///< that are in no file of presets
+    double morph_seconds = 0;           ///< how long going to a view takes
+    std::vector<Binding> controllers{}; ///< bindings of a MIDI device
     bool paused = false;
+    overlay::SoundField sound{};
 };
+
+inline constexpr double k_longest_morph_seconds = 60;
 
 /// Returns the saved state. Returns nothing where there is none, or where it cannot be used, which is
 /// reported in a line.
@@ -46,14 +51,14 @@ std::optional<Remembered> recall(const std::filesystem::path& scene);
 /// Writes the state, completely or not at all; prints a line if it cannot be written.
 void remember(const std::filesystem::path& scene, const Remembered& state);
 
-/// Returns a summary for the user: `height = 2, camera 70,10,4, 2.500 s, 3 views`.
+/// Returns a summary for the user: `height = 2, camera 70,10,4, 2.500 s`.
 std::string words_of(const Remembered& state);
 
 class Viewer {
 public:
     struct Settings {
-        SceneRequest scene;
-        FrameSequence frames;                        ///< size, fps, camera, pass
+        host::SceneRequest scene;
+        host::FrameSequence frames;                  ///< size, fps, camera, pass
         std::optional<render::Date> date = {};       ///< instead of the current date
         OutputPath record = {};                      ///< file for the user's input; excludes frames.input
         RenderScale scale = {};                      ///< the initial one
@@ -61,11 +66,14 @@ public:
         bool plain = false;                          ///< no background optimisation
         bool remembers = false;                      ///< saves its state for the next window
         bool controls = false;                       ///< open at the start
-        bool sounds = true;                          ///< plays the Sound pass
+        bool sounds = true;                          ///< plays the scene's sound
         bool paused = false;                         ///< at the start
         bool messages = false;                       ///< shows short messages over the picture
+        bool opens_others = false;                   ///< scenes that are dropped on it: `leave`
+        bool in_gallery = false;                     ///< and those of a gallery, by keys
         std::optional<Remembered> left = {};         ///< state of the last window
         std::optional<LiveInputRequest> inputs = {}; ///< excludes frames.input
+        std::shared_ptr<EditorTexts> editor = {};    ///< unsaved texts; its end closes the screen
         std::shared_ptr<Rehearsal> rehearsal = {};   ///< tries scenes that may be too much for the driver
     };
 
@@ -74,12 +82,22 @@ public:
 
     /// Runs until the user closes the screen or interrupts the program. Returns the exit code; fails as
     /// LiveScene::follow does, and if the graphics driver was reset.
-    Result<int> run(const Interrupt& interrupt);
+    Result<int> run(const host::Interrupt& interrupt);
 
     /// Returns whether `run` failed because the graphics driver was reset; another Viewer can continue then.
     bool was_reset() const { return end_ == End::driver_reset; }
+    /// The next thing to show in the same screen.
+    struct Leave {
+        enum class To { gallery, next, previous, files } to = To::gallery;
+        std::vector<std::string> files{}; ///< to be opened
+    };
+    /// Returns it if `run` ended for that, and not for the user who closed the screen.
+    const std::optional<Leave>& leave() const { return leave_; }
+    /// Returns the screen, for the next scene. To be called after `run`; then destroy this object.
+    std::unique_ptr<Screen> release_screen() { return std::move(screen_); }
+
     /// Return the current request for the scene, and the state for the next window.
-    const SceneRequest& request() const { return scene_.request(); }
+    const host::SceneRequest& request() const { return scene_.request(); }
     std::optional<Remembered> state() const;
 
     /// Wakes `run`. May be called from any thread.
@@ -87,11 +105,13 @@ public:
 
     /// Returns whether a thread is in a driver call that cannot be stopped. To exit at once then, the process
     /// must be ended.
-    bool busy() const { return scene_.busy() || sound_->busy() || pump_.driver_busy(); }
+    bool busy() const {
+        return scene_.busy() || sound_->busy() || pump_.driver_busy() || picture_.lens().busy();
+    }
 
 private:
     /// Why `run` ends.
-    enum class End { none, closed, driver_reset };
+    enum class End { none, closed, driver_reset, left };
     /// The frame on show.
     struct Shown {
         render::FrameState state;
@@ -103,25 +123,28 @@ private:
 
     // The event loop and the user's input: viewer.cpp
     void listen();
-    void handle_all(const std::vector<platform::InputEvent>& events);
-    void handle(const platform::PointerMoved& event) { control(event); }
-    void handle(const platform::ButtonPressed& event) { control(event); }
-    void handle(const platform::ButtonReleased& event) { control(event); }
-    void handle(const platform::WheelTurned& event) { control(event); }
-    void handle(const platform::KeyPressed& event);
-    void handle(const platform::KeyReleased& event);
-    void handle(const platform::FramebufferResized& event);
-    void handle(const platform::RedrawNeeded& event);
-    void handle(const platform::CloseRequested&) { end_ = End::closed; }
-    void handle(const platform::TextTyped&) {}
-    void handle(const platform::FocusLost&) {}
-    void control(const ControlEvent& event);
-    void obey(platform::Key key, double now);
-    void obey_with_control(platform::Key key, double now);
+    void handle_all(const std::vector<host::InputEvent>& events);
+    void handle(const host::PointerMoved& event);
+    void handle(const host::ButtonPressed& event) { control(event); }
+    void handle(const host::ButtonReleased& event) { control(event); }
+    void handle(const host::WheelTurned& event) { control(event); }
+    void handle(const host::KeyPressed& event);
+    void handle(const host::KeyReleased& event);
+    void handle(const host::FramebufferResized& event);
+    void handle(const host::RedrawNeeded& event);
+    void handle(const host::CloseRequested&) { end_ = End::closed; }
+    void handle(const host::TextTyped&) {}
+    void handle(const host::FocusLost&) {}
+    void handle(const host::FilesDropped& event);
+    void control(const host::ControlEvent& event);
+    void obey(host::Key key, double now);
+    void obey_with_control(host::Key key, double now);
+    bool leave_by(host::Key key);
     void escape(double now);
     bool close_innermost();
     void close_on_second_press(double now);
     void tell(std::string_view topic, std::string text, double seconds = Messages::k_seconds);
+    void announce(std::string_view topic, const std::string& line, double seconds = Messages::k_seconds);
     void greet();
     double seconds_to_sleep(double now) const;
     FramePump::Around around() const;
@@ -138,9 +161,13 @@ private:
     void release_knobs();
     void settle_after_rest(double now);
     void play_sound();
+    bool sound_runs() const;
+    void set_volume(const overlay::SoundField& wanted);
+    void change_volume(int steps);
     void report_reload();
     bool compiles_for_long(double now) const;
     bool knobs_may_turn() const;
+    void leave_optimised();
     scene::Scene turned_scene() const;
     std::vector<std::filesystem::path> scene_files() const;
 
@@ -160,13 +187,19 @@ private:
     void stop_frames(double now);
     void report_slow_part(double now);
     void present(bool fresh);
-    live::Model overlay_model();
+    overlay::Model overlay_model();
     ShownMoment shown_moment() const;
     const gl::Texture* marked_picture();
     void toggle_marks();
     void toggle_freeze();
     render::FrameInputs inputs_of_shown() const;
     void look_for_numbers(double now);
+    std::string no_lens() const;
+    void follow_lens(double now);
+    void report_lens();
+    void toggle_status();
+    std::string status_line(double now) const;
+    Extent quick_extent() const;
     std::vector<std::string> trace_words() const;
     void trace_pixel();
     void take_origin();
@@ -179,67 +212,90 @@ private:
     void forget_what_follows() { recorder_.go_back(timeline_.next_frame_number()); }
 
     // The moment on show: viewer_commands.cpp
-    Moment moment() const;
+    host::Moment moment() const;
     KeptPicture read_picture() const;
     bool has_frame();
     void save_picture();
     void copy_moment();
+    void copy_picture();
+    void toggle_video();
+    void record_video(double now);
+    void report_video();
+    void take_input_file(const std::string& file);
     void keep_moment();
+    host::Preset view_on_show() const;
+    void open_presets();
+    void write_presets();
+    void advance_morph(double now);
+    void adopt_view(const host::Preset& view);
     void take_up(const Remembered& left);
     Edits edits() const;
-    void follow_edits(double now);
+    void follow_edits(double now, bool morphing = false);
     void go_to(const std::optional<Edits>& wanted, const char* done);
 
     // Commands of the panels and of live inputs: viewer_commands.cpp
-    void carry_out_all(const live::Commands& commands);
+    void carry_out_all(const overlay::Commands& commands);
     void take_inputs();
     void toggle_controls();
     void toggle_help();
-    void carry_out(const live::TurnKnob& command);
-    void carry_out(const live::ResetKnob& command);
-    void carry_out(const live::ResetKnobs& command);
-    void carry_out(const live::CopyKnobs& command);
-    void carry_out(const live::WriteKnobs& command);
-    void carry_out(const live::LearnController& command);
-    void carry_out(const live::ForgetController& command);
-    void carry_out(const live::OpenEditor& command);
-    void carry_out(const live::Define& command) { scene_.define(command.name, command.value, view()); }
-    void carry_out(const live::Undefine& command) { scene_.define(command.name, std::nullopt, view()); }
-    void carry_out(const live::ShowPicture& command) { picture_.show_large(command.index); }
-    void carry_out(const live::LookAtPicture& command) { picture_.look(command.look); }
-    void carry_out(const live::KeepView&) { keep_moment(); }
-    void carry_out(const live::GoToView& command);
-    void carry_out(const live::ForgetView& command) { overlay_.forget_view(command.index); }
-    void carry_out(const live::TogglePause&) { obey(platform::Key::space, now_seconds()); }
-    void carry_out(const live::SetPlaying& command);
-    void carry_out(const live::Restart&) { obey(platform::Key::home, now_seconds()); }
-    void carry_out(const live::Seek& command);
-    void carry_out(const live::HoldBar& command);
-    void carry_out(const live::GrowBar&) { timeline_.grow_bar(shown_.state.seconds()); }
-    void carry_out(const live::GiveUpSeek&);
-    void carry_out(const live::SetSpeed& command) { timeline_.set_speed(command.speed, now_seconds()); }
-    void carry_out(const live::SetLoop& command) { timeline_.set_loop(command); }
+    void carry_out(const overlay::TurnKnob& command);
+    void carry_out(const overlay::ResetKnob& command);
+    void carry_out(const overlay::ResetKnobs& command);
+    void carry_out(const overlay::CopyKnobs& command);
+    void carry_out(const overlay::WriteKnobs& command);
+    void carry_out(const overlay::LearnController& command);
+    void carry_out(const overlay::ForgetController& command);
+    void carry_out(const overlay::OpenEditor& command);
+    void carry_out(const overlay::Define& command) { scene_.define(command.name, command.value, view()); }
+    void carry_out(const overlay::Undefine& command) { scene_.define(command.name, std::nullopt, view()); }
+    void carry_out(const overlay::ShowPicture& command) { picture_.show_large(command.index); }
+    void carry_out(const overlay::LookAtPicture& command) { picture_.look(command.look); }
+    void carry_out(const overlay::KeepView&) { keep_moment(); }
+    void carry_out(const overlay::GoToView& command);
+    void carry_out(const overlay::ForgetView& command) { overlay_.forget_view(command.index); }
+    void carry_out(const overlay::RenameView& command);
+    void carry_out(const overlay::SetMorph& command) { overlay_.set_morph(command.seconds); }
+    void carry_out(const overlay::OpenScene&) {}
+    void carry_out(const overlay::GalleryColumns&) {}
+    void carry_out(const overlay::TogglePause&) { obey(host::Key::space, now_seconds()); }
+    void carry_out(const overlay::SetPlaying& command);
+    void carry_out(const overlay::Restart&) { obey(host::Key::home, now_seconds()); }
+    void carry_out(const overlay::Seek& command);
+    void carry_out(const overlay::HoldBar& command);
+    void carry_out(const overlay::GrowBar&) { timeline_.grow_bar(shown_.state.seconds()); }
+    void carry_out(const overlay::GiveUpSeek&);
+    void carry_out(const overlay::SetSpeed& command) { timeline_.set_speed(command.speed, now_seconds()); }
+    void carry_out(const overlay::SetLoop& command) { timeline_.set_loop(command); }
+    void carry_out(const overlay::SetVolume& command) { set_volume(command.sound); }
+    void carry_out(const overlay::SetLens& command);
+    void carry_out(const overlay::WatchHotLines& command) { picture_.lens().watch_lines(command.open); }
 
     Settings settings_;
     std::unique_ptr<Screen> screen_; ///< owns the first context, so it is destroyed last
     LiveScene scene_;
     std::unique_ptr<LiveInputs> inputs_; ///< null: none were requested
     std::unique_ptr<SoundPlayer> sound_;
+    overlay::SoundField volume_;
     std::optional<Stage> stage_; ///< none before the first picture
     Timeline timeline_;
     FramePump pump_;
     PictureView picture_;
     Overlay overlay_;
     Recorder recorder_;
-    Controls controls_;
+    host::Controls controls_;
     History history_;
-    std::set<platform::Button> buttons_; ///< that are down
-    bool edited_ = false;                ///< the user may have changed something that can be undone
+    std::optional<host::PresetFile> presets_;                          ///< none: the views are in no file
+    std::shared_ptr<const std::vector<host::Preset>> presets_written_; ///< the views that are in the file
+    std::optional<host::Morph> morph_;
+    bool pointer_moves_mouse_ = false; ///< without a button: the scene is a text of another host
+    std::set<host::Button> buttons_;   ///< that are down
+    bool edited_ = false;              ///< the user may have changed something that can be undone
     double escaped_at_ = -std::numeric_limits<double>::infinity(); ///< when Esc last had nothing to close
     WindowKeys keys_;
     Shown shown_;
-    std::vector<platform::InputEvent> events_held_; ///< kept until the driver is free
+    std::vector<host::InputEvent> events_held_; ///< kept until the driver is free
     End end_ = End::none;
+    std::optional<Leave> leave_;
     PassCosts costs_; ///< while the controls are open or the scale adapts
     FiniteWatch finite_;
     std::unique_ptr<OriginSearch> search_; ///< null: none in progress
@@ -248,4 +304,4 @@ private:
     bool settled_ = false;                 ///< background optimisation was tried for the scene on show
 };
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

@@ -17,7 +17,9 @@
 #include <variant>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::window {
+
+using namespace host;
 namespace {
 
 Result<std::string> write_into(const std::string& file, const std::vector<scene::Knob>& knobs) {
@@ -46,17 +48,6 @@ Result<std::vector<std::string>> write_knobs(const std::vector<scene::Knob>& kno
     for (const auto& [file, turned] : by_file)
         lines.push_back(TRY(write_into(file, turned)));
     return lines;
-}
-
-/// Returns true if a program of the scene reads the orbit camera.
-bool uses_camera(const render::Renderer& renderer) {
-    const SceneFacts facts = facts_of(renderer);
-    std::vector<std::string> read = facts.uniforms;
-    for (const auto& [name, ours] : facts.other_names)
-        read.push_back(ours);
-    return std::ranges::any_of(read, [](const std::string& name) {
-        return name == "iCamera" || name == "iOrbit" || name == "iOrbitPan" || name == "iViewMatrix";
-    });
 }
 
 /// Returns the number with six significant digits.
@@ -106,12 +97,12 @@ void Viewer::seek(double seconds, double now) {
     pump_.seek(*stage_, states, *frame - 1, seconds);
 }
 
-void Viewer::carry_out(const live::Seek& command) {
+void Viewer::carry_out(const overlay::Seek& command) {
     timeline_.fit_bar();
     seek(command.seconds, now_seconds());
 }
 
-void Viewer::carry_out(const live::HoldBar& command) {
+void Viewer::carry_out(const overlay::HoldBar& command) {
     command.held ? timeline_.hold_bar(shown_.state.seconds()) : timeline_.release_bar();
 }
 
@@ -127,7 +118,7 @@ void Viewer::advance_seek() {
     overlay_.mark_changed();
 }
 
-void Viewer::carry_out(const live::GiveUpSeek&) {
+void Viewer::carry_out(const overlay::GiveUpSeek&) {
     if (!pump_.seeking())
         return;
     const int next = pump_.seek_next();
@@ -136,9 +127,9 @@ void Viewer::carry_out(const live::GiveUpSeek&) {
     pump_.ask();
 }
 
-void Viewer::carry_out(const live::SetPlaying& command) {
+void Viewer::carry_out(const overlay::SetPlaying& command) {
     if (command.on == timeline_.paused())
-        carry_out(live::TogglePause{});
+        carry_out(overlay::TogglePause{});
 }
 
 void Viewer::go_round(double now) {
@@ -150,9 +141,9 @@ void Viewer::go_round(double now) {
 
 // Commands
 
-void Viewer::carry_out_all(const live::Commands& commands) {
+void Viewer::carry_out_all(const overlay::Commands& commands) {
     edited_ |= !commands.empty();
-    for (const live::Command& command : commands)
+    for (const overlay::Command& command : commands)
         std::visit([this](const auto& wanted) { carry_out(wanted); }, command);
 }
 
@@ -175,8 +166,15 @@ void Viewer::toggle_controls() {
     overlay_.toggle(Overlay::Panel::controls);
     if (!overlay_.shows(Overlay::Panel::controls)) {
         timeline_.release_bar();
+        picture_.lens().forget_front();
+        picture_.lens().watch_lines(false); // the panel asks for them again
         return picture_.hide_pictures();
     }
+    leave_optimised();
+}
+
+/// Has the text compiled as written, where an optimised program holds the values of knobs.
+void Viewer::leave_optimised() {
     settled_ = false;
     scene_.stop_settling();
     if (stage_ && stage_->share() && !scene_.building_since())
@@ -190,7 +188,7 @@ void Viewer::toggle_help() {
         say(key_table());
 }
 
-void Viewer::carry_out(const live::TurnKnob& command) {
+void Viewer::carry_out(const overlay::TurnKnob& command) {
     if (!stage_)
         return;
     const auto& knobs = stage_->renderer().scene().knobs;
@@ -200,55 +198,65 @@ void Viewer::carry_out(const live::TurnKnob& command) {
     scene::KnobSetting setting = setting_of(*knob, command.value);
     if (const auto value = value_for(*knob, setting.value); !value)
         return say(value.error().message);
+    if (overlay_.shows(Overlay::Panel::controls))
+        picture_.lens().turn_knob(command.name);
     control(KnobTurned{std::move(setting)});
 }
 
-void Viewer::carry_out(const live::ResetKnob& command) {
+void Viewer::carry_out(const overlay::ResetKnob& command) {
     control(KnobTurned{{command.name, {}}}); // the scene's default
 }
 
-void Viewer::carry_out(const live::ResetKnobs&) {
+void Viewer::carry_out(const overlay::ResetKnobs&) {
     if (!stage_)
         return;
     for (const scene::Knob& knob : stage_->renderer().scene().knobs)
         if (value_after(knob, shown_.state.knobs) != knob.initial)
-            carry_out(live::ResetKnob{knob.name});
+            carry_out(overlay::ResetKnob{knob.name});
 }
 
-void Viewer::carry_out(const live::CopyKnobs&) {
+void Viewer::carry_out(const overlay::CopyKnobs&) {
     if (!stage_)
         return;
     std::vector<std::string> words;
     for (const scene::Knob& knob : turned_scene().knobs)
         if (knob.value != knob.initial)
             words.insert(words.end(), {"--set", fmt::format("{}={}", knob.name, to_string(knob))});
+    if (words.empty())
+        return announce("copied", "nothing to copy: every knob has the file's value");
     const std::string text = shell_words(words);
     screen_->set_clipboard(text);
-    say(words.empty() ? "nothing to copy: every knob has the file's value" : "copied: " + text);
+    announce("copied", "copied: " + text);
 }
 
 /// Writes the knobs into their files. The reload that follows finds each at its value.
-void Viewer::carry_out(const live::WriteKnobs&) {
+void Viewer::carry_out(const overlay::WriteKnobs&) {
     if (!stage_)
         return;
     auto written = write_knobs(turned_scene().knobs);
     if (!written)
-        return say(to_string(written.error()));
+        return announce("written", to_string(written.error()));
     for (const std::string& line : *written)
         say(line);
+    tell("written", fmt::format("{}", fmt::join(*written, "\n")));
 }
 
-void Viewer::carry_out(const live::OpenEditor& command) {
+void Viewer::carry_out(const overlay::SetLens& command) {
+    picture_.lens().choose(command.lens);
+    report_lens();
+}
+
+void Viewer::carry_out(const overlay::OpenEditor& command) {
     if (auto opened = open_editor(command.where); !opened)
-        say(to_string(opened.error()));
+        announce("editor", to_string(opened.error()));
 }
 
-void Viewer::carry_out(const live::LearnController& command) {
+void Viewer::carry_out(const overlay::LearnController& command) {
     overlay_.controllers().learn({command.knob, command.component});
     overlay_.mark_changed();
 }
 
-void Viewer::carry_out(const live::ForgetController& command) {
+void Viewer::carry_out(const overlay::ForgetController& command) {
     overlay_.controllers().forget({command.knob, command.component});
     overlay_.mark_changed();
 }
@@ -284,10 +292,8 @@ KeptPicture Viewer::read_picture() const {
 
 /// Returns whether a frame of the current text is on show; prints a line if not.
 bool Viewer::has_frame() {
-    if (!shown_.current && !picture_.frozen()) {
-        say("no frame is drawn yet");
-        tell("frame", "no frame is drawn yet");
-    }
+    if (!shown_.current && !picture_.frozen())
+        announce("frame", "no frame is drawn yet");
     return shown_.current || picture_.frozen();
 }
 
@@ -295,14 +301,11 @@ void Viewer::save_picture() {
     const Frozen* frozen = picture_.frozen();
     if (!shown_.current && !frozen) {
         recorder_.save_next();
-        tell("saved", "no frame is drawn yet: the first one is saved");
-        return say("no frame is drawn yet: the first one is saved");
+        return announce("saved", "no frame is drawn yet: the first one is saved");
     }
     const auto saved =
         recorder_.save(frozen ? frozen->picture : read_picture(), settings_.scene.path, scene_files());
-    const std::string line = saved ? fmt::format("saving {}", *saved) : to_string(saved.error());
-    say(line);
-    tell("saved", line);
+    announce("saved", saved ? fmt::format("saving {}", *saved) : to_string(saved.error()));
 }
 
 /// Copies the capture command, with rounded numbers of the camera if the scene uses it. Leaves out the rate
@@ -314,13 +317,15 @@ void Viewer::copy_moment() {
     render::FrameState& state = copied.sequence.state;
     state.fps = settings_.frames.state.fps;
     state.date = settings_.frames.state.date;
-    if (stage_ && uses_camera(stage_->renderer())) {
+    if (stage_ && reads_camera(stage_->renderer())) {
         state.camera = rounded(state.camera);
     } else {
         state.camera = {};
         state.initial_camera.reset();
     }
-    const std::string command = capture_command(copied);
+    std::string command = capture_command(copied);
+    if (picture_.lens().on())
+        command += " " + shell_words(std::vector<std::string>{"--lens", picture_.lens().chosen()});
     screen_->set_clipboard(command);
     say("copied: " + command);
     tell("copied", "copied the command that captures this moment");
@@ -329,38 +334,143 @@ void Viewer::copy_moment() {
 void Viewer::keep_moment() {
     if (!has_frame())
         return;
-    const std::string line = "kept: " + overlay_.keep(moment());
+    const std::string line = "kept " + overlay_.keep(view_on_show());
     edited_ = true;
     say(line);
-    tell("kept", line + "; Tab lists the views");
+    const size_t number = overlay_.views().size();
+    tell("kept", number > 9 ? line : fmt::format("{} (Alt+{})", line, number));
 }
 
-/// Goes to a kept view as the time bar does; its definitions are compiled first.
-void Viewer::carry_out(const live::GoToView& command) {
-    if (command.index >= overlay_.views().size())
+/// Returns the moment on show as a view without a name.
+Preset Viewer::view_on_show() const {
+    constexpr Extent k_thumbnail{96, 54};
+    const Frozen* const frozen = picture_.frozen();
+    const Moment now = moment();
+    Preset view = preset_of(now, "");
+    view.knobs.clear();
+    for (const scene::Knob& knob : stage_->renderer().scene().knobs)
+        if (const auto value = value_after(knob, now.sequence.state.knobs); value != knob.initial)
+            view.knobs.push_back(setting_of(knob, value));
+    view.picture =
+        thumbnail_of(frozen ? frozen->picture.pixels : stage_->renderer().read_back(), k_thumbnail);
+    return view;
+}
+
+/// Reads the views of the scene's file, and those that earlier windows could not write there.
+void Viewer::open_presets() {
+    if (settings_.scene.path == "-")
         return;
-    if (recorder_.mode() != Recorder::Mode::live)
-        return say("kept views are off during a replay");
-    const Moment& kept = overlay_.views()[command.index];
-    const render::FrameState& state = kept.sequence.state;
+    auto file = PresetFile::read(settings_.scene.path);
+    std::vector<Preset> views;
+    if (file) {
+        views = file->presets();
+        presets_ = *std::move(file);
+    } else {
+        say(fmt::format("warning: {}; views are kept on this machine only", file.error().message));
+    }
+    const size_t in_file = views.size();
+    if (settings_.left)
+        for (const Preset& other : settings_.left->views)
+            if (std::ranges::find(views, other.name, &Preset::name) == views.end())
+                views.push_back(other);
+    if (in_file > 0)
+        say(fmt::format("{} view{} in {}: Alt+1 to Alt+9 go to them", in_file, in_file > 1 ? "s" : "",
+                        presets_->path().string()));
+    const bool all_in_file = views.size() == in_file;
+    overlay_.set_views(std::make_shared<const std::vector<Preset>>(std::move(views)));
+    if (all_in_file)
+        presets_written_ = overlay_.kept_views();
+}
+
+/// Writes the views to the scene's file when they have changed. If that fails, this machine keeps them.
+void Viewer::write_presets() {
+    if (!presets_ || overlay_.kept_views() == presets_written_)
+        return;
+    auto written = presets_->write(overlay_.views());
+    if (!written) {
+        const std::string line = written.error().message + "; views are kept on this machine only";
+        say("warning: " + line);
+        tell("presets", line);
+        return presets_.reset();
+    }
+    if (presets_->presets().size() != overlay_.views().size()) // another window has added some
+        overlay_.set_views(std::make_shared<const std::vector<Preset>>(presets_->presets()));
+    presets_written_ = overlay_.kept_views();
+}
+
+void Viewer::carry_out(const overlay::RenameView& command) {
+    if (auto renamed = overlay_.rename_view(command.index, command.name); !renamed)
+        announce("presets", renamed.error().message);
+}
+
+/// Moves knobs and camera on the way to a view.
+void Viewer::advance_morph(double now) {
+    if (!morph_ || !stage_)
+        return;
+    const bool last = morph_->done(now);
+    for (const scene::KnobSetting& setting : morph_->knobs(now))
+        control(KnobTurned{setting});
+    controls_.place_camera(morph_->camera(now));
+    edited_ = true;
+    touched_at_ = now;
+    pump_.ask();
+    if (last)
+        morph_.reset();
+}
+
+/// Takes knobs, camera and mouse of a view.
+void Viewer::adopt_view(const Preset& view) {
+    render::FrameState state;
+    state.knobs = stage_ ? settings_of(view, stage_->renderer().scene().knobs) : view.knobs;
+    state.camera = view.camera;
+    state.mouse = view.mouse;
     controls_.adopt(state);
-    controls_.stretch(state.extent, drawn_extent());
+    controls_.stretch(view.extent, drawn_extent());
     if (stage_)
         release_knobs();
     shown_.state.knobs.clear();
     controls_.fill(shown_.state);
+}
+
+/// Goes to a kept view as the time bar does; its definitions are compiled first. With a time for the change,
+/// knobs and camera move there while iTime runs on.
+void Viewer::carry_out(const overlay::GoToView& command) {
+    if (command.index >= overlay_.views().size())
+        return tell("view", fmt::format("there is no view {}; K keeps one", command.index + 1));
+    if (recorder_.mode() != Recorder::Mode::live)
+        return announce("view", "views cannot be used while recording or replaying");
+    const Preset& kept = overlay_.views()[command.index];
     const double now = now_seconds();
+    tell("view", fmt::format("{} {}", command.index + 1, kept.name));
+    leave_optimised();
     touched_at_ = now;
     pump_.ask();
-    if (kept.scene.defines == scene_.request().defines)
-        return seek(state.seconds(), now);
-    timeline_.begin_next_scene_at(state.seconds());
-    scene_.hold(kept.scene.defines, view());
+    edited_ = true;
+    const bool defines_differ = kept.defines != scene_.request().defines;
+    if (stage_ && overlay_.morph_seconds() > 0) {
+        render::FrameState from;
+        controls_.fill(from);
+        std::vector<scene::Knob> knobs = stage_->renderer().scene().knobs;
+        for (scene::Knob& knob : knobs)
+            knob.value = value_after(knob, from.knobs);
+        morph_.emplace(knobs, from.camera, kept, now, overlay_.morph_seconds());
+        if (defines_differ)
+            scene_.hold(kept.defines, view());
+        return;
+    }
+    morph_.reset();
+    adopt_view(kept);
+    if (!defines_differ)
+        return seek(kept.seconds, now);
+    timeline_.begin_next_scene_at(kept.seconds);
+    scene_.hold(kept.defines, view());
 }
 
 /// Restores the state of the last window.
 void Viewer::take_up(const Remembered& left) {
-    overlay_.restore(left.controls_open, left.views, left.controllers);
+    overlay_.restore(left.controls_open, left.morph_seconds, left.controllers);
+    volume_ = left.sound;
+    sound_->set_volume(volume_.heard());
     if (!left.moment)
         return;
     render::FrameState state = left.moment->sequence.state;
@@ -373,10 +483,15 @@ void Viewer::take_up(const Remembered& left) {
 std::optional<Remembered> Viewer::state() const {
     if (!stage_)
         return settings_.left;
-    return Remembered{moment(),          screen_->place(),
-                      picture_.scale(),  overlay_.shows(Overlay::Panel::controls),
-                      overlay_.views(),  overlay_.controllers().bindings(),
-                      timeline_.paused()};
+    return Remembered{.moment = moment(),
+                      .place = screen_->place(),
+                      .scale = picture_.scale(),
+                      .controls_open = overlay_.shows(Overlay::Panel::controls),
+                      .views = presets_ ? std::vector<Preset>{} : overlay_.views(),
+                      .morph_seconds = overlay_.morph_seconds(),
+                      .controllers = overlay_.controllers().bindings(),
+                      .paused = timeline_.paused(),
+                      .sound = volume_};
 }
 
 // Undo and redo
@@ -392,9 +507,9 @@ Edits Viewer::edits() const {
     return now;
 }
 
-void Viewer::follow_edits(double now) {
+void Viewer::follow_edits(double now, bool morphing) {
     if (std::exchange(edited_, false) && stage_ && recorder_.mode() == Recorder::Mode::live)
-        history_.follow(edits(), now, !buttons_.empty());
+        history_.follow(edits(), now, !buttons_.empty() || morphing);
 }
 
 /// Restores the edits of another step; none: reports that there is none. `done` is the verb for the message.
@@ -403,6 +518,8 @@ void Viewer::go_to(const std::optional<Edits>& wanted, const char* done) {
         return tell("undo", "undo is off while recording or replaying");
     if (!wanted || !stage_)
         return tell("undo", fmt::format("nothing more to be {}", done));
+    morph_.reset();
+    leave_optimised();
     const Edits before = edits();
     render::FrameState state;
     controls_.fill(state);
@@ -422,4 +539,32 @@ void Viewer::go_to(const std::optional<Edits>& wanted, const char* done) {
     tell("undo", fmt::format("{}: {}", done, changed_words(before, *wanted)));
 }
 
-} // namespace tidemark::cli
+void Viewer::play_sound() {
+    if (settings_.sounds)
+        sound_->play([this] { return screen_->create_context(); }, stage_->renderer().scene(),
+                     precision_of(settings_.scene));
+}
+
+/// Returns whether iTime runs as fast as a clock.
+bool Viewer::sound_runs() const {
+    constexpr double k_shown_as_one = 0.005; // the controls show two digits
+    return stage_ && !timeline_.paused() && std::abs(timeline_.speed() - 1) < k_shown_as_one &&
+           !pump_.seeking() && pump_.flow() != FramePump::Flow::cancelled;
+}
+
+void Viewer::set_volume(const overlay::SoundField& wanted) {
+    if (!sound_->plays())
+        return tell("sound", "the scene has no sound");
+    volume_ = wanted;
+    sound_->set_volume(volume_.heard());
+    tell("sound", volume_.muted ? "muted; U turns the sound on"
+                                : fmt::format("volume {:.0f} %", 100 * volume_.volume));
+    overlay_.mark_changed();
+}
+
+void Viewer::change_volume(int steps) {
+    constexpr double k_steps = 10;
+    set_volume({std::clamp((std::round(volume_.volume * k_steps) + steps) / k_steps, 0.0, 1.0), false});
+}
+
+} // namespace tidemark::window

@@ -2,6 +2,7 @@
 
 #include "base/encoding.hpp"
 #include "base/error.hpp"
+#include "render/gl_context.hpp"
 #include "window/glfw.hpp"
 
 #include <EGL/egl.h>
@@ -21,7 +22,9 @@
 #include <cstdlib>
 #include <utility>
 
-namespace tidemark::platform {
+namespace tidemark::window {
+
+using namespace host;
 namespace {
 
 /// Starts nothing; its destructor terminates GLFW.
@@ -50,11 +53,11 @@ bool library_runs() {
 }
 
 /// Opens it hidden, because it is moved first.
-GLFWwindow* open_window(Extent size, const char* title, bool on_top, ResetNotice notice) {
-    hint_window();
+GLFWwindow* open_window(Extent size, const char* title, const WindowWishes& wishes, ResetNotice notice) {
+    hint_window(wishes.es);
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS,
                    notice == ResetNotice::yes ? GLFW_LOSE_CONTEXT_ON_RESET : GLFW_NO_ROBUSTNESS);
-    glfwWindowHint(GLFW_FLOATING, on_top ? GLFW_TRUE : GLFW_FALSE);
+    glfwWindowHint(GLFW_FLOATING, wishes.on_top ? GLFW_TRUE : GLFW_FALSE);
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     return glfwCreateWindow(size.width, size.height, title, nullptr, nullptr);
 }
@@ -125,6 +128,9 @@ int handle_loss(void*) {
 /// Handles errors that follow when another program has destroyed the window: all uses of it fail then.
 int handle_error(void* display, ErrorEvent* error) {
     constexpr unsigned char k_bad_window = 3, k_bad_drawable = 9, k_first_of_extensions = 128;
+    constexpr unsigned char k_send_event = 25; // to the program that files were dragged from, which is gone
+    if (error->request == k_send_event)
+        return 0;
     if (error->code == k_bad_window || error->code == k_bad_drawable || error->code >= k_first_of_extensions)
         lose("another program has destroyed the window");
     return handler_before ? handler_before(display, error) : 0;
@@ -186,6 +192,9 @@ struct Window::State {
             else
                 state.events.emplace_back(ButtonReleased{button_from_glfw(button), state.pointer()});
         });
+        glfwSetDropCallback(handle, [](GLFWwindow* source, int count, const char** paths) {
+            of(source).events.emplace_back(FilesDropped{{paths, paths + count}});
+        });
         glfwSetScrollCallback(handle, [](GLFWwindow* source, double right, double up) {
             of(source).events.emplace_back(WheelTurned{right, up});
         });
@@ -220,7 +229,7 @@ Result<Window> Window::create(Extent logical_size, const std::string& title, con
         if (state->window)
             break;
         state->notice = notice;
-        state->window.reset(open_window(logical_size, printable_line(title).c_str(), wishes.on_top, notice));
+        state->window.reset(open_window(logical_size, printable_line(title).c_str(), wishes, notice));
     }
     if (!state->window)
         return cannot_open(last_glfw_error());
@@ -346,7 +355,7 @@ Result<OutputWindow> OutputWindow::create(const Window&, Extent logical_size, co
         screen = TRY(monitor_numbered(*monitor, "--output-monitor"));
     auto state = std::make_unique<State>();
     const Extent size = monitor ? Extent{screen.place.width, screen.place.height} : logical_size;
-    hint_window();
+    hint_window(gl::is_es());
     glfwWindowHint(GLFW_FOCUSED, GLFW_FALSE); // keys stay with the window that the user works in
     glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_FALSE);
     glfwWindowHint(GLFW_VISIBLE, GLFW_TRUE);
@@ -405,4 +414,4 @@ WhenDisplayIsLost::~WhenDisplayIsLost() {
     at_the_end = nullptr;
 }
 
-} // namespace tidemark::platform
+} // namespace tidemark::window

@@ -1,3 +1,5 @@
+// Windows with OpenGL contexts: the window, a second one for output, its place, and the loss of the display.
+//
 // The requested place of a window, as values.
 #pragma once
 
@@ -13,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tidemark::platform {
+namespace tidemark::window {
 
 /// A window's place on the screen: its upper left corner in the window system's coordinates, its size in
 /// pixels of an ordinary display.
@@ -36,10 +38,11 @@ struct WindowWishes {
     std::optional<int> monitor{};          ///< 1 is the first; the window is centred on it
     std::optional<ScreenPoint> position{}; ///< the upper left corner, on `monitor` if that is set
     bool on_top = false;                   ///< stays above other windows
+    bool es = false;                       ///< with OpenGL ES 3.1 or later
 };
 
-// A window with an OpenGL 4.5 core context. Takes a size and a title, returns the user's input as
-// InputEvents. Draws nothing itself.
+// A window with an OpenGL 4.5 core context, or with one of OpenGL ES. Takes a size and a title, returns the
+// user's input as InputEvents. Draws nothing itself.
 
 /// One at a time in a process, on the main thread: it starts and ends the window system.
 class Window {
@@ -56,13 +59,13 @@ public:
 
     void make_current();
     /// Makes another context for the same window, not current on any thread. All of them share textures.
-    Result<SharedContext> create_context();
+    Result<host::SharedContext> create_context();
 
     /// Returns the events since the last call, in order; never waits.
-    std::vector<InputEvent> poll();
+    std::vector<host::InputEvent> poll();
     /// The same, but sleeps until an event comes, `wake` is called or `seconds` have passed. Infinity is
     /// allowed. May return early without events.
-    std::vector<InputEvent> wait(double seconds);
+    std::vector<host::InputEvent> wait(double seconds);
     /// Ends the current `wait`, or else the next one. May be called from any thread while a Window exists.
     static void wake();
 
@@ -106,7 +109,7 @@ public:
 
     /// Returns keys, RedrawNeeded, FramebufferResized and CloseRequested since the last call, as of the first
     /// window's last poll or wait.
-    std::vector<InputEvent> take_events();
+    std::vector<host::InputEvent> take_events();
     Extent framebuffer_extent() const;
 
     /// Makes the current context, one of the first window's, draw into this window from now on.
@@ -135,4 +138,4 @@ public:
     WhenDisplayIsLost& operator=(const WhenDisplayIsLost&) = delete;
 };
 
-} // namespace tidemark::platform
+} // namespace tidemark::window

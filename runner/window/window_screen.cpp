@@ -2,15 +2,29 @@
 
 #include "base/dynamic_library.hpp"
 #include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/process.hpp"
 #include "host/console.hpp"
 #include "render/gl_textures.hpp"
 #include "window/window.hpp"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <thread>
 #include <utility>
 #include <variant>
 
-namespace tidemark::live {
+namespace tidemark::overlay {
+
+using namespace host;
 namespace {
 
 /// Frames until the layout is final: sizes and hit tests lag one or two frames after a change.
@@ -53,7 +67,7 @@ Result<void> PanelLayer::show(Model model, const Surface& surface) {
     return {};
 }
 
-bool PanelLayer::take(const platform::InputEvent& event) {
+bool PanelLayer::take(const host::InputEvent& event) {
     if (!visible_)
         return false;
     frames_wanted_ = k_frames_to_settle;
@@ -71,36 +85,70 @@ Commands PanelLayer::take_commands() {
     return panels_ ? panels_->take_commands() : Commands{};
 }
 
-} // namespace tidemark::live
+} // namespace tidemark::overlay
 
-namespace tidemark::cli {
+namespace tidemark::window {
+namespace {
+
+/// Starts a program with that standard input, which may go on after its first process has ended. Fails if it
+/// is not installed, or ends with an error at once.
+Result<void> start_detached(const std::vector<std::string>& words, std::string_view input) {
+    const int file = ::memfd_create("tidemark-clipboard", MFD_CLOEXEC);
+    const Descriptor descriptor(file);
+    if (file < 0 || write_all(file, std::as_bytes(std::span(input))) != 0 || ::lseek(file, 0, SEEK_SET) != 0)
+        return fail(ErrorCode::write, "there is no memory for the picture");
+    const std::vector<char*> arguments = argument_pointers(words);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_adddup2(&files, file, STDIN_FILENO);
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+        posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_WRONLY, 0);
+    pid_t child = 0;
+    const int error = ::posix_spawnp(&child, arguments[0], &files, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    if (error != 0)
+        return fail(ErrorCode::write,
+                    fmt::format("'{}' is not installed, which copies pictures", words.front()));
+    constexpr int k_steps = 100;
+    int status = 0;
+    for (int step = 0; step < k_steps; ++step) { // it goes on in the background then
+        if (::waitpid(child, &status, WNOHANG) == child)
+            return status == 0 ? Result<void>()
+                               : fail(ErrorCode::write, fmt::format("'{}' failed", words.front()));
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    std::thread([child] { ::waitpid(child, nullptr, 0); }).detach(); // prevents a zombie
+    return {};
+}
+
+} // namespace
 
 Result<std::unique_ptr<Screen>> WindowScreen::open(Extent size, const std::string& title,
-                                                   const platform::WindowWishes& wishes,
+                                                   const window::WindowWishes& wishes,
                                                    const std::optional<Output>& output) {
-    auto window = TRY(platform::Window::create(size, title, wishes));
+    auto window = TRY(window::Window::create(size, title, wishes));
     std::unique_ptr<WindowScreen> screen(new WindowScreen(std::move(window)));
     if (output)
         screen->output_ =
-            TRY(platform::OutputWindow::create(screen->window_, size, title + " output", output->monitor));
+            TRY(window::OutputWindow::create(screen->window_, size, title + " output", output->monitor));
     return screen;
 }
 
-std::vector<platform::InputEvent> WindowScreen::wait(double seconds) {
+std::vector<host::InputEvent> WindowScreen::wait(double seconds) {
     auto events = seconds > 0 ? window_.wait(seconds) : window_.poll();
     listen_to_output(events);
     return events;
 }
 
 /// Takes the events of the output window. Its keys act as in the first window; closing it closes only itself.
-void WindowScreen::listen_to_output(std::vector<platform::InputEvent>& events) {
+void WindowScreen::listen_to_output(std::vector<host::InputEvent>& events) {
     if (!output_)
         return;
-    for (platform::InputEvent event : output_->take_events()) {
-        if (std::holds_alternative<platform::CloseRequested>(event))
+    for (host::InputEvent event : output_->take_events()) {
+        if (std::holds_alternative<host::CloseRequested>(event))
             return output_.reset();
-        if (std::holds_alternative<platform::FramebufferResized>(event))
-            event = platform::RedrawNeeded{};
+        if (std::holds_alternative<host::FramebufferResized>(event))
+            event = host::RedrawNeeded{};
         events.push_back(event);
     }
 }
@@ -108,13 +156,23 @@ void WindowScreen::listen_to_output(std::vector<platform::InputEvent>& events) {
 void WindowScreen::show_on_output(const gl::RenderTarget& picture) {
     if (!output_ || output_->framebuffer_extent().pixels() == 0)
         return;
-    const platform::KeepCurrent current;
+    const host::KeepCurrent current;
     if (auto entered = output_->make_current(); !entered) {
-        say(to_string(entered.error()));
+        host::say(to_string(entered.error()));
         return output_.reset();
     }
     gl::blit_fitted(picture, output_->framebuffer_extent());
     output_->swap();
+}
+
+/// Starts the program of the desktop that keeps a picture for other programs: wl-copy, or xclip under X11.
+Result<void> WindowScreen::set_clipboard_picture(std::string png) {
+    const char* const wayland = std::getenv("WAYLAND_DISPLAY");
+    const std::vector<std::string> words =
+        wayland && *wayland
+            ? std::vector<std::string>{"wl-copy", "--type", "image/png"}
+            : std::vector<std::string>{"xclip", "-selection", "clipboard", "-t", "image/png", "-i"};
+    return start_detached(words, png);
 }
 
 /// Returns false for a minimised window, which has no pixels on some systems.
@@ -129,7 +187,7 @@ void WindowScreen::begin(const gl::RenderTarget* picture, bool) {
     gl::blit_to_window(*picture, extent());
 }
 
-Result<void> WindowScreen::finish(live::Model model, const ShownMoment&) {
+Result<void> WindowScreen::finish(overlay::Model model, const ShownMoment&) {
     auto shown = panels_.show(std::move(model), {extent(), window_.content_scale()});
     panels_.draw();
     window_.swap();
@@ -137,7 +195,7 @@ Result<void> WindowScreen::finish(live::Model model, const ShownMoment&) {
 }
 
 std::shared_ptr<void> WindowScreen::when_lost(std::function<void(std::string_view what)> act) {
-    return std::make_shared<platform::WhenDisplayIsLost>(std::move(act));
+    return std::make_shared<window::WhenDisplayIsLost>(std::move(act));
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

@@ -12,7 +12,7 @@
 
 #include <memory>
 
-namespace tidemark::live {
+namespace tidemark::overlay {
 
 class PanelLayer {
 public:
@@ -22,7 +22,7 @@ public:
 
     bool visible() const { return visible_; }
     /// Returns whether the event belongs to the overlay; it must not be handled further then.
-    bool take(const platform::InputEvent& event);
+    bool take(const host::InputEvent& event);
     /// Draws into the window's own framebuffer, over its contents.
     void draw();
     /// Returns whether the layout is not final yet, so that it must be drawn again.
@@ -39,12 +39,12 @@ private:
     int frames_wanted_ = 0;
 };
 
-} // namespace tidemark::live
+} // namespace tidemark::overlay
 
 // A window as a Screen: the picture with the overlay's panels over it, and optionally a second window that
 // shows the picture alone.
 
-namespace tidemark::cli {
+namespace tidemark::window {
 
 class WindowScreen : public Screen {
 public:
@@ -52,37 +52,39 @@ public:
         std::optional<int> monitor; ///< full screen on it; none: the size of the window
     };
     static Result<std::unique_ptr<Screen>> open(Extent size, const std::string& title,
-                                                const platform::WindowWishes& wishes,
+                                                const window::WindowWishes& wishes,
                                                 const std::optional<Output>& output);
 
-    Result<platform::SharedContext> create_context() override { return window_.create_context(); }
-    std::vector<platform::InputEvent> wait(double seconds) override;
-    void wake() override { platform::Window::wake(); }
-    bool take(const platform::InputEvent& event) override { return panels_.take(event); }
-    live::Commands take_commands() override { return panels_.take_commands(); }
-    bool has(platform::Key) const override { return true; }
+    Result<host::SharedContext> create_context() override { return window_.create_context(); }
+    std::vector<host::InputEvent> wait(double seconds) override;
+    void wake() override { window::Window::wake(); }
+    bool take(const host::InputEvent& event) override { return panels_.take(event); }
+    overlay::Commands take_commands() override { return panels_.take_commands(); }
+    bool has(host::Key) const override { return true; }
 
     Extent extent() const override { return window_.framebuffer_extent(); }
     bool is_watched() const override;
     bool wants_frame() const override { return panels_.wants_frame(); }
     void begin(const gl::RenderTarget* picture, bool fresh) override;
-    Result<void> finish(live::Model model, const ShownMoment& moment) override;
+    Result<void> finish(overlay::Model model, const ShownMoment& moment) override;
 
     void set_title(const std::string& title) override { window_.set_title(title); }
     void set_clipboard(const std::string& text) override { window_.set_clipboard(text); }
+    Result<void> set_clipboard_picture(std::string png) override;
+    void enter() override { window_.make_current(); }
     void toggle_full_screen() override { window_.toggle_full_screen(); }
     bool is_full_screen() const override { return window_.is_full_screen(); }
-    std::optional<platform::WindowPlace> place() const override { return window_.place(); }
+    std::optional<window::WindowPlace> place() const override { return window_.place(); }
     std::shared_ptr<void> when_lost(std::function<void(std::string_view what)> act) override;
 
 private:
-    explicit WindowScreen(platform::Window window) : window_(std::move(window)) {}
-    void listen_to_output(std::vector<platform::InputEvent>& events);
+    explicit WindowScreen(window::Window window) : window_(std::move(window)) {}
+    void listen_to_output(std::vector<host::InputEvent>& events);
     void show_on_output(const gl::RenderTarget& picture);
 
-    platform::Window window_;                      ///< owns the context, so it is destroyed last
-    std::optional<platform::OutputWindow> output_; ///< none after the user has closed it
-    live::PanelLayer panels_;
+    window::Window window_;                      ///< owns the context, so it is destroyed last
+    std::optional<window::OutputWindow> output_; ///< none after the user has closed it
+    overlay::PanelLayer panels_;
 };
 
-} // namespace tidemark::cli
+} // namespace tidemark::window

@@ -1,5 +1,7 @@
-// Bakes the fields of a terrain for waves that roll in to the shore, and studies their accuracy.
+// Makes the textures of our scenes: the fields of a terrain for waves that roll in to the shore, whose
+// accuracy it can study, and the ramps of colours.
 
+#include "bake/ramps.hpp"
 #include "bake/study_report.hpp"
 #include "bake/wave_map.hpp"
 #include "base/error.hpp"
@@ -8,7 +10,6 @@
 #include "host/command_line.hpp"
 #include "host/console.hpp"
 #include "host/diagnostics.hpp"
-#include "host/help_formatter.hpp"
 #include "host/supervision.hpp"
 #include "media/picture_file.hpp"
 
@@ -25,12 +26,15 @@
 #include <utility>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::bake {
+
+using namespace host;
 namespace {
 
 namespace fs = std::filesystem;
 
 struct IslandOptions {
+    fs::path ramps;  ///< folder to write the ramps to, instead of an island
     fs::path output; ///< empty: island.exr; with --study, no folder
     image::SampleDepth depth = image::SampleDepth::half;
     int side = 512;
@@ -88,6 +92,18 @@ Result<int> bake(const IslandOptions& options) {
     return 0;
 }
 
+Result<int> write_ramps(const OutputPath& folder) {
+    for (const bake::NamedImage& ramp : bake::make_ramps()) {
+        const OutputPath output = folder / (ramp.name + ".png");
+        const auto depth =
+            ramp.image.type == image::SampleType::f32 ? image::SampleDepth::u16 : image::SampleDepth::u8;
+        TRY(image::write_picture(output, ramp.image,
+                                 image::PictureFormat{depth, {{"Software", "tidemark bake"}}}));
+        say(fmt::format("wrote {}", output.string()));
+    }
+    return 0;
+}
+
 /// Adds the options to `island`; parsing it writes into `options`, which must live as long.
 void add_options(Command island, IslandOptions& options) {
     island
@@ -140,14 +156,19 @@ void add_options(Command island, IslandOptions& options) {
         .check(number("seconds from 0.01 to 1e6", 0.01, 1e6))
         .type_name("S")
         .capture_default_str();
+    island
+        .add_option("--ramps", options.ramps,
+                    "Write the ramps of pseudo3d_water and stylized_waves into that folder instead")
+        .type_name("FOLDER");
 }
 
 Result<int> run(int argc, const char* const* argv) {
     std::signal(SIGPIPE, SIG_IGN); // a reader that closed the pipe is a write error like any other
     clear_leftovers_on_signals();
-    CLI::App app("Waves' ways over water, sheltered places, depth and height of an island's sea");
+    CLI::App app("Makes the textures of our scenes: paths of waves, sheltered places, depth and height of an "
+                 "island's sea");
     app.name("tidemark_bake");
-    app.formatter(std::make_shared<HelpFormatter>());
+    format_help(app);
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     IslandOptions options;
     add_options(Command(app), options);
@@ -161,23 +182,25 @@ Result<int> run(int argc, const char* const* argv) {
     } catch (const CLI::Error& error) {
         return fail(ErrorCode::usage, error.what());
     }
+    if (!options.ramps.empty())
+        return write_ramps(OutputPath::typed(options.ramps));
     options.march_study.folder = options.output;
     return options.study ? study_march(options.march_study) : bake(options);
 }
 
 } // namespace
-} // namespace tidemark::cli
+} // namespace tidemark::bake
 
 int main(int argc, char** argv) {
     using namespace tidemark;
-    cli::end_by_last_resort();
+    host::end_by_last_resort();
     try {
-        const auto outcome = cli::run(argc, argv);
+        const auto outcome = bake::run(argc, argv);
         if (outcome)
             return *outcome;
-        cli::say(outcome.error());
+        host::say(outcome.error());
         return exit_code(outcome.error().code);
     } catch (...) {
-        return cli::last_resort();
+        return host::last_resort();
     }
 }

@@ -19,7 +19,9 @@
 #include <utility>
 #include <vector>
 
-namespace tidemark::cli {
+namespace tidemark::bake {
+
+using namespace host;
 namespace {
 
 constexpr int k_study_sides[] = {64, 128, 256, 512, 1024};
@@ -204,4 +206,4 @@ Result<int> study_march(const MarchStudyRequest& request) {
     return request.folder.empty() ? 0 : write_march_report(request);
 }
 
-} // namespace tidemark::cli
+} // namespace tidemark::bake

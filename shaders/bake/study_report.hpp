@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-namespace tidemark::cli {
+namespace tidemark::bake {
 
 struct MarchStudyRequest {
     std::filesystem::path folder; ///< of the report; empty: print only the table
@@ -16,4 +16,4 @@ struct MarchStudyRequest {
 /// Returns the exit code.
 Result<int> study_march(const MarchStudyRequest& request);
 
-} // namespace tidemark::cli
+} // namespace tidemark::bake

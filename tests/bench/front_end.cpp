@@ -1,5 +1,5 @@
-// What a scene's text costs before the driver sees it: reading the file, directives, rewriting. By its size,
-// so that a cost that grows faster than the text shows.
+// Measures the work on a scene's text before the driver sees it: reading the file, directives, rewriting. The
+// times are listed by size, so that a cost that grows faster than the text shows.
 #include "scene/load_scene.hpp"
 #include "scene/scene.hpp"
 #include "shader/pass_reading.hpp"

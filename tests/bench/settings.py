@@ -8,13 +8,14 @@ and its error at five moments that `tune` did not draw, against the reference th
 import argparse
 import json
 import pathlib
-import random
 import re
 import shutil
 import statistics
 import subprocess
 import tempfile
 import time
+
+from random_projects import random_projects
 
 UNSEEN = (0.4, 2.3, 5.7, 8.1, 17.9)
 LIMIT = 10 ** (-40 / 20)  # psnr=40dB
@@ -37,9 +38,7 @@ def is_marcher(text):
 
 
 def drawn(folder, count, seed):
-    files = sorted(path for path in pathlib.Path(folder).iterdir() if path.suffix in (".glsl", ".frag", ".json"))
-    random.Random(seed).shuffle(files)
-    chosen = [path for path in files if is_marcher(path.read_text(errors="replace").replace("\\n", "\n"))]
+    chosen = [path for path in random_projects(folder, seed) if is_marcher(path.read_text(errors="replace").replace("\\n", "\n"))]
     return chosen[:count]
 
 

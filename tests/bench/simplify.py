@@ -17,9 +17,10 @@ import sys
 import tempfile
 import time
 
+from random_projects import random_projects
+
 MOST_FLIP = 0.01
 MOMENTS = 20
-KINDS = (".glsl", ".frag", ".json")
 
 
 def run(command, folder, limit):
@@ -80,11 +81,9 @@ def main():
     parser.add_argument("--keep", type=pathlib.Path, help="writes the rows as JSON")
     options = parser.parse_args()
     program = str(pathlib.Path(options.program).resolve())
-    sources = sorted(path.resolve() for path in options.folder.iterdir() if path.suffix in KINDS)
     lot = random.Random(options.seed)
-    lot.shuffle(sources)
     rows = []
-    for source in sources:
+    for source in random_projects(options.folder, lot):
         if len(rows) == options.count:
             break
         row = simplified(program, source, options.budget, lot)

@@ -1,17 +1,18 @@
-// What specialising a scene's text changes: its bytes in frames 0 and N, and what compiling, the first draw
-// and a frame cost in CPU time, one level of it after the other in rounds. One line of JSON for each scene.
+// Measures what specialising a scene's text changes: the bytes of frames 0 and N, and the CPU time of
+// compiling, the first draw and a frame, with the levels in turn in each round. Prints one line of JSON for
+// each scene.
 //
 //     tidemark_specialised [--size WxH] [--frame N] [--rounds N] [--bytes-kept] SCENE...
 //
 // --bytes-kept: without the level that makes knobs constants.
-#include "host/gl_context.hpp"
+#include "base/measurement.hpp"
+#include "bench_options.hpp"
 #include "render/renderer.hpp"
 #include "scene/load_scene.hpp"
 
 #include <GL/glcorearb.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -42,25 +43,16 @@ constexpr Level k_levels[] = {{Specialise::nothing, "plain"},
                               {Specialise::invariant_uniforms, "settled"},
                               {Specialise::constants, "constants"}};
 
-double cpu_milliseconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto milliseconds = [](const timeval& t) {
-        return double(t.tv_sec) * 1e3 + double(t.tv_usec) * 1e-3;
-    };
-    return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
-}
-
 template <class Work>
 double cost_of(const Work& work) {
     glFinish();
-    const double start = cpu_milliseconds();
+    const lab::Stopwatch watch;
     work();
     glFinish();
-    return cpu_milliseconds() - start;
+    return watch.elapsed().cpu;
 }
 
-/// What all passes hold, one after the other.
+/// Returns the pictures of all passes.
 std::vector<image::Image> everything(const render::Renderer& renderer) {
     std::vector<image::Image> images;
     for (const render::PlannedPass& planned : renderer.plan().passes) {
@@ -141,24 +133,20 @@ Json measure(const std::string& file, const Settings& settings) {
 
 int main(int count, char** arguments) {
     Settings settings;
-    std::vector<std::string> files;
-    for (int i = 1; i < count; ++i) {
-        const std::string word = arguments[i];
-        const bool valued = i + 1 < count;
-        if (word == "--bytes-kept")
+    const auto files = bench::files_of(count, arguments, [&](const std::string& word, const char* next) {
+        if (word == "--bytes-kept") {
             settings.levels = 3;
-        else if (word == "--size" && valued)
-            std::sscanf(arguments[++i], "%dx%d", &settings.extent.width, &settings.extent.height);
-        else if ((word == "--frame" || word == "--rounds") && valued)
-            (word == "--frame" ? settings.frame : settings.rounds) = std::max(1, std::atoi(arguments[++i]));
+            return 1;
+        }
+        if (word == "--size" && next)
+            bench::read_size(next, settings.extent);
+        else if ((word == "--frame" || word == "--rounds") && next)
+            (word == "--frame" ? settings.frame : settings.rounds) = std::max(1, std::atoi(next));
         else
-            files.push_back(word);
-    }
-    const auto context = platform::HeadlessContext::create();
-    if (!context) {
-        fmt::print(stderr, "{}\n", to_string(context.error()));
-        return 77;
-    }
+            return 0;
+        return 2;
+    });
+    const auto context = bench::context_or_exit();
     for (const std::string& file : files) {
         fmt::print("{}\n", measure(file, settings).dump());
         std::fflush(stdout);

@@ -35,7 +35,7 @@ class BadScene(ProgramTest):
         self.write("junk.glsl", bytes(range(256)) * 40)
         self.expect_refusal("junk.glsl", "'junk.glsl'", "binary file")
 
-    def test_bytes_that_are_no_text_but_have_no_zero(self):
+    def test_binary_file_without_zero_bytes(self):
         self.write("junk.glsl", bytes(range(128, 256)) * 40)
         self.expect_refusal("junk.glsl", "'junk.glsl'", "mainImage")
 
@@ -43,7 +43,7 @@ class BadScene(ProgramTest):
         self.write("empty.glsl", "")
         self.expect_refusal("empty.glsl", "'empty.glsl'", "is empty", "mainImage")
 
-    def test_nothing_but_comments(self):
+    def test_file_with_only_comments(self):
         self.write("blank.glsl", "// mainImage\n/* mainImage */\n")
         self.expect_refusal("blank.glsl", "'blank.glsl'", "is empty", "mainImage")
 
@@ -68,16 +68,16 @@ class BadScene(ProgramTest):
         self.write("a.glsl", f'{GOOD}#include "a.glsl"\n')
         self.expect_refusal("a.glsl", "a.glsl:2: error: 'a.glsl' includes itself")
 
-    def test_directive_that_is_wrong(self):
+    def test_malformed_directive(self):
         self.write("a.glsl", f"\n#iUniform flaot speed = 1.0\n{GOOD}")
         self.expect_refusal("a.glsl", "a.glsl:2:11: error: expected a type (float, vec2, vec3, vec4, color3, int, "
                                       "ivec2, ivec3 or ivec4) but found 'flaot'")
 
-    def test_channel_that_does_not_exist(self):
+    def test_channel_number_out_of_range(self):
         self.write("a.glsl", f'#iChannel10 "noise"\n{GOOD}')
         self.expect_refusal("a.glsl", "a.glsl:1: error: #iChannel10: the channels are iChannel0 to iChannel9")
 
-    def test_picture_from_the_net(self):
+    def test_url_as_a_picture(self):
         self.write("a.glsl", f'#iChannel0 "https://example.org/a.png"\n{READS_CHANNEL}')
         self.expect_refusal("a.glsl", "a.glsl:1: error:", "'https://example.org/a.png'")
 
@@ -118,7 +118,7 @@ class DoesNotCompile(ProgramTest):
         self.expect_refusal("a.glsl", r"tidemark: error: 'a\.glsl' does not compile\na\.glsl:4(:\d+)?: error: .*"
                                       r"(\n[^\n]+)*")
 
-    def test_main_image_of_another_shape(self):
+    def test_main_image_with_another_signature(self):
         self.write("a.glsl", "vec4 mainImage(vec2 p) { return vec4(p, 0.0, 1.0); }\n")
         self.expect_refusal("a.glsl", r"tidemark: error: 'a\.glsl' does not compile\na\.glsl:1:6: error: mainImage takes two parameters: "
                                       r"\(out vec4 fragColor, in vec2 fragCoord\)")
@@ -134,6 +134,13 @@ class BadPicture(ProgramTest):
     def test_missing(self):
         self.capture_of("none.png", "a.glsl:2: error: cannot read 'none.png': no such file")
 
+    def test_missing_but_for_its_spelling(self):
+        self.write("sub/wood.png", "")
+        for name in ("sub/Wood.PNG", "sub\\wood.png"):
+            with self.subTest(name):
+                self.write("a.glsl", f'\n#iChannel0 "{name}"\n{READS_CHANNEL}')
+                self.expect_error(["capture", "a.glsl"], 3, "a.glsl:2: error: cannot read", "did you mean '", "wood.png'?")
+
     def test_directory(self):
         (self.folder / "folder.png").mkdir()
         self.capture_of("folder.png", "a.glsl:2: error: cannot read 'folder.png': it is a directory")
@@ -147,19 +154,19 @@ class BadPicture(ProgramTest):
         self.write("empty.png", "")
         self.capture_of("empty.png", "a.glsl:2: error: cannot read 'empty.png': the file is empty")
 
-    def test_cut_short(self):
+    def test_truncated_file(self):
         self.succeed("bake", "noise", "-o", "noise.png")
         whole = (self.folder / "noise.png").read_bytes()
         self.write("half.png", whole[:len(whole) // 2])
         self.write("a.glsl", f'\n#iChannel0 "half.png"\n{READS_CHANNEL}')
         self.expect_failure_like(["capture", "a.glsl"], 3, "a.glsl:2: error: cannot read 'half.png': .+")
 
-    def test_named_by_an_option(self):
+    def test_broken_picture_of_an_option_names_the_option(self):
         self.write("a.glsl", READS_CHANNEL)
         self.expect_failure(["capture", "a.glsl", "--channel", "0=none.png"], 3,
                             "tidemark: error: cannot read 'none.png': no such file")
 
-    def test_unread_missing_file_is_no_error(self):
+    def test_missing_file_of_an_unread_channel_is_allowed(self):
         self.write("a.glsl", f'#iChannel0 "none.png"\n{GOOD}')
         self.succeed("capture", "a.glsl", "--size", "4x4")
 
@@ -177,14 +184,14 @@ class NoContext(ProgramTest):
             with self.subTest(command=command):
                 self.expect_failure([command, "a.glsl"], 77, self.WORDS, env=without_driver)
 
-    def test_a_scene_that_does_not_load_comes_first(self):
+    def test_load_errors_are_reported_before_device_errors(self):
         self.expect_failure(["capture", "none.glsl"], 3, "tidemark: error: cannot read 'none.glsl': no such file",
                             env=environment(__EGL_VENDOR_LIBRARY_FILENAMES="/dev/null"))
 
-    def test_device_that_does_not_exist(self):
+    def test_unknown_device(self):
         self.write("a.glsl", GOOD)
         self.expect_failure_like(["capture", "a.glsl", "--device", "gpu"], 2,
-                                 "tidemark: error: unknown device 'gpu'; there are auto, surfaceless, .*display")
+                                 "tidemark: error: unknown device 'gpu'; there are auto, surfaceless, .*display, mesa:.*")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
-"""`bake`: the pictures that scenes need, judged by their bytes."""
+"""`bake`: the noise that scenes read, judged by its bytes."""
 from support import png
-from support.program import ROOT, ProgramTest, main
+from support.program import ProgramTest, main
 
 
 class Noise(ProgramTest):
@@ -30,7 +30,7 @@ class Noise(ProgramTest):
             counts = [values.count(v) for v in range(256)]
             self.assertTrue(min(counts) > 176 and max(counts) < 336, counts)
 
-    def test_seed_decides(self):
+    def test_seed_changes_the_bytes(self):
         for name, seed in [("a.png", "1"), ("b.png", "1"), ("c.png", "2")]:
             self.succeed("bake", "noise", "-o", name, "--seed", seed)
         a, b, c = ((self.folder / name).read_bytes() for name in ("a.png", "b.png", "c.png"))
@@ -42,27 +42,12 @@ class Noise(ProgramTest):
         self.expect_error(["bake", "noise", "-o", "none/noise.png"], 4, "'none/noise.png'", "No such file or directory")
 
 
-class Ramps(ProgramTest):
-    def test_are_the_pictures_of_the_scene(self):
-        done = self.succeed("bake", "ramps")
-        self.assertEqual(done.stderr,
-                         "wrote ./water_ramp.png\nwrote ./foam_ramp.png\nwrote ./wave_ramps.png\n")
-        self.assertEqual(self.files(), {"water_ramp.png", "foam_ramp.png", "wave_ramps.png"})
-        for name in ("water_ramp.png", "foam_ramp.png", "wave_ramps.png"):
-            baked, kept = png.read(self.folder / name), png.read(ROOT / "textures" / name)
-            self.assertEqual((baked.width, baked.height, baked.channels), (kept.width, kept.height, kept.channels))
-            self.assertTrue(baked.rows == kept.rows, name)
-
-    def test_errors(self):
-        self.expect_error(["bake", "ramps", "-o", "none"], 4, "'none/water_ramp.png'", "No such file or directory")
-
-
 class Usage(ProgramTest):
-    def test_what_is_missing_or_unknown(self):
-        self.expect_failure(["bake"], 2, "tidemark: error: bake: give noise or ramps")
-        self.expect_failure(["bake", "island"], 2, "tidemark: error: bake: unknown 'island': give noise or ramps")
-        self.expect_failure(["bake", "bread"], 2, "tidemark: error: bake: unknown 'bread': give noise or ramps")
-        self.expect_failure(["bake", "noise", "ramps"], 2, "tidemark: error: unexpected argument 'ramps'")
+    def test_missing_and_unknown_arguments(self):
+        self.expect_failure(["bake"], 2, "tidemark: error: bake: give noise")
+        self.expect_failure(["bake", "island"], 2, "tidemark: error: bake: unknown 'island': give noise")
+        self.expect_failure(["bake", "bread"], 2, "tidemark: error: bake: unknown 'bread': give noise")
+        self.expect_failure(["bake", "noise", "more"], 2, "tidemark: error: unexpected argument 'more'")
 
 
 if __name__ == "__main__":

@@ -45,12 +45,12 @@ class Sizes(BigPicture):
                 self.assertEqual(picture.pixel(x, y), (x % 256, y, x // 256))
         self.assertEqual(report["frames"][0]["sha256"], picture.sha256())
 
-    def test_a_tall_one_runs_from_the_top(self):
+    def test_tall_pictures_start_at_the_top(self):
         self.succeed("capture", "places.glsl", "--size", "2x20000", "-o", "tall.png")
         picture = png.read(self.folder / "tall.png")
         self.assertEqual([picture.pixel(1, y)[1] for y in range(20000)], [y % 256 for y in range(20000)])
 
-    def test_what_is_drawn_whole_says_nothing_of_tiles(self):
+    def test_untiled_capture_reports_no_tiles(self):
         self.assertNotIn("tiles", self.report("places.glsl", "--size", "8x8"))
 
     def test_every_format_has_the_bytes_of_the_whole_picture(self):
@@ -86,7 +86,7 @@ class Sizes(BigPicture):
 
 
 class Refusals(BigPicture):
-    def test_sizes_that_a_format_does_not_have(self):
+    def test_size_beyond_the_formats_limit(self):
         self.expect_failure(["capture", "places.glsl", "--size", "70000x8", "-o", "a.jpg"], 2,
                             "tidemark: error: --size 70000x8: a .jpg has at most 65500 pixels on a side")
         self.expect_failure(["capture", "places.glsl", "--size", "8x1000001"], 2,
@@ -94,7 +94,7 @@ class Refusals(BigPicture):
         self.expect_failure(["capture", "places.glsl", "--size", "9000000x1", "-o", "-"], 2,
                             "tidemark: error: --size 9000000x1: a side has at most 8388608 pixels")
 
-    def test_tiles_that_there_are_not(self):
+    def test_invalid_tile_sizes(self):
         self.expect_failure_like(["capture", "places.glsl", "--tile", "7"], 2,
                                  r"tidemark: error: --tile 7: .* from 2 to \d+")
         self.expect_error(["capture", "places.glsl", "--tile", "8", "-o", "a.mp4"], 2, "--tile")
@@ -144,12 +144,12 @@ class Memory(BigPicture):
         self.assertEqual(running.returncode, 0)
         return usage.ru_maxrss
 
-    def test_height_costs_none(self):
+    def test_memory_does_not_grow_with_height(self):
         low = self.peak("places.glsl", "--size", "1024x1024", "--tile", "256", "-o", "a.png")
         high = self.peak("places.glsl", "--size", "1024x8192", "--tile", "256", "-o", "a.png")
         self.assertLess(high - low, 8 << 10)  # the picture alone: 32 MiB
 
-    def test_frames_cost_none(self):
+    def test_memory_does_not_grow_with_frames(self):
         few = self.peak("places.glsl", "--size", "32x32", "--frames", "0-49", "-o", "-")
         many = self.peak("places.glsl", "--size", "32x32", "--frames", "0-1999", "-o", "-")
         self.assertLess(many - few, 4 << 10)

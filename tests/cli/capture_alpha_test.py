@@ -43,7 +43,7 @@ class Pictures(Alpha):
         self.assertEqual(png.read(self.folder / "a.png").channels, 3)
         self.assertEqual(self.capture("b.png", "--alpha", "opaque"), plain)
 
-    def test_png_holds_it_straight(self):
+    def test_png_stores_straight_alpha(self):
         for depth, largest in (("8", 255), ("16", 65535)):
             self.capture("a.png", "--alpha", "keep", "--depth", depth)
             picture = png.read(self.folder / "a.png")
@@ -53,14 +53,14 @@ class Pictures(Alpha):
                 for got, want in zip(picture.pixel(x, 3), wanted, strict=True):
                     self.assertLessEqual(abs(got - largest * want), 0.51)
 
-    def test_all_frames_have_it(self):
+    def test_all_frames_have_an_alpha_channel(self):
         """Compositors want one layout of a sequence; an alpha of 1 all over is there too."""
         self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.5, 0.25, 1.0, 1.0); }\n")
         self.capture("a.png", "--alpha", "keep")
         picture = png.read(self.folder / "a.png")
         self.assertEqual({picture.pixel(x, y) for x in range(16) for y in range(16)}, {(128, 64, 255, 255)})
 
-    def test_exr_of_either_kind(self):
+    def test_exr_stores_straight_or_premultiplied_alpha(self):
         for kind, times in (("keep", lambda a: 1.0), ("premultiplied", lambda a: a)):
             for transfer, decoded in (("srgb", lambda c: c), ("linear", light)):
                 self.capture("a.exr", "--alpha", kind, "--transfer", transfer, "--depth", "float")
@@ -71,12 +71,12 @@ class Pictures(Alpha):
                     for channel, colour in zip("RGB", COLOUR):
                         self.assertAlmostEqual(part.values(channel)[x], decoded(colour) * times(alpha), places=6)
 
-    def test_tiff_says_which(self):
+    def test_tiff_tags_the_kind_of_alpha(self):
         """Its field ExtraSamples: 1 for alpha that colours are multiplied by, 2 for alpha that they are not."""
         for depth in ("8", "16", "float"):
             for kind, value in (("keep", 2), ("premultiplied", 1)):
                 self.assertEqual(tiff_fields(self.capture("a.tif", "--alpha", kind, "--depth", depth))[338], value)
-        # What another reader of the file sees: numbers as they are stored.
+        # Another reader of the file gets the numbers as they are stored.
         self.capture("a.tif", "--alpha", "premultiplied")
         self.write("reads.glsl", '#iChannel0 "a.tif"\nvoid mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }\n')
         self.succeed("capture", "reads.glsl", *SIZE, "--alpha", "keep", "-o", "b.png")
@@ -90,21 +90,21 @@ class Pictures(Alpha):
                               ("a.tif", ("--alpha", "premultiplied", "--depth", "16"))):
             self.assertEqual(self.capture(name, *options), self.capture("bands" + name, *options, "--tile", "4"))
 
-    def test_main_of_its_own(self):
+    def test_scene_with_its_own_main(self):
         self.write("m.glsl", "out vec4 colour; void main() { colour = vec4(1.0, 0.0, 0.0, 0.2); }\n")
         self.capture("m.png", "--alpha", "keep", scene="m.glsl")
         self.assertEqual(png.read(self.folder / "m.png").pixel(0, 0), (255, 0, 0, 51))
         self.capture("n.png", scene="m.glsl")
         self.assertEqual(png.read(self.folder / "n.png").pixel(0, 0), (255, 0, 0))
 
-    def test_layer(self):
+    def test_alpha_of_a_layer(self):
         self.capture("a.exr", "--alpha", "premultiplied")
         alone, = exr.read(self.folder / "a.exr")
         self.capture("b.exr", "--alpha", "premultiplied", "--layers")
         layer, = exr.read(self.folder / "b.exr")
         self.assertEqual((layer.name, layer.samples), ("Image", alone.samples))
 
-    def test_smooth_edges_keep_the_colour_of_what_covers(self):
+    def test_smooth_edges_keep_the_colour_of_the_covering_part(self):
         """Red up to the middle of a pixel, behind it green of no coverage: half of a red pixel, not a brown one."""
         self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = p.x < 8.5 ? vec4(1, 0, 0, 1) : vec4(0, 1, 0, 0); }\n")
         self.capture("a.png", "--alpha", "keep", "--samples", "64")
@@ -133,7 +133,7 @@ class Pictures(Alpha):
         self.assertEqual([*part.values("A")[:3], part.values("A")[4]], [-0.5, 1.5, 1.5, 0.5])
         self.assertNotEqual(part.values("A")[3], part.values("A")[3])
 
-    def test_frames_of_another_alpha_are_not_kept(self):
+    def test_resume_redraws_frames_with_another_alpha(self):
         sequence = ["capture", "a.glsl", *SIZE, "--frames", "0-2", "-o", "%d.tif", "--resume"]
         self.succeed(*sequence, "--alpha", "keep")
         self.assertIn("kept 3 of 3", self.succeed(*sequence, "--alpha", "keep").stderr)
@@ -216,7 +216,7 @@ class Videos(Alpha):
             for got, want in zip(picture.pixel(x, 5), (128, 64, 255, 17 * x), strict=True):
                 self.assertLessEqual(abs(got - want), 128 / (17 * x) + 1)
 
-    def test_webp_keeps_every_byte_that_is_seen(self):
+    def test_webp_keeps_every_visible_byte(self):
         self.write("a.glsl", SCENE.replace("floor(p.x) / 15.0", "(floor(p.x) + 1.0) / 16.0"))
         self.capture("a.webp", "--alpha", "keep", "--frame", "0")  # ffmpeg reads no animated ones
         raw = subprocess.run(["ffmpeg", "-v", "error", "-i", "a.webp", "-pix_fmt", "rgba", "-f", "rawvideo", "-"],

@@ -42,7 +42,7 @@ class Crop(ProgramTest):
                         ("--tile", "16", "--samples", "2")):
             self.expect_part(*options)
 
-    def test_one_pixel_and_all_of_them(self):
+    def test_crop_of_one_pixel_and_of_the_whole_frame(self):
         whole = self.picture("whole.png", *SIZE)
         for area in ((0, 0, 1, 1), (39, 23, 1, 1), (0, 5, 40, 1)):
             cropped = self.picture("crop.png", *SIZE, "--crop", ",".join(map(str, area)))
@@ -101,7 +101,7 @@ class Crop(ProgramTest):
         self.assertEqual([row[:3 * WIDTH] for row in sheet.rows], self.part(whole))
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
-    def test_a_video_has_its_size(self):
+    def test_video_has_the_size_of_the_crop(self):
         self.succeed("capture", "a.glsl", *SIZE, *CROP, "--frames", "0-9", "-o", "a.mp4")
         done = subprocess.run(["ffprobe", "-v", "error", "-show_entries", "stream=width,height", "-of", "csv=p=0", "a.mp4"],
                               cwd=self.folder, stdout=subprocess.PIPE, text=True, check=True)
@@ -114,7 +114,7 @@ class Crop(ProgramTest):
         self.assertEqual((self.folder / "out/a.mp4").read_bytes(), (self.folder / "b.mp4").read_bytes())
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
-    def test_shards_of_frames_that_are_not_evenly_apart(self):
+    def test_shards_of_unevenly_spaced_frames(self):
         """How long each frame is shown is part of the whole capture's identity, not of a shard's."""
         (self.folder / "out").mkdir()
         for shard in ("1/2", "2/2"):
@@ -122,7 +122,7 @@ class Crop(ProgramTest):
                          "-o", "out/a.mp4")
         self.succeed("gather", "out")
 
-    def test_is_part_of_the_identity(self):
+    def test_crop_is_part_of_the_fingerprint(self):
         sequence = ("capture", "a.glsl", *SIZE, "--frames", "0-2", "-o", "%d.png", "--resume")
         self.succeed(*sequence, *CROP)
         self.assertIn("kept 3 of 3", self.succeed(*sequence, *CROP).stderr)
@@ -150,7 +150,7 @@ class Crop(ProgramTest):
         self.assertNotIn("crop", json.loads(done.stdout))
         self.assertNotIn("tidemark:Crop", png.read(self.folder / "whole.png").text)
 
-    def test_like_a_cropped_picture(self):
+    def test_like_repeats_the_crop(self):
         cropped = self.picture("crop.png", *SIZE, *CROP, "--frame", "9")
         self.succeed("capture", "--like", "crop.png", "-o", "again.png")
         self.assertEqual(png.read(self.folder / "again.png").rows, cropped.rows)
@@ -159,7 +159,7 @@ class Crop(ProgramTest):
         self.succeed("capture", "--like", "crop.png", "--size", "80x48", "-o", "large.png")
         self.assertEqual(png.read(self.folder / "large.png").width, 80)
 
-    def test_counts_are_of_the_part(self):
+    def test_non_finite_pixels_are_counted_in_the_crop_only(self):
         self.write("nan.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p.x < 1.0 ? sqrt(-1.0 - iTime) : 0.5, 0.5, 0.5, 1.0); }\n")
         for name in ("a.png", "a.exr"):
             for crop, count in (("0,0,3,5", 5), ("1,0,3,5", 0)):

@@ -25,7 +25,7 @@ class Exposure(ProgramTest):
         self.assertGreater(len(smooth), 8)
         self.assertLessEqual({0, 255}, smooth)
 
-    def test_a_shutter_alone_takes_samples_enough(self) -> None:
+    def test_a_shutter_alone_takes_16_samples(self) -> None:
         self.assertGreater(len(self.levels("--shutter", "1", "--fps", "10")), 8)
         self.assertIn("Samples=16", self.facts("a.png"))
         self.assertIn("Shutter=1", self.facts("a.png"))

@@ -15,7 +15,7 @@ void mainImage(out vec4 c, in vec2 p) {
     c = texelFetch(iChannel0, ivec2(p), 0) + vec4(p / 37.0, 1.0e6 / 3.0, -0.5);
 }
 """
-# Nobody reads it.
+# No pass reads it.
 BUFFER_B = "void mainImage(out vec4 c, in vec2 p) { c = vec4(p.y, iTime, 1.0 / 0.0, 1.0); }\n"
 CUBE_A = "void mainCubemap(out vec4 c, in vec2 p, in vec3 o, in vec3 d) { c = vec4(d * 2.0, p.x / 1024.0); }\n"
 
@@ -41,7 +41,7 @@ class Layers(ProgramTest):
             else:
                 self.assertEqual((name, set(layer.values(name))), ("A", {1.0}))
 
-    def test_each_is_the_pass_captured_alone(self):
+    def test_each_layer_equals_the_pass_captured_alone(self):
         layers = self.capture("all.exr", "--layers", "--frame", "3")
         self.assertEqual([layer.name for layer in layers], ["Image", "Buffer A", "Buffer B"])
         self.assertEqual([sorted(layer.samples) for layer in layers], [list("BGR"), list("ABGR"), list("ABGR")])
@@ -54,14 +54,14 @@ class Layers(ProgramTest):
         self.assertEqual(layers[1].values("B")[0], struct.unpack("<f", struct.pack("<f", 4.0e6 / 3.0))[0])
         self.assertEqual(set(layers[2].values("B")), {float("inf")})
 
-    def test_depth_is_that_of_all(self):
+    def test_depth_applies_to_all_layers(self):
         layers = self.capture("all.exr", "--layers", "--depth", "half")
         self.assertEqual({kind for layer in layers for _, kind in layer.channels}, {1})
         for layer in layers:
             alone, = self.capture("one.exr", "--depth", "half", "--pass", layer.name)
             self.expect_same(layer, alone)
 
-    def test_cube_as_its_faces(self):
+    def test_cube_pass_has_a_layer_per_face(self):
         self.write("s/cube_a.glsl", CUBE_A)
         layers = self.capture("all.exr", "--layers")
         faces = ["px", "nx", "py", "ny", "pz", "nz"]
@@ -74,14 +74,14 @@ class Layers(ProgramTest):
             self.assertEqual((layer.size, layer.channels), ((1024, 1024), alone.channels))
             self.assertTrue(layer.blocks == alone.blocks, face)
 
-    def test_smooth_edges_are_those_of_image(self):
+    def test_samples_of_layers_equal_those_of_image(self):
         layers = self.capture("all.exr", "--layers", "--samples", "4", "--frame", "1")
         image, = self.capture("one.exr", "--samples", "4", "--frame", "1")
         buffer, = self.capture("two.exr", "--frame", "1", "--pass", "Buffer A")
         self.expect_same(layers[0], image)
         self.expect_same(layers[1], buffer)
 
-    def test_sequence_goes_on(self):
+    def test_resume_keeps_frames_with_the_same_layers(self):
         sequence = ["capture", "s", *SIZE, "--frames", "0-2", "-o", "%d.exr", "--resume"]
         self.succeed(*sequence, "--layers")
         kept = [(self.folder / f"{frame}.exr").read_bytes() for frame in range(3)]
@@ -99,7 +99,7 @@ class Layers(ProgramTest):
         self.succeed("capture", "--like", "all.exr", "-o", "like.exr")
         self.assertEqual((self.folder / "like.exr").read_bytes(), (self.folder / "image.exr").read_bytes())
 
-    def test_one_pass_alone_is_a_layer_too(self):
+    def test_scene_with_one_pass_has_one_layer(self):
         self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.5); }\n")
         self.succeed("capture", "a.glsl", *SIZE, "--layers", "-o", "a.exr")
         part, = exr.read(self.folder / "a.exr")

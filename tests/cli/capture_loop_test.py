@@ -23,7 +23,7 @@ class Loop(ProgramTest):
         self.assertIn("loop: fails; it jumps at the start; ", self.looped("0.5", "--frames", "0-19", code=1))
         self.assertNotIn("20.png", self.files())  # what was drawn behind the last goes nowhere
 
-    def test_a_frame_too_few_or_too_many(self) -> None:
+    def test_loop_with_a_frame_missing_or_repeated(self) -> None:
         self.assertIn("loop: fails; frame 19 is missing at the end; ", self.looped("1.0", "--frames", "0-18", code=1))
         self.assertIn("loop: fails; frame 18 is missing at the end; ", self.looped("1.0", "--frames", "0-16x2", code=1))
         self.assertIn("loop: fails; frame 20 repeats the first: leave it out; ", self.looped("1.0", "--frames", "0-20", code=1))
@@ -36,7 +36,7 @@ class Loop(ProgramTest):
         self.assertTrue(loop["seamless"])
         self.assertGreater(loop["closing_psnr"] or 999, loop["step_psnr"] + 20)
 
-    def test_what_it_needs(self) -> None:
+    def test_missing_and_conflicting_options_are_refused(self) -> None:
         self.write("spin.glsl", SPIN.replace("TURNS", "1.0"))
         for words, says in ((["--loop"], "give at least two --frames"),
                             (["--loop", "--frames", "0-9", "-o", "%d.png", "--tile", "8", "--size", "32x32"], "drawn in tiles "

@@ -1,9 +1,10 @@
 """The options of `capture` that say what a frame sees: their effect, told by the shader itself, and their
 errors."""
+import json
 import struct
 
 from support import png, probe
-from support.program import ProgramTest, main
+from support.program import ROOT, ProgramTest, environment, main
 
 GOOD = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n"
 CLOCK = {"iTime": "iTime", "iTimeDelta": "iTimeDelta", "iFrame": "float(iFrame)", "iFrameRate": "iFrameRate"}
@@ -32,7 +33,7 @@ class Told(ProgramTest):
 
 
 class Clock(Told):
-    def test_frame_0_of_60_a_second_is_the_default(self):
+    def test_default_is_frame_0_at_60_fps(self):
         self.assertEqual(self.told(CLOCK),
                          {"iTime": 0, "iTimeDelta": rounded(1 / 60), "iFrame": 0, "iFrameRate": 60})
 
@@ -73,7 +74,7 @@ class Beat(Told):
     def beat(self, *options: str, before: str = "uniform float iBeat;\n") -> float:
         return self.told({"iBeat": "iBeat"}, *options, before=before)["iBeat"]
 
-    def test_two_a_second_are_the_default(self):
+    def test_default_is_120_bpm(self):
         self.assertEqual(self.beat("--time", "1.25"), 2.5)
         self.assertEqual(self.beat("--frame", "45", "--fps", "30"), 3)
 
@@ -81,13 +82,13 @@ class Beat(Told):
         self.assertEqual(self.beat("--time", "1.25", "--bpm", "90"), 1.875)
         self.assertEqual(self.beat("--time", "3600", "--bpm", "174.5"), 10470)
 
-    def test_goes_on_within_a_sequence(self):
+    def test_advances_within_a_sequence(self):
         self.write("told.glsl", probe.shader({"iBeat": "iBeat"}, "uniform float iBeat;\n"))
         done = self.succeed("capture", "told.glsl", "--size", "64x2", "-o", "-", "--frames", "0-8x4", "--fps", "4", "--bpm", "90")
         told = [probe.read(png.from_raw(64, 2, done.stdout[i * 384:(i + 1) * 384]), {"iBeat": "iBeat"})["iBeat"] for i in range(3)]
         self.assertEqual(told, [0, 1.5, 3])
 
-    def test_no_knob_has_its_name(self):
+    def test_knob_named_ibeat_is_refused(self):
         self.write("a.glsl", "#iUniform float iBeat = 1.0\n" + GOOD)
         self.expect_error(["capture", "a.glsl", "-o", "-"], 3, "a.glsl:1: error:", "'iBeat'", "the host provides")
 
@@ -110,7 +111,7 @@ class Size(Told):
         told = self.told(self.RESOLUTION, size=(31, 17))
         self.assertEqual(list(told.values()), [31, 17, 1])
 
-    def test_one_pixel(self):
+    def test_size_of_one_pixel(self):
         self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p, 0.2, 0.0); }\n")
         self.succeed("capture", "a.glsl", "--size", "1x1")
         self.assertEqual(png.read(self.folder / "a.png").pixel(0, 0), (128, 128, 51))
@@ -136,16 +137,16 @@ class Mouse(Told):
     def test_never_touched(self):
         self.assertEqual(self.mouse(), [0, 0, 0, 0])
 
-    def test_after_a_click_both_signs_are_negative(self):
+    def test_after_a_click_z_and_w_are_negative(self):
         self.assertEqual(self.mouse("--mouse", "10,20"), [10, 20, -10, -20])
 
-    def test_in_the_frame_of_the_press_both_are_positive(self):
+    def test_in_the_frame_of_the_press_z_and_w_are_positive(self):
         self.assertEqual(self.mouse("--mouse", "10,20,down"), [10, 20, 10, 20])
 
     def test_a_drag_ends_where_the_button_is_released(self):
         self.assertEqual(self.mouse("--mouse", "10,20,3,4"), [10, 20, -3, -4])
 
-    def test_before_a_drag_ends_only_its_press_is_no_longer_new(self):
+    def test_during_a_drag_only_w_is_negative(self):
         self.assertEqual(self.mouse("--mouse", "10,20,3,4,down"), [10, 20, 3, -4])
 
     def test_pixels_are_whole(self):
@@ -162,14 +163,14 @@ class Date(Told):
     def test_is_fixed_unless_given(self):
         self.assertEqual(list(self.told(self.DATE).values()), [2024, 0, 1, 43200])
 
-    def test_goes_on_with_the_time(self):
+    def test_advances_with_the_time(self):
         self.assertEqual(list(self.told(self.DATE, "--frame", "90", "--fps", "30").values()), [2024, 0, 1, 43203])
         self.assertEqual(list(self.told(self.DATE, "--time", "2.5", "--date", "2023-12-31T23:59:58").values()),
                          [2024, 0, 1, 0.5])
         self.assertEqual(list(self.told(self.DATE, "--time", "86400", "--date", "2024-02-28T12:00:00").values()),
                          [2024, 1, 29, 43200])
 
-    def test_goes_on_within_a_sequence(self):
+    def test_advances_within_a_sequence(self):
         self.write("told.glsl", probe.shader(self.DATE))
         done = self.succeed("capture", "told.glsl", "--size", "64x2", "-o", "-", "--frames", "0-8x4", "--fps", "4",
                             "--date", "2024-12-31T23:59:59")
@@ -177,7 +178,7 @@ class Date(Told):
                 for i in range(3)]
         self.assertEqual(told, [[2024, 11, 31, 86399], [2025, 0, 1, 0], [2025, 0, 1, 1]])
 
-    def test_a_recording_is_replayed_with_it(self):
+    def test_date_applies_to_a_replayed_recording(self):
         self.write("take.txt", "0 press left 1 1\n")
         told = self.told(self.DATE, "--input", "take.txt", "--frame", "30", "--date", "2024-01-01")
         self.assertEqual(list(told.values()), [2024, 0, 1, 0.5])
@@ -226,7 +227,7 @@ class Knobs(Told):
         self.assertEqual(self.knobs("--set", "height=0.25", "--set", "tint=#ff0033", "--set", "cells=7,-9"),
                          [0.25, 1, 0, rounded(0x33 / 255), 7, -9])
 
-    def test_one_number_stands_for_all_and_the_last_one_counts(self):
+    def test_one_number_sets_all_components_and_the_last_setting_wins(self):
         self.assertEqual(self.knobs("--set", "tint=0.5", "--set", "cells=ivec2(1, 2)", "--set", "height=2",
                                     "--set", "height=3"),
                          [3, 0.5, 0.5, 0.5, 1, 2])
@@ -279,7 +280,7 @@ class Channels(Told):
     SIZE = {"width": "iChannelResolution[0].x", "height": "iChannelResolution[0].y",
             "depth": "iChannelResolution[0].z", "red": "texelFetch(iChannel0, ivec2(0), 0).r"}
 
-    def test_noise_where_nothing_is_said(self):
+    def test_channel_without_a_directive_reads_noise(self):
         self.assertEqual(list(self.told(self.SIZE).values())[:3], [256, 256, 1])
 
     def test_picture(self):
@@ -328,7 +329,7 @@ class Specialised(ProgramTest):
         self.assertEqual(frames, self.drawn("--plain"))
         self.assertNotEqual(frames[:160 * 90 * 3], frames[-160 * 90 * 3:])
 
-    def test_a_trial_sees_the_mouse_of_the_sequence(self):
+    def test_trial_draws_with_the_mouse_of_the_sequence(self):
         self.write("a.glsl", "#iUniform float power = 4.0 in { 1.0, 9.0 }\n" # as a constant: a few products
                              "void mainImage(out vec4 c, in vec2 p) {\n"
                              "    float waves = pow(fract(p.x * 0.37 + 0.1), power);\n"
@@ -352,6 +353,42 @@ class Specialised(ProgramTest):
                               ("--allow-difference some", "--allow-difference: give a number, not 'some'")):
             with self.subTest(option=option):
                 self.expect_failure(["capture", "a.glsl", *option.split(" ")], 2, f"tidemark: error: {words}")
+
+
+class OpenGLES(ProgramTest):
+    """`--es`: the conformance scenes have the same bytes as with OpenGL 4.5, without calls that OpenGL ES lacks."""
+
+    def drawn(self, *words: str, **variables: str) -> bytes:
+        """With OpenGL ES. Mesa names each wrong call when MESA_DEBUG is set."""
+        done = self.succeed("capture", *words, "--es", "-o", "-", env=environment(MESA_DEBUG="1", **variables))
+        self.assertNotIn("User error", done.stderr)
+        return done.stdout
+
+    def test_draws_what_opengl_draws(self):
+        drawn = 0
+        for case in sorted((ROOT / "tests" / "cases" / "conformance").iterdir()):
+            expected = json.loads((case / "expected.json").read_text()) if case.is_dir() else {}
+            if not expected.get("frames"):
+                continue
+            scene = next((case / n for n in ("scene.glsl", "project.json") if (case / n).exists()), case)
+            width, height = expected["size"]
+            words = (str(scene), "--size", f"{width}x{height}", "--frame", "3")
+            with self.subTest(case=case.name):
+                self.assertEqual(self.drawn(*words), self.succeed("capture", *words, "-o", "-").stdout)
+                drawn += 1
+        self.assertGreater(drawn, 40)
+
+    def test_tiles_and_sequences(self):
+        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, sin(iTime), 1.0); }\n")
+        for words in ("--size 70x50 --tile 32", "--frames 0-4 --size 8x8", "--frames 3,5 --size 9x7 --shutter 0.5 --samples 4"):
+            with self.subTest(words=words):
+                drawn = self.succeed("capture", "a.glsl", *words.split(), "-o", "-").stdout
+                self.assertEqual(self.drawn("a.glsl", *words.split()), drawn)
+                self.assertEqual(self.drawn("a.glsl", *words.split(), TIDEMARK_READ_BACK="ahead"), drawn)
+
+    def test_features_missing_from_opengl_es(self):
+        self.write("a.glsl", GOOD)
+        self.expect_error(["capture", "a.glsl", "-o", "-", "--es", "--precision", "double"], 2, "OpenGL ES has no double precision")
 
 
 if __name__ == "__main__":

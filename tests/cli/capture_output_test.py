@@ -54,7 +54,7 @@ class Names(CaptureTest):
                 self.assertEqual(done.stderr, f"wrote {name}\n")
                 self.assertTrue((self.folder / name).exists())
 
-    def test_a_frame_named_twice_is_one_file(self):
+    def test_repeated_frame_numbers_write_one_file(self):
         done = self.capture("--frames", "0-2,1-3,2", "-o", "f%d.png")
         self.assertEqual(self.files() - {"wave.glsl"}, {f"f{i}.png" for i in range(4)})
         self.assertEqual(done.stderr.splitlines()[-1], "wrote 4 frames, f0.png to f3.png")
@@ -113,7 +113,7 @@ class Formats(CaptureTest):
         version = self.succeed("--version").stdout.decode().strip()
         self.assertEqual(text["tidemark:Software"], version)
 
-    def test_metadata_says_what_the_picture_was_drawn_with(self):
+    def test_metadata_lists_the_drawing_settings(self):
         self.write("k.glsl", "#define LEVEL 1\n#iUniform float gain = 0.25 in { 0.0, 1.0 }\n#iUniform vec3 tint = vec3(1.0)\n"
                              "void mainImage(out vec4 c, in vec2 p) { c = vec4(gain * tint * float(LEVEL), 1.0); }\n")
         report = json.loads(self.succeed(
@@ -129,7 +129,7 @@ class Formats(CaptureTest):
                          [("gain", [0.5]), ("tint", [0, 1, 0.5])])
         self.assertEqual(report["defines"], ["LEVEL=2"])
 
-    def test_metadata_of_a_recording_are_those_of_each_frame(self):
+    def test_metadata_of_a_recording_are_per_frame(self):
         self.write("c.glsl", "uniform mat4 iCamera;\nvoid mainImage(out vec4 c, in vec2 p) { c = iCamera[3]; }\n")
         self.write("r.txt", "1 press left 10 5\n2 move 15 5\n3 release left\n")
         self.succeed("capture", "c.glsl", "--size", "20x10", "--input", "r.txt", "--frames", "0-2", "-o", "c%d.png")
@@ -148,7 +148,7 @@ class Formats(CaptureTest):
                 self.assertTrue((self.folder / name).read_bytes().startswith(start))
 
     def test_exr_channel_types(self):
-        # In the channel list of an EXR header the type stands behind the name: 1 is half, 2 is float.
+        # In the channel list of an EXR header the type follows the name: 1 is half, 2 is float.
         for options, kind in [("-o a.exr", 1), ("-o a.exr --depth float", 2)]:
             self.capture(*options.split())
             header = (self.folder / "a.exr").read_bytes()[:2000]
@@ -182,7 +182,7 @@ void mainImage(out vec4 c, in vec2 p) { c = vec4(texture(iChannel0, vec2(0.25, 0
 
 
 class RawFrames(CaptureTest):
-    def test_are_rgb_from_the_top_and_nothing_else(self):
+    def test_are_rgb_rows_from_the_top_without_a_header(self):
         done = self.capture("--frames", "4,2,2", "-o", "-")
         self.assertEqual(len(done.stdout), 3 * 7 * 5 * 3)
         self.assertEqual(self.files(), {"wave.glsl"})
@@ -192,12 +192,12 @@ class RawFrames(CaptureTest):
         self.assertEqual(frames[1], b"".join(self.picture("f2.png").rows))
         self.assertEqual(frames[2], frames[1])
 
-    def test_of_one_frame_say_nothing(self):
+    def test_single_frame_prints_no_message(self):
         self.assertEqual(self.capture("-o", "-").stderr, "")
 
 
 class Json(CaptureTest):
-    def test_object_is_complete_and_true(self):
+    def test_object_is_complete_and_correct(self):
         done = self.capture("--frames", "0-4x2", "--fps", "30", "-o", "f%03d.png", "--json")
         report = json.loads(done.stdout)
         self.assertEqual(list(report), ["tidemark", "scene", "size", "driver", "renderer", "pass", "precision",
@@ -230,7 +230,7 @@ class Json(CaptureTest):
             self.assertEqual((self.folder / "alone.png").read_bytes(),
                              (self.folder / f"s{frame}.png").read_bytes())
 
-    def test_discarded_pixels_are_those_of_the_frames_before(self):
+    def test_discarded_pixels_keep_earlier_frames(self):
         self.write("wave.glsl", "void mainImage(out vec4 c, in vec2 p) {\n"
                                 "    if (iFrame == 1 && p.x < 3.0)\n        discard;\n"
                                 "    c = vec4(1.0, float(iFrame) * 0.5, 0.0, 1.0);\n}\n")
@@ -240,7 +240,7 @@ class Json(CaptureTest):
         self.assertEqual(self.picture("alone.png").pixel(0, 0)[:3], (255, 0, 0))
         self.expect_error(["capture", "wave.glsl", *SIZE, "--tile", "2"], 2, "--tile", "Image")
 
-    def test_hash_of_a_float_picture_is_of_its_floats(self):
+    def test_hash_of_a_float_picture_covers_its_floats(self):
         self.write("wave.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p.x, -p.y, 1000.25, 0.0); }\n")
         report = json.loads(self.capture("-o", "a.exr", "--depth", "float", "--json").stdout)
         floats = [value for y in reversed(range(5)) for x in range(7) for value in (x + 0.5, -y - 0.5, 1000.25, 1.0)]
@@ -275,13 +275,13 @@ class SixFaces(ProgramTest):
         self.assertGreater(len(set(drawn)), 100)
         self.assertLessEqual(max(abs(a - b) for a, b in zip(drawn, read)), 1)
 
-    def test_are_of_a_cube_only(self):
+    def test_require_a_cube_pass(self):
         self.write("wave.glsl", SHADER)
         self.expect_error(["capture", "wave.glsl", *SIZE, "-o", "a{}.png"], 2, "-o a{}.png", "--pass", "Cube A")
 
 
 class CannotWrite(CaptureTest):
-    def test_is_said_before_anything_is_compiled(self):
+    def test_is_reported_before_compiling(self):
         self.write("broken.glsl", "void mainImage(out vec4 c, in vec2 p) { c = none; }\nvec2 mainSound(float t) { none; }\n")
         for name in ("wave.glsl/a.png", "wave.glsl/%04d.exr", "wave.glsl/a.mp4", "wave.glsl/a.wav"):
             with self.subTest(name=name):
@@ -290,14 +290,14 @@ class CannotWrite(CaptureTest):
                 self.assertRegex(done.stderr, r"\Atidemark: error: cannot .*'wave\.glsl.*: (Not a directory|File exists)\n\Z")
         self.assertEqual(self.files(), {"wave.glsl", "broken.glsl"})
 
-    def test_folder_that_cannot_be_made(self):
+    def test_folder_cannot_be_created(self):
         self.expect_error(["capture", "wave.glsl", *SIZE, "-o", "/proc/none/a.png"], 4, "'/proc/none", "No such file or directory")
 
-    def test_folder_that_is_a_file(self):
+    def test_file_in_place_of_the_folder(self):
         self.expect_failure(["capture", "wave.glsl", *SIZE, "-o", "wave.glsl/a.png"], 4,
                             "tidemark: error: cannot write 'wave.glsl/a.png': Not a directory")
 
-    def test_name_that_is_a_folder(self):
+    def test_folder_in_place_of_the_file(self):
         (self.folder / "a.png").mkdir()
         self.expect_failure(["capture", "wave.glsl", *SIZE, "-o", "a.png"], 4,
                             "tidemark: error: cannot write 'a.png': Is a directory")
@@ -313,14 +313,14 @@ class CannotWrite(CaptureTest):
                             "tidemark: error: cannot write 'a.png': File too large", preexec_fn=small_files_only)
         self.assertEqual((self.folder / "a.png").read_text(), "what was there before")
 
-    def test_one_error_for_many_frames(self):
+    def test_many_frames_give_one_error(self):
         done = self.run_program("capture", "wave.glsl", *SIZE, "--frames", "0-20", "-o", "wave.glsl/%d.png")
         self.assertEqual(done.returncode, 4)
         errors = [line for line in done.stderr.splitlines() if "error" in line]
         self.assertEqual(errors, ["tidemark: error: cannot write 'wave.glsl/0.png': Not a directory"])
         self.assertEqual(self.files(), {"wave.glsl"})
 
-    def test_standard_output_that_is_full(self):
+    def test_full_standard_output(self):
         for options in (["--json"], ["-o", "-"]):
             with self.subTest(options=options), open("/dev/full", "wb") as full:
                 done = self.run_program("capture", "wave.glsl", *SIZE, *options, stdout=full)
@@ -328,7 +328,7 @@ class CannotWrite(CaptureTest):
                                  "tidemark: error: cannot write to standard output: No space left on device\n")
                 self.assertEqual(done.returncode, 4)
 
-    def test_standard_output_that_is_closed(self):
+    def test_closed_standard_output(self):
         for options in ("--json", "-o -"):
             with self.subTest(options=options):
                 line = f'exec "$0" capture wave.glsl {" ".join(SIZE)} {options} >&-'
@@ -338,7 +338,7 @@ class CannotWrite(CaptureTest):
                                  "tidemark: error: cannot write to standard output: Bad file descriptor\n")
                 self.assertEqual(done.returncode, 4)
 
-    def test_reader_that_goes_away(self):
+    def test_pipe_closed_by_its_reader(self):
         line = f'("$0" capture wave.glsl {" ".join(SIZE)} --frames 0-99999 -o - 2>err; echo $? >code) | head -c 105'
         done = subprocess.run(["bash", "-c", line, PROGRAM], cwd=self.folder, env=environment(),
                               stdout=subprocess.PIPE, timeout=120)
@@ -347,7 +347,7 @@ class CannotWrite(CaptureTest):
         self.assertEqual((self.folder / "err").read_text().splitlines()[-1],
                          "tidemark: error: cannot write to standard output: Broken pipe")
 
-    def test_standard_error_that_is_closed_is_no_error(self):
+    def test_closed_standard_error_is_ignored(self):
         line = f'exec "$0" capture wave.glsl {" ".join(SIZE)} 2>&-'
         done = subprocess.run(["bash", "-c", line, PROGRAM], cwd=self.folder, env=environment())
         self.assertEqual(done.returncode, 0)
@@ -355,7 +355,7 @@ class CannotWrite(CaptureTest):
 
 
 class Repeatable(CaptureTest):
-    def test_same_line_same_file(self):
+    def test_same_command_writes_the_same_bytes(self):
         self.capture("-o", "a.png")
         self.capture("-o", "b.png")
         self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())

@@ -42,16 +42,16 @@ class Sheet(ProgramTest):
                     self.assertEqual(sheet.pixel(x, y), GREY, (x, y))
         self.assertEqual(sheet.text["tidemark:Frames"], ",".join(map(str, frames)))
 
-    def test_evenly_of_the_frames(self):
+    def test_evenly_spaced_frames_of_a_range(self):
         sheet = self.sheet("--sheet", "3x2", "--frames", "10-20", "--fps", "10")
         self.expect_frames(sheet, 3, 2, [10, 12, 14, 16, 18, 20])
         self.assertEqual((sheet.text["tidemark:Sheet"], sheet.text["tidemark:Times"]), ("3x2", "1,1.2,1.4,1.6,1.8,2"))
         self.assertEqual(sheet.text.keys() & {"tidemark:Moment", "tidemark:Frame", "tidemark:Fingerprint"}, set())
 
-    def test_a_list_of_its_own(self):
+    def test_sheet_of_listed_frames(self):
         self.expect_frames(self.sheet("--sheet", "2x2", "--frames", "7,3,200,3"), 2, 2, [7, 3, 200, 3])
 
-    def test_of_a_time(self):
+    def test_sheet_of_a_duration(self):
         self.expect_frames(self.sheet("--sheet", "4x1", "--duration", "2", "--fps", "10"), 4, 1, [0, 5, 10, 15])
         self.expect_frames(self.sheet("--sheet", "2x1", "--fps", "20"), 2, 1, [0, 100])
 

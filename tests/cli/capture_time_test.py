@@ -21,7 +21,7 @@ class Time(ProgramTest):
         self.succeed("capture", "a.glsl", *SIZE, *options, "-o", "s_%d.png")
         return sorted(int(file.stem[2:]) for file in self.folder.glob("s_*.png"))
 
-    def test_part_of_the_time(self) -> None:
+    def test_part_of_the_duration(self) -> None:
         self.assertEqual(self.captured("--from", "1", "--to", "1.5", "--fps", "10"), [10, 11, 12, 13, 14])
         self.assertEqual(png.read(self.folder / "s_12.png").pixel(0, 0)[:2], (12, round(25.5 * 1.2)))
         self.assertEqual(self.captured("--duration", "0.3", "--fps", "10"), [0, 1, 2])
@@ -33,7 +33,7 @@ class Time(ProgramTest):
         sheet = self.succeed("capture", "a.glsl", *SIZE, "--sheet", "2x1", "--from", "1", "--duration", "1", "--fps", "10", "-o", "x.png")
         self.assertIn("frames 10 to 15", sheet.stderr)
 
-    def test_rate_of_the_picture_that_is_continued(self) -> None:
+    def test_like_keeps_the_frame_rate_of_its_picture(self) -> None:
         self.succeed("capture", "a.glsl", *SIZE, "--fps", "10", "--frame", "3", "-o", "one.png")
         self.succeed("capture", "--like", "one.png", "--from", "1", "--to", "1.2", "-o", "t_%d.png")
         self.assertEqual({file.name for file in self.folder.glob("t_*")}, {"t_10.png", "t_11.png"})
@@ -65,7 +65,7 @@ class Time(ProgramTest):
         refused("--duration 1e9 -o s_%d.png", "are too many frames")
         refused("--duration 1 -o s.png", "60 frames need a frame number in the name")
 
-    def test_folders_are_made(self) -> None:
+    def test_missing_folders_are_created(self) -> None:
         self.succeed("capture", "a.glsl", *SIZE, "--frames", "0-1", "-o", "new/deep/a_%04d.png")
         self.assertEqual({file.name for file in (self.folder / "new/deep").iterdir()}, {"a_0000.png", "a_0001.png"})
         self.succeed("capture", "a.glsl", *SIZE, "--frames", "0-1", "-o", "n%d/a.png")

@@ -85,7 +85,7 @@ class Exr(Transfer):
         for got, want in zip(struct.unpack("<8f", attributes["chromaticities"]), BT709):
             self.assertAlmostEqual(got, want, places=6)
 
-    def test_says_which(self):
+    def test_metadata_name_the_transfer(self):
         self.capture("a.exr")
         self.expect("a.exr", b"srgb_rec709_display")
         self.capture("b.exr", "--transfer", "linear")
@@ -131,7 +131,7 @@ class Profiles(Transfer):
 
 
 class Others(Transfer):
-    def test_frames_of_another_transfer_are_not_kept(self):
+    def test_resume_redraws_frames_with_another_transfer(self):
         sequence = ["capture", "a.glsl", *SIZE, "--depth", "16", "--frames", "0-2", "-o", "%d.png", "--resume"]
         self.succeed(*sequence)
         self.assertIn("kept 3 of 3", self.succeed(*sequence).stderr)
@@ -148,7 +148,7 @@ class Others(Transfer):
         self.expect_error(["capture", "a.glsl", "--transfer", "log"], 2, "--transfer log")
 
     @unittest.skipUnless(shutil.which("ffmpeg") and shutil.which("ffprobe"), "ffmpeg is not installed")
-    def test_videos_hold_the_colours_of_their_tags(self):
+    def test_videos_match_their_colour_tags(self):
         """Known colours come back within a code value of BT.709's matrix in the limited range."""
         for name, scale, form in (("a.mp4", 1, "yuv444p"), ("a.webm", 1, "yuv444p"), ("a.mov", 4, "yuv444p10le")):
             for red, green, blue in ((255, 0, 0), (12, 200, 77), (128, 128, 128)):

@@ -77,7 +77,7 @@ class Video(ProgramTest):
         self.assertEqual(self.facts("a.mkv")["video"]["codec_name"], "h264")
         self.expect_frames("a.mkv", 64, 36, 3, 10, 6)
 
-    def test_ten_bits_are_ten(self):
+    def test_ten_bit_video_has_more_than_256_levels(self):
         """A grey ramp of 1,024 steps: each within a code or two of its own, where 8 bits have 220 in all."""
         self.write("ramp.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(floor(p.x) / 1023.0), 1.0); }\n")
         for name, codec in (("a.mp4", "hevc"), ("a.mp4", "av1"), ("a.mov", "prores")):
@@ -186,7 +186,7 @@ class Video(ProgramTest):
             rising = sum(a < 0 <= b for a, b in zip(loud, loud[1:]))
             self.assertLessEqual(abs(rising - 150), 1)  # 15,000 samples of 441 Hz
 
-    def test_frames_evenly_apart_take_the_time_that_they_are_apart(self):
+    def test_evenly_spaced_frames_set_the_frame_rate(self):
         self.write("s/image.glsl", SCENE)
         self.write("s/sound.glsl", "vec2 mainSound(int samp, float t) {"
                                    "return t < 1.0 ? vec2(0.0) : vec2(0.5 * sin(6.283185307 * 441.0 * t)); }")
@@ -202,13 +202,14 @@ class Video(ProgramTest):
         self.succeed("capture", "a.glsl", *SIZE, "--fps", "60", "--frames", "0-15x3", "-o", "fast.gif")
         self.assertEqual(self.facts("fast.gif")["video"]["r_frame_rate"], "20/1")
 
-    def test_frames_unevenly_apart_are_shown_until_the_next_one_is_due(self):
+    def test_unevenly_spaced_frames_last_until_the_next_frame(self):
         self.write("s/image.glsl", SCENE)
         self.write("s/sound.glsl", "vec2 mainSound(int samp, float t) {"
                                    "return t < 1.0 ? vec2(0.0) : vec2(0.5 * sin(6.283185307 * 441.0 * t)); }")
         # Ticks of two frames of the scene: frame 0 for two, 4 for one, 6 for five, 16 for two, 20 for one.
         done = self.succeed("capture", "s", *SIZE, "--fps", "10", "--frames", "0,4,6,16,20", "-o", "s.mp4")
-        self.assertRegex(done.stderr, r"\A.* \(5 frames per second\) .*\nwrote s\.mp4: 5 frames, 5 a second\n\Z")
+        self.assertRegex(done.stderr, r"\A.* \(5 frames per second\) .*\nSound: the Sound pass, 44\.1 kHz stereo\n"
+                                      r"wrote s\.mp4: 5 frames, 5 a second\n\Z")
         video = self.facts("s.mp4")["video"]
         self.assertEqual((video["r_frame_rate"], video["nb_read_frames"]), ("5/1", "11"))
         frames = self.decoded("s.mp4", "-fps_mode", "passthrough", "-pix_fmt", "rgb24", "-f", "rawvideo")
@@ -223,7 +224,7 @@ class Video(ProgramTest):
         self.succeed("capture", "s", *SIZE, "--fps", "10", "--frames", "0,4,6,16,20", "--state-every", "2", "-o", "t.mp4")
         self.assertEqual(self.facts("t.mp4")["video"]["nb_read_frames"], "11")
 
-    def test_frames_that_are_not_later_say_so_and_are_silent(self):
+    def test_frames_in_descending_order_warn_and_have_no_sound(self):
         self.write("s/image.glsl", SCENE)
         self.write("s/sound.glsl", "vec2 mainSound(int samp, float t) { return vec2(sin(t)); }")
         one_by_one = "its frames are not in ascending order; they are shown one after another"
@@ -237,7 +238,7 @@ class Video(ProgramTest):
             facts = self.facts("s.mp4")
             self.assertEqual((set(facts), facts["video"]["r_frame_rate"]), ({"video"}, f"{rate}/1"))
 
-    def test_sound_ends_where_its_samples_can_no_longer_be_counted(self):
+    def test_sound_ends_at_the_largest_sample_number(self):
         self.write("s/image.glsl", SCENE)
         self.write("s/sound.glsl", "vec2 mainSound(int samp, float t) { return vec2(sin(t)); }")
         self.succeed("capture", "s", *SIZE, "--fps", "1", "--frames", "47990-47991", "-o", "last.mp4")

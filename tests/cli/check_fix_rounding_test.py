@@ -71,7 +71,7 @@ class CheckFixRounding(ProgramTest):
         answer, = json.loads(done.stdout)["probes"]
         return answer["verdict"]
 
-    def test_small_differences_of_large_numbers_are_written_without_them(self):
+    def test_cancelling_differences_are_rewritten(self):
         for number, (line, mended) in enumerate(ROUNDED.items()):
             with self.subTest(line):
                 scene = self.write(f"rounded{number}.glsl", BODY % line)
@@ -87,11 +87,11 @@ class CheckFixRounding(ProgramTest):
         self.assertEqual(scene.read_text(), SPHERE % "((r * r) - dot(ro - b * rd, ro - b * rd))")
         self.assertEqual(self.probe("sphere.glsl", "horizon"), "pass")
 
-    def test_a_text_that_loses_nothing_stays(self):
+    def test_accurate_expressions_stay_unchanged(self):
         self.write("a.glsl", BODY % "c = vec4(1.0 - cos(uv.x), uv.x * uv.x - uv.y * uv.y, sin(uv.x + iTime), 1.0);")
         self.assertEqual(self.succeed("check", "--fix", "a.glsl", *BUDGET).stdout, b"nothing to fix\n")
 
-    def test_an_equation_that_does_not_hold_is_not_offered(self):
+    def test_inexact_identities_are_not_offered(self):
         """acos(dot(a, b)) is the angle of vectors of length 1, and one of these is shorter: floats lose nothing in the
         other text either, but it is another picture."""
         line = ("vec3 a = normalize(vec3(0.3, 0.3, 1.0)), b = 0.999999 * normalize(vec3(0.3 + 0.004 * uv, 1.0)); "
@@ -102,7 +102,7 @@ class CheckFixRounding(ProgramTest):
         self.write("b.glsl", BODY % (line % "(2.0 * atan(length(a - b), length(a + b)))"))
         self.assertEqual(self.probe("b.glsl", "horizon"), "pass")
 
-    def test_phases_go_on_after_hours(self):
+    def test_phases_stay_accurate_after_hours(self):
         scene = self.write("time.glsl", BODY % "float t = 25.0 * iTime; c = vec4(fract(uv.x + 7.3 * iTime), "
                            "0.5 + 0.5 * sin(6.0 * uv.x + t), 0.5 + 0.5 * cos(3.0 * (uv.y - 40.0 * iTime)), 1.0);")
         self.assertEqual(self.probe("time.glsl", "horizon"), "note")
@@ -112,7 +112,7 @@ class CheckFixRounding(ProgramTest):
         self.assertEqual(scene.read_text().count("turns_of_time("), 4)
         self.succeed("check", "time.glsl", "--portable")
 
-    def test_loops_count_in_whole_numbers(self):
+    def test_float_loop_counters_become_integers(self):
         scene = self.write("a.glsl", BODY % "float s = 0.0; for (float x = 0.0; x < 1.0; x += 0.01) s += 0.001 * uv.x; "
                            "c = vec4(s);")
         self.assertEqual(self.probe("a.glsl", "counters"), "warn")
@@ -123,14 +123,14 @@ class CheckFixRounding(ProgramTest):
         self.assertEqual(self.probe("a.glsl", "counters"), "pass")
 
     def test_derivatives_are_taken_before_neighbours_diverge(self):
-        scene = self.write("a.glsl", BODY % "c = vec4(0.2); if (uv.x > 0.4) c = vec4(10.0 * fwidth(uv.y));")
+        scene = self.write("a.glsl", BODY % "c = vec4(0.2); if (uv.x > 0.4) c = vec4(10.0 * fwidth(uv.x * uv.y));")
         self.assertEqual(self.probe("a.glsl", "divergence"), "warn")
         self.fix("a.glsl", "--write")
-        self.assertIn("float taken_before = fwidth(uv.y); if (uv.x > 0.4) c = vec4(10.0 * taken_before);",
+        self.assertIn("float taken_before = fwidth(uv.x * uv.y); if (uv.x > 0.4) c = vec4(10.0 * taken_before);",
                       scene.read_text())
         self.assertEqual(self.probe("a.glsl", "divergence"), "pass")
 
-    def test_a_threshold_below_rounding_becomes_one_that_floats_come_to(self):
+    def test_a_threshold_below_rounding_is_raised(self):
         scene = self.write("march.glsl", MARCH % "1e-7")
         cure, = self.fix("march.glsl", "--write")["cures"]
         self.assertRegex(cure["cure"], r"^hit threshold \S+ instead of 1e-07")

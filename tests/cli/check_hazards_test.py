@@ -39,6 +39,31 @@ class CheckHazards(ProgramTest):
         self.assertEqual(found["verdict"], verdict, found)
         return json.dumps(found)
 
+    def growing_lines(self, text: str) -> list[int]:
+        self.write("a.glsl", text)
+        done = self.run_program("check", "a.glsl", "--json", *BUDGET, "--probe", "frames")
+        finding, = json.loads(done.stdout)["findings"]
+        self.assertIn("it overflows", finding["message"] + json.loads(done.stdout)["probes"][0]["found"])
+        return [place["line"] for place in finding["places"]]
+
+    def test_coordinates_computed_before_a_branch_are_harmless(self):
+        inside = "vec2 uv = p / iResolution.xy; vec2 q = vec2(length(uv), uv.x);\n    if (uv.x > uv.y * uv.y) c = texture(iChannel0, %s);"
+        for coordinates, verdict in (("q", "note"), ("uv * 2.0 - vec2(iTime, 0.5)", "note"), ("vec2(p.y, 3.0)", "note"),
+                                     ("sin(q), -100.0", "note"), ("uv * uv", "warn"), ("vec2(sin(9.0 * uv.x))", "warn")):
+            with self.subTest(coordinates):
+                self.finding("divergence", verdict, TEXTURED + BODY % (inside % coordinates))
+        loop = "vec2 q = p / iResolution.xy;\n    while (q.x < q.y) { c += texture(iChannel0, q); q *= 1.5; }"
+        self.finding("divergence", "warn", TEXTURED + BODY % loop)
+        called = "vec4 read(vec2 q) { return texture(iChannel0, q); }\n"
+        for argument, verdict in ("p * 0.01", "note"), ("p * p", "warn"):
+            self.finding("divergence", verdict, TEXTURED + called + BODY % f"if (p.x * p.y > 9.0) c = read({argument});")
+
+    def test_a_variable_unset_on_one_branch_is_named_if_visible(self):
+        text = "float h;\n    if (p.x > 20.0) h = 0.2;\n    else if (p.y > %s) h = 0.5;\n    c = vec4(h);"
+        said = self.finding("unassigned", "warn", BODY % (text % "9.0"))
+        self.assertIn("h (a.glsl:5, on some path); the picture is another one if it is 1", said)
+        self.finding("unassigned", "note", BODY % (text % "-9.0"))  # each pixel takes one of the branches
+
     def fixed(self, text: str, code: int = 0) -> str:
         scene = self.write("a.glsl", text)
         done = self.run_program("check", "--fix", "a.glsl", "--write", *BUDGET)
@@ -57,13 +82,13 @@ class CheckHazards(ProgramTest):
         self.assertIn("a negative integer (-10) divided with a remainder", said)
         self.finding("bounds", "pass", BODY % "ivec2 i = (ivec2(p) - 20) * 3 / 3; c = vec4(vec2(i), 0.0, 1.0);")
 
-    def test_the_angle_of_no_direction_in_the_middle_of_an_odd_picture(self):
+    def test_atan_of_zero_in_the_middle_of_an_odd_picture(self):
         fault = BODY % "vec2 d = p - 0.5 * iResolution.xy; c = vec4(abs(atan(d.y, d.x)));"
         said = self.finding("undefined", "warn", fault)
         self.assertIn("atan of 0 and 0 (0, first at pixel 63,36 of 127x73) at a.glsl:2", said)
         self.assertIn("atan(d.y, (d.x + ", self.fixed(fault))
 
-    def test_whole_quotients_that_reciprocals_miss(self):
+    def test_integer_quotients_differ_when_computed_by_reciprocals(self):
         fault = BODY % "float k = floor(p.x); c = vec4(mod(k, 41.0) / 41.0);"
         said = self.finding("undefined", "warn", fault)
         self.assertIn("`mod(k, 41.0)`: a whole quotient that GPUs with reciprocals miss (1, first at pixel 41,", said)
@@ -100,14 +125,26 @@ class CheckHazards(ProgramTest):
         for sound in "4.0 * p / iResolution.y", "sin(fract(p / iResolution.y))":
             self.finding("seams", "pass", TEXTURED + BODY % f"c = texture(iChannel0, {sound});")
 
-    def test_growth_that_will_overflow_is_told_with_its_frame(self):
+    def test_consequences_of_an_index_out_of_range_are_one_finding(self):
+        self.write("a.glsl", "const float k[3] = float[3](0.1, 0.5, 0.9);\n"
+                             + BODY % "c = vec4(k[int(floor(p.x / 8.0 + 0.01 * iTime))]);")
+        done = self.run_program("check", "a.glsl", "--json", *BUDGET, "--probe", "tiles", "--probe", "bounds", "--probe", "repeats")
+        finding, = json.loads(done.stdout)["findings"]
+        self.assertEqual([place["line"] for place in finding["places"]], [3])
+        self.assertIn("bounds", finding["probes"])
+
+    def test_growing_values_are_reported_with_the_frame_of_overflow(self):
         said = self.probe("frames", HEAT % "0.26")
         self.assertEqual(said["verdict"], "warn", said)
         self.assertRegex(json.dumps(said), r"at about frame 1[2-6]\d\d \(2\d s\) it overflows")
+        self.assertEqual(self.growing_lines(HEAT % "0.26"), [8])
+        trail = '#iChannel0 "self"\n' + BODY % ("vec4 old = texture(iChannel0, p / iResolution.xy);\n    old.rgb *= 1.05;\n"
+                                                "    float spot = 0.01 * exp(-0.01 * dot(p, p));\n    c = old + spot;")
+        self.assertEqual(self.growing_lines(trail), [4])
         self.finding("frames", "pass", HEAT % "0.24")
         self.finding("frames", "pass", '#iChannel0 "self"\n' + BODY % "c = texelFetch(iChannel0, ivec2(p), 0) + 1.0;")
 
-    def test_the_line_that_loses_the_digits(self):
+    def test_the_line_of_cancellation_is_named(self):
         for body, line in (("vec2 q = p / iResolution.y +\n        vec2(5.0e6, 3.0e6);\n    c = vec4(abs(fract(q.x * 8.0) - 0.5));",
                             "a.glsl:[23]"),
                            ("float s = 0.0, q = 0.0;\n    for (int i = 0; i < 16; i++) { float x = 1000.0 + 0.05 * "
@@ -121,7 +158,7 @@ class CheckHazards(ProgramTest):
         self.assertIn("a.glsl:1 hash", self.finding("hashes", "note", large + BODY % "c = vec4(hash(floor(p)));"))
         self.finding("hashes", "pass", BODY % "c = vec4(fract(p * 0.1031), 0.0, 1.0);")
 
-    def test_letters_that_glsl_does_not_have_are_errors_wherever_a_scene_is_loaded(self):
+    def test_letters_outside_glsl_are_errors_in_every_command(self):
         text = "#define A \u22120.5\n#define B (A)\n// \u2212 in a comment\n" + BODY % "c = vec4(B + 1.0);"
         self.write("a.glsl", text)
         for command in (["capture", "a.glsl"], ["check", "a.glsl"], ["check", "--fix", "a.glsl"], ["inspect", "a.glsl"],
@@ -131,7 +168,7 @@ class CheckHazards(ProgramTest):
                 self.assertEqual(done.returncode, 3, done.stderr)
                 self.assertIn("a.glsl:1:11: error: '\u2212' (U+2212) is not a character of GLSL: write -", done.stderr)
 
-    def test_what_has_no_fix_is_named_with_the_reason(self):
+    def test_findings_without_a_fix_give_the_reason(self):
         self.write("a.glsl", HEAT % "0.26")
         done = self.run_program("check", "--fix", "a.glsl", *BUDGET)
         self.assertEqual(done.returncode, 1, f"{done.stdout}{done.stderr}")

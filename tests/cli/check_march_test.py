@@ -5,7 +5,7 @@ from support.program import ProgramTest, main
 
 EYE = ("void mainImage(out vec4 c, in vec2 p) {\n"
        "    vec2 uv = (2.0 * p - iResolution.xy) / iResolution.y;\n")
-# A ball in front of a sky: rays that miss it use up the loop.
+# A ball and a sky: rays that miss the ball use up the loop.
 SKY = EYE + """    vec3 ro = vec3(0.0, 0.0, -3.0), rd = normalize(vec3(uv, 1.5));
     float t = 0.0;
     bool met = false;
@@ -28,7 +28,7 @@ HILLS = """float hill(vec2 p) { return 0.4 * sin(p.x) * sin(1.3 * p.y) + 0.1 * s
         dt = GROW;
         above = q.y - h;
     }
-    c = vec4(found < 0.0 ? 0.0 : exp(-0.1 * found));
+    c = vec4(found < 0.0 ? 0.0 : COLOUR);
 }
 """
 # A shape whose distance is a sum, of whatever sign.
@@ -59,13 +59,13 @@ class CheckMarch(ProgramTest):
         self.assertIn(result.returncode, (0, 1), result.stderr)
         return {entry["probe"]: entry for entry in json.loads(result.stdout)["probes"]}
 
-    def test_a_sky_that_uses_up_the_loop_is_no_fault(self):
+    def test_sky_rays_that_use_all_iterations_pass(self):
         for probe, entry in self.entries(filled(SKY, TURNS=64, SCALE="1.0"), *RUN_OUT).items():
             self.assertEqual(entry["verdict"], "pass", entry["found"])
             self.assertRegex(entry["found"], "^0 % of .* before they hit")
             self.assertRegex(entry["found"], r"8\d(\.\d)? % run out where more \w+ change nothing")
 
-    def test_rays_that_run_out_are_told_once(self):
+    def test_rays_out_of_iterations_are_reported_once(self):
         entries = self.entries(filled(SKY, TURNS=9, SCALE="1.0"), *RUN_OUT)
         self.assertEqual(entries["turns"]["verdict"], "warn", entries["turns"]["found"])
         self.assertIn("tests the distance: take more steps", entries["turns"]["found"])
@@ -74,7 +74,7 @@ class CheckMarch(ProgramTest):
             self.assertTrue(entries[probe]["found"].endswith(": see turns"), entries[probe]["found"])
         self.assertEqual(self.entries(filled(SKY, TURNS=9, SCALE="1.0"), "budget")["budget"]["verdict"], "warn")
 
-    def test_rays_that_run_out_name_the_line_of_the_march(self):
+    def test_rays_out_of_iterations_name_the_line_of_the_march(self):
         text = filled(SKY, TURNS=9, SCALE="1.0")
         scene = self.write("march.glsl", text)
         result = self.run_program("check", str(scene), "--json", "--budget", "900", "--probe", "budget")
@@ -82,7 +82,7 @@ class CheckMarch(ProgramTest):
         self.assertEqual([finding["places"] for finding in json.loads(result.stdout)["findings"]],
                          [[{"file": str(scene), "line": line}]])
 
-    def test_a_march_with_an_exit_far_from_everything_is_silent(self):
+    def test_a_march_with_an_exit_far_from_surfaces_passes(self):
         text = EYE + """    vec3 ro = vec3(0.0, 0.0, -4.0), rd = normalize(vec3(uv, 1.5));
     float t = 0.0;
     c = vec4(0.0);
@@ -98,7 +98,7 @@ class CheckMarch(ProgramTest):
         for probe, entry in self.entries(text, "first_hit", "turns").items():
             self.assertEqual(entry["verdict"], "pass", entry["found"])
 
-    def test_steps_that_are_too_long_are_to_be_shorter(self):
+    def test_too_long_steps_get_a_smaller_factor(self):
         # They go to and fro through the surface, or past the ball and out of the scene.
         found = self.entries(filled(SKY, TURNS=64, SCALE="2.2").replace(") - 1.0)", ") - 2.0)"), "turns")
         self.assertEqual(found["turns"]["verdict"], "warn", found["turns"]["found"])
@@ -111,14 +111,43 @@ class CheckMarch(ProgramTest):
         found = self.entries(few, "first_hit")["first_hit"]
         self.assertTrue(found["found"].endswith("tests the distance: take more steps"), found["found"])
 
-    def test_the_way_back_after_the_loop_is_part_of_the_march(self):
+    def test_the_refinement_after_the_loop_is_part_of_the_march(self):
         for back in ("t - 0.5 * dt", "t + above", "t - dt + dt * above / (above + h - q.y)"):
             for grow in ("0.05", "0.02 * t"):
-                entry = self.entries(filled(HILLS, BACK=back, GROW=grow), "first_hit")["first_hit"]
+                entry = self.entries(filled(HILLS, BACK=back, GROW=grow, COLOUR="exp(-0.1 * found)"), "first_hit")["first_hit"]
                 self.assertRegex(entry["found"], r"^0 % of the decided rays step over their first hit by more than 1 % of the distance")
-        entry = self.entries(filled(HILLS, BACK="t", GROW="0.02 * t"), "first_hit")["first_hit"]
-        self.assertEqual(entry["verdict"], "fail", entry["found"])
-        self.assertIn("look for the hit between the last two samples, or take shorter steps", entry["found"])
+        for colour, verdict in ("fract(4.0 * found)", "fail"), ("exp(-0.1 * found)", "note"):
+            entry = self.entries(filled(HILLS, BACK="t", GROW="0.02 * t", COLOUR=colour), "first_hit")["first_hit"]
+            self.assertEqual(entry["verdict"], verdict, entry["found"])
+            self.assertIn("look for the hit between the last two samples, or take shorter steps", entry["found"])
+        self.assertTrue(entry["found"].endswith("; with steps of a quarter the picture looks the same"), entry["found"])
+
+    def test_a_march_that_does_not_end_at_a_surface_passes(self):
+        # A bound of clouds, from which another loop goes on; and a glow that every step adds to.
+        clouds = filled(PLAIN, FIELD="4.0 * (length(q) - 1.0)").replace("0.5 * d", "d").replace("    c = vec4(exp(-0.1 * t));", """
+    float dense = 0.0, at = t - 2.0;
+    for (int i = 0; i < 60; ++i) {
+        vec3 q = ro + at * rd;
+        dense += 0.02 * clamp(1.0 - length(q), 0.0, 1.0);
+        at += 0.1;
+    }
+    c = vec4(dense);""")
+        glow = filled(PLAIN, FIELD="4.0 * (length(q) - 1.0)").replace("t += 0.5 * d;", "t += d; c += 0.01 / (1.0 + d * d);") \
+                                                             .replace("c = vec4(exp(-0.1 * t))", "c.a = 1.0")
+        for text, why in (clouds, "another loop goes on from the march's end"), (glow, "the loop also adds up what it meets"):
+            entry = self.entries(text, "first_hit")["first_hit"]
+            self.assertEqual(entry["verdict"], "note", entry["found"])
+            self.assertIn(why, entry["found"])
+
+    def test_rays_out_of_iterations_name_the_limit(self):
+        scene = self.write("march.glsl", filled(SKY, TURNS=9, SCALE="1.0"))
+        for probe in "turns", "budget":
+            result = self.run_program("check", str(scene), "--budget", "900", "--probe", probe)
+            self.assertIn("Rays run out of iterations before they hit anything: the loop ends after 9 iterations; with up to 36 they hit",
+                          result.stdout.decode())
+        result = self.run_program("check", str(scene), "--budget", "900", "--fix", "--write")
+        self.assertIn("iterations instead of 9", result.stdout.decode())
+        self.assertRegex(scene.read_text(), "i < (18|36|72)")
 
     def test_a_field_of_sums_alone_is_marched(self):
         for field in ("abs(q.x) + abs(q.y) + abs(q.z) - 1.0", "q.y", "abs(q.y) - 0.1"):
@@ -127,7 +156,7 @@ class CheckMarch(ProgramTest):
                 self.assertEqual(entry["verdict"], "pass", f"{probe}: {entry['found']}")
             self.assertIn("; 100 % of 288 rays are decided", entries["first_hit"]["found"])
 
-    def test_bounds_that_say_nothing_are_left_out(self):
+    def test_useless_bounds_are_left_out(self):
         # The last term is 0, but its bounds over an area do not know it.
         loose = filled(PLAIN, FIELD="length(q) - 1.0 + 40.0 * ((q.x + 1.0) * (q.y + 2.0) - q.x * q.y - 2.0 * q.x - q.y - 2.0)")
         found = self.entries(loose, "step_scale")["step_scale"]["found"]
@@ -137,7 +166,7 @@ class CheckMarch(ProgramTest):
                          r"; between the rays the slope is bounded on 100 % of the way to the surface: (on 95 % of it )?"
                          r"the distance falls by at most (1|0\.9\d*|1\.[0-4]\d*) per unit$")
 
-    def test_a_main_hit_takes_no_answer_away(self):
+    def test_a_main_hit_keeps_the_answers_about_the_march(self):
         text = filled(SKY, TURNS=64, SCALE="1.0").replace("abs(d)", "d")
         without = self.entries(text)
         whole = ("void mainHit(out vec4 hit, in vec2 p) {\n    vec4 c;\n    mainImage(c, p);\n"

@@ -31,7 +31,7 @@ class Page(ProgramTest):
     def texts(self, selector):
         return self.browser.evaluate(f"[...document.querySelectorAll('{selector}')].map(e => e.textContent)")
 
-    def test_a_failure_has_its_sentence_picture_origin_and_command(self):
+    def test_a_failure_shows_sentence_picture_origin_and_command(self):
         printed = self.open("--probe", "times", "--probe", "sizes", "--probe", "hashes")
         self.assertEqual(self.texts("h1"), ["waves"])
         self.assertEqual(self.texts("h2"), ["Failures", "Passed", "Not applicable"])
@@ -64,7 +64,7 @@ class Page(ProgramTest):
         self.browser.wait_for("document.querySelector('.command button').textContent === 'Copied'")
         self.assertEqual(self.browser.evaluate("window.copied"), self.texts(".command code")[0])
 
-    def test_nothing_is_wider_than_the_window(self):
+    def test_page_fits_the_window(self):
         self.open("--probe", "times", "--probe", "frames", width=360)
         for width in (360, 2000):
             self.resize(width)

@@ -80,7 +80,7 @@ class CheckRays(ProgramTest):
         for probe in (FAULTS.keys() | {"gradient"}) - {"self_intersection", "octaves"}:
             self.assertEqual(entries[probe]["verdict"], "pass", probe + ": " + entries[probe]["found"])
 
-    def test_sound_waves_neither_fold_over_nor_lose_their_octaves(self):
+    def test_sound_waves_pass_self_intersection_and_octaves(self):
         waves = FAULTS["self_intersection"] | {"knobs": FAULTS["self_intersection"]["knobs"].replace(
             "rest -=", "rest -= min(1.0, 0.9 / wave_steepness) * 0.0 +").replace(
             "float height(float x) {", "float height(float x) {\n    float wave_steepness = min(wave_steepness, 0.9);")}
@@ -95,13 +95,13 @@ class CheckRays(ProgramTest):
                 self.assertEqual(entry["verdict"], "warn" if probe in ("mouse_edge", "rays") else "fail", entry["found"])
                 self.assertIn("tidemark capture", entry["reproduction"])
 
-    def test_differences_over_nothing_are_no_slopes(self):
+    def test_a_zero_finite_difference_step_fails(self):
         knobs = SOUND["knobs"].replace("{ 0.0005,", "{ 0.0,")
         entry = self.verdicts(marcher({"knobs": knobs}), "--probe", "normals")["normals"]
         self.assertEqual(entry["verdict"], "fail", entry["found"])
         self.assertIn("every slope over the scene's own step 0 is NaN or infinite", entry["found"])
 
-    def test_a_pole_without_a_direction_is_no_number(self):
+    def test_a_camera_pole_without_a_direction_gives_nan(self):
         text = ("void mainImage(out vec4 c, in vec2 p) {\n"
                 "    float pitch = iMouse.y / 90.0 - 1.0;\n"
                 "    c = vec4(normalize(vec3(pitch * p.x, 0.0, pitch)), 1.0);\n}\n")
@@ -141,7 +141,7 @@ class CheckRays(ProgramTest):
                                          r"at \d+ s, pixel [\d.]+,[\d.]+, distance [\d.]+: steps that rely on")
         self.assertIn("tidemark capture", entry["reproduction"])
 
-    def test_promised_ranges_are_kept_to(self):
+    def test_promised_ranges_are_respected(self):
         self.write("marcher.check.json", '{"ranges": {"octaves": [1, 6]}}')
         self.assertEqual(self.verdicts(marcher(FAULTS["octaves"]), "--probe", "octaves")["octaves"]["verdict"], "pass")
         self.write("marcher.check.json", '{"ranges": {"octaves": 6}}')

@@ -8,7 +8,7 @@ from support.program import PROGRAM, TIME_LIMIT, ProgramTest, environment, main
 
 SOUND = "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, 0.5 + 0.5 * sin(iTime), 1.0); }\n"
 BROKEN = "void mainImage(out vec4 c, in vec2 p) { c = vec4(sqrt(p.x - 30.0)); }\n"
-# Endless once somebody clicks.
+# Endless after a click.
 SLOW = ("void mainImage(out vec4 c, in vec2 p) {\n    c = vec4(0.0);\n    if (iMouse.x > 0.0)\n"
         "        for (int i = 0; i < 60000; ++i)\n"
         "            for (int k = 0; k < 60000; ++k) c += sin(c + p.x);\n}\n")
@@ -28,7 +28,7 @@ class CheckTest(ProgramTest):
 
 
 class Report(CheckTest):
-    def test_a_sound_scene_takes_two_lines(self):
+    def test_a_sound_scene_prints_two_lines(self):
         lines = self.check(SOUND).stdout.decode().splitlines()
         self.assertEqual(len(lines), 2, lines)
         self.assertRegex(lines[0], r"^pass  \d+ probes found nothing$")
@@ -42,7 +42,7 @@ class Report(CheckTest):
         for line in lines:
             if line.startswith("pass"):
                 self.assertRegex(line, r"^pass  (?:[a-z_ ]{10}|[a-z_]{11,18})  \S")
-        self.assertRegex(lines[-1], r"^nothing found; \d+\.\d s: [a-z]+ \d+ %, ")
+        self.assertRegex(lines[-1], r"^nothing found; \d+\.\d s: [a-z_]+ \d+ %, ")
 
     def test_a_failure_says_what_where_and_what_to_do(self):
         result = self.check(BROKEN, "--budget", "900")
@@ -68,7 +68,7 @@ class Report(CheckTest):
         self.assertEqual([place["line"] for place in finding["places"]], [1])
         self.assertIn("check --fix --hashes", finding["try"])
 
-    def test_causes_at_different_lines_stay_apart(self):
+    def test_causes_at_different_lines_are_separate(self):
         text = ("void mainImage(out vec4 c, in vec2 p) {\n    c = vec4(1.0);\n    if (iTime > 50.0)\n"
                 "        c.x = log(-iTime);\n    if (iMouse.x > 9.0)\n        c.y = sqrt(-iMouse.x);\n}\n")
         report = json.loads(self.check(text, "--json", "--probe", "times", "--probe", "mouse").stdout)
@@ -90,12 +90,12 @@ class Report(CheckTest):
         entry = self.entry("void mainImage(out vec4 c, in vec2 p) { c = vec4(sqrt(2e4 - iTime)); }\n", "times")
         self.assertEqual(entry["verdict"], "fail")
 
-    def test_one_probe_did_not_take_all_of_the_time(self):
+    def test_time_shares_include_the_start(self):
         sum_of_it = self.check(SOUND, "--probe", "sizes").stdout.decode().splitlines()[-1]
         self.assertRegex(sum_of_it, r"^nothing found; \d+\.\d s(: sizes \d+ %)?$")
         self.assertNotIn(" 100 %", sum_of_it)  # the program starts, the driver does
 
-    def test_a_misspelt_guard_is_told_and_the_rest_goes_on(self):
+    def test_a_misspelt_guard_is_reported_and_other_probes_run(self):
         result = self.check("#ifdef TIDEMARK_HITS\nvoid mainHit(out vec4 hit, in vec2 p) { hit = vec4(1.0); }\n#endif\n" + SOUND, "--all")
         lines = result.stdout.decode().splitlines()
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -104,7 +104,7 @@ class Report(CheckTest):
         self.assertTrue(any(line.startswith("pass  horizon") for line in lines), lines)
         self.assertTrue(any(line.endswith("mainHit does not compile: see overstep") for line in lines), lines)
 
-    def test_a_broken_main_hit_is_told_and_the_rest_goes_on(self):
+    def test_a_broken_main_hit_is_reported_and_other_probes_run(self):
         result = self.check("#ifdef TIDEMARK_HIT\nvoid mainHit(out vec4 hit, in vec2 p) { hit = nothing; }\n#endif\n" + SOUND, "--all")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("scene.glsl:2", result.stdout.decode())
@@ -114,11 +114,11 @@ class Report(CheckTest):
         self.assertRegex(self.entry(BROKEN, "times")["found"],
                          r"^NaN in 1080 of 2304 pixels of Image, first at pixel 0,0; in 12 of 12 situations$")
 
-    def test_a_fault_of_the_picture_is_not_the_mouse_s(self):
+    def test_a_fault_of_every_picture_is_not_blamed_on_the_mouse(self):
         entry = self.entry(BROKEN.replace("30.0", "4.0"), "camera")
         self.assertEqual((entry["verdict"], entry["found"]), ("n/a", "NaN or infinity without the mouse, too: see times"))
 
-    def test_pictures_and_commands_only_where_something_is_wrong(self):
+    def test_pictures_and_commands_only_for_findings(self):
         self.write("scene.check.json", '{"time_horizon": 1}')
         fast = "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.5 + 0.5 * sin(4000.0 * iTime + p.x)); }\n"
         entry = self.entry(fast, "horizon", "-o", "pictures")
@@ -140,7 +140,7 @@ class Report(CheckTest):
         printed, _ = running.communicate(timeout=TIME_LIMIT)
         return running.returncode, printed
 
-    def test_control_c_prints_what_was_found_and_is_130(self):
+    def test_control_c_prints_the_findings_and_exits_130(self):
         text = SLOW.replace("    if (", "    if (p.x < 30.0) c = sqrt(vec4(p.x - 30.0));\n    if (")
         code, printed = self.interrupted(text)
         self.assertEqual(code, 130)
@@ -156,7 +156,7 @@ class Report(CheckTest):
         self.assertEqual(code, 130)
         self.assertRegex(printed, r"\Acut   times, .*  not run: interrupted\n")
 
-    def test_unfinished_probe_is_no_success(self):
+    def test_unfinished_probe_exits_5(self):
         result = self.check(SLOW, "--budget", "2")
         self.assertEqual(result.returncode, 5)
         text = result.stdout.decode()
@@ -174,7 +174,7 @@ class Report(CheckTest):
                 self.assertEqual(result.returncode, 2)
                 self.assertIn(f"{options[0]} requires --trace", result.stderr)
 
-    def test_options_that_need_trace_stand_together_in_the_help(self):
+    def test_options_of_trace_are_grouped_in_the_help(self):
         text = self.succeed("check", "--help").stdout.decode()
         tracing = text.split("With --trace")[1].split("\n\n")[0]
         for option in ("--size", "--time", "--mouse", "--pixel", "--hidden"):
@@ -183,7 +183,7 @@ class Report(CheckTest):
 
 
 class Frames(CheckTest):
-    def test_every_frame_of_a_feedback_scene_is_looked_at(self):
+    def test_every_frame_of_a_feedback_scene_is_checked(self):
         for frame in (1, 7, 59, 250):
             text = FEEDBACK % f"if (iFrame == {frame}) c = log(c - 2.0 - iTime);"
             with self.subTest(frame):
@@ -195,7 +195,7 @@ class Frames(CheckTest):
                                  (frame, "log(c - 2.0 - iTime)"))
                 self.assertIn(f"--frame {frame} ", entry["reproduction"])
 
-    def test_growth_without_end_is_found(self):
+    def test_unbounded_growth_is_found(self):
         entry = self.entry(FEEDBACK % "c = c * 3.0 + 1.0;", "frames")
         self.assertEqual(entry["verdict"], "fail")
         self.assertRegex(entry["found"], r"^from frame \d+ on: \+Inf in 2304 of 2304 pixels of \S+")
@@ -210,17 +210,17 @@ class Frames(CheckTest):
 class Jumps(CheckTest):
     CUT = "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract(0.37 * floor(iTime / 8.0) + 0.01 * iTime)); }\n"
 
-    def test_a_cut_may_be_meant(self):
+    def test_a_single_cut_is_a_note(self):
         entry = self.entry(self.CUT, "time_discontinuity")
         self.assertEqual(entry["verdict"], "note", entry["found"])
         self.assertRegex(entry["found"], r"^the picture jumps at 8 s \(PSNR \d+\.\d dB between neighbouring instants, "
                                          r'\d+\.\d dB elsewhere\); if the cut is intended, add "skip" to its ')
 
-    def test_a_scene_that_promises_none_is_held_to_it(self):
+    def test_a_cut_fails_beyond_smoothest_jump(self):
         self.write("scene.check.json", '{"smoothest_jump": 10}')
         self.assertEqual(self.entry(self.CUT, "time_discontinuity")["verdict"], "fail")
 
-    def test_a_clock_that_starts_again_is_a_fault(self):
+    def test_a_restarting_clock_is_a_finding(self):
         entry = self.entry("void mainImage(out vec4 c, in vec2 p) {\n"
                            "    c = vec4(fract(0.1 * mod(iTime, 7.3)) + 0.01 * sin(p.x));\n}\n", "time_discontinuity", "-o", "pictures")
         self.assertEqual(entry["verdict"], "warn")
@@ -229,7 +229,7 @@ class Jumps(CheckTest):
 
 
 class Hashes(CheckTest):
-    def test_what_passes_share_is_named_once(self):
+    def test_a_hash_shared_by_passes_is_named_once(self):
         self.write("project/common.glsl", "float hash(vec2 p) {\n"
                                           "    return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453);\n}\n")
         self.write("project/buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(hash(p)); }\n")

@@ -6,7 +6,7 @@ from support.program import ProgramTest, main
 
 IMAGE = "void mainImage(out vec4 c, in vec2 p) {\n    vec2 uv = p / iResolution.xy;\n    %s\n}\n"
 
-# Where: what the reproduction has to say, as (option, low, high); none: anything.
+# The option that the reproduction must name, as (option, low, high); none: any.
 FAULTS = {
     "a long window": ("c = vec4(sqrt(abs(iTime - 30.0) / 20.0 - 1.0));", ("--time", 10, 50)),
     "a short window": ("c = vec4(pow(abs(iTime - 5.0) / 3.0 - 1.0, 0.5), uv, 1.0);", ("--time", 2, 8)),
@@ -64,7 +64,7 @@ class Search(ProgramTest):
         self.assertIn(result.returncode, (0, 1), result.stderr)
         return json.loads(result.stdout)["probes"][0]
 
-    def test_what_no_everyday_situation_shows_is_found(self):
+    def test_rare_faults_are_found(self):
         for name, (text, where) in FAULTS.items():
             with self.subTest(name):
                 entry = self.entry(text, "search")
@@ -75,7 +75,7 @@ class Search(ProgramTest):
                     value = float(words[words.index(where[0]) + 1].split("x")[0].split(",")[0])
                     self.assertTrue(where[1] <= value <= where[2], entry["reproduction"])
 
-    def test_what_is_finite_everywhere_passes_and_says_what_was_looked_at(self):
+    def test_finite_scenes_pass_and_list_the_sampled_inputs(self):
         for name, text in SOUND.items():
             for probe in ("search", "bounds"):
                 with self.subTest(name, probe=probe):
@@ -98,7 +98,7 @@ class Search(ProgramTest):
         self.assertIn("pixels of Buffer A, first", entry["found"])
         self.assertEqual(entry["trace"]["first"]["line"], 2)
 
-    def test_the_same_scene_is_searched_in_the_same_way(self):
+    def test_the_search_is_repeatable(self):
         found = [self.entry(FAULTS["behind a condition"][0], "search")["reproduction"] for _ in range(2)]
         self.assertEqual(found[0], found[1])
 
@@ -109,7 +109,7 @@ class Search(ProgramTest):
                 self.assertEqual(entry["verdict"], "note" if name in ("texel", "level") else "warn", entry["found"])
                 self.assertRegex(entry["found"], words)
 
-    def test_the_search_widens_what_is_undefined(self):
+    def test_the_search_extends_the_probe_undefined(self):
         entry = self.entry("float k = sqrt(abs(iTime - 30.0) - 4.0);\n    c = vec4(k > 0.0 ? k : 0.5);", "undefined")
         self.assertEqual(entry["verdict"], "warn", entry["found"])
         self.assertIn("sqrt of a negative number", entry["found"])

@@ -52,7 +52,7 @@ class CheckTrace(ProgramTest):
                          "    uint bits = uint(iResolution.x) + 2143289328u;\n    c = vec4(uintBitsToFloat(bits));\n}\n")
         self.assertIn("bits = 2143289344 (0x7fc00000)", run.stdout)
 
-    def test_the_last_frame_there_is(self):
+    def test_the_largest_frame_number(self):
         run = self.check(SOUND, "--frame", "100000000")
         self.assertEqual(run.returncode, 0, run.stderr)
         run = self.check(FAULTY, "--frame", "100000000")
@@ -60,7 +60,7 @@ class CheckTrace(ProgramTest):
         self.assertIn("none = 0 (division by zero) in Image, frame 100000000, pixel 0,0\n", run.stdout)
         self.assertNotIn("note:", run.stdout)
 
-    def test_a_far_frame_of_a_feedback_scene_is_given_up_with_a_word(self):
+    def test_a_far_frame_of_a_feedback_scene_times_out_with_a_reason(self):
         run = self.check('#iChannel0 "self"\nvoid mainImage(out vec4 c, in vec2 p) '
                          "{ c = 0.5 * texelFetch(iChannel0, ivec2(p), 0) + 0.5; }\n", "--frame", "100000000",
                          "--timeout", "5")

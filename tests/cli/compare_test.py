@@ -1,9 +1,10 @@
 """`compare`: two pictures or two sequences, their numbers, limits and errors."""
 import json
 import math
+import unittest
 
-from support import png
-from support.program import ProgramTest, main
+from support import browser, png
+from support.program import ProgramTest, environment, main
 
 METRICS = ["rmse", "psnr", "relative_mse", "largest", "ssim", "flip", "differing"]
 
@@ -60,7 +61,7 @@ class Pictures(Compare):
             self.compared("a.png", "b.png", limit, "99", code=1)
             self.compared("a.png", "b.png", limit, "0")
 
-    def test_nan_is_counted_and_passes_no_limit(self):
+    def test_nan_is_counted_and_fails_every_limit(self):
         self.write("good.glsl", "void mainImage(out vec4 c, vec2 p) { c = vec4(.5); }")
         self.write("nan.glsl", "void mainImage(out vec4 c, vec2 p) { c = vec4(p.x < 1. ? sqrt(-p.x) : .5); }")
         for name in ("good", "nan"):
@@ -71,7 +72,7 @@ class Pictures(Compare):
         frame, = self.compared("nan.exr", "nan.exr", "--max-rmse", "0")["frames"]
         self.assertEqual(frame["non_finite"], {"one": 0, "both": 20})
 
-    def test_no_limit_passes_a_nan_or_an_infinity_against_a_number(self):
+    def test_every_limit_fails_for_nan_or_infinity_against_a_number(self):
         self.write("good.glsl", "void mainImage(out vec4 c, vec2 p) { c = vec4(.5); }")
         for name, value in (("nan", "sqrt(-p.x)"), ("inf", "1. / (p.x - .5)"), ("minus", "-1. / (p.x - .5)")):
             self.write(f"{name}.glsl", f"void mainImage(out vec4 c, vec2 p) {{ c = vec4(p.x < 1. ? {value} : .5); }}")
@@ -97,7 +98,7 @@ class Pictures(Compare):
         self.write(name, png.encode(16, 12, len(pixel), [bytes(pixel) * 16] * 12))
         return name
 
-    def test_pictures_of_other_channels(self):
+    def test_pictures_with_different_channels(self):
         rgb, grey = self.channels("rgb.png", 40, 40, 40), self.channels("grey.png", 40)
         opaque, clear = self.channels("opaque.png", 40, 40, 40, 255), self.channels("clear.png", 40, 40, 40, 204)
         coloured = self.channels("coloured.png", 40, 91, 40)
@@ -127,6 +128,7 @@ class Pictures(Compare):
         done = self.run_program("compare", "a.png", "b.png", "--min-ssim", "0.1")
         self.assertEqual((done.returncode, done.stderr), (1, "SSIM needs pictures of at least 11 pixels a side: use --min-psnr or "
                                                              "--max-rmse instead of --min-ssim\n"))
+        self.assertIn(", no SSIM below 11 pixels a side, ", self.succeed("compare", "a.png", "b.png").stdout.decode())
         # A tolerance does not make pictures equal.
         self.compared("a.png", "b.png", "--min-ssim", "0.1", "--tolerance", "0.5", code=1)
 
@@ -157,7 +159,7 @@ class Sequences(Compare):
             self.picture(f"a_{frame:04}.png", 100)
             self.picture(f"b{frame}.png", 100 + frame)
 
-    def test_frames_go_by_their_numbers(self):
+    def test_frames_are_paired_by_number(self):
         frames = self.compared("a_%04d.png", "b%d.png")["frames"]
         self.assertEqual([f["frame"] for f in frames], [3, 4, 12])
         for frame in frames:
@@ -183,6 +185,130 @@ class Sequences(Compare):
         self.refuse("b%d.png b%d.png -o d.png", 2, "-o d.png: 3 frames ", "frame number")
         self.picture("b4.png", 0, (4, 4)), self.picture("b5.png", 0)
         self.refuse("a_%04d.png b%d.png", 1, "frame 4: 'a_0004.png' and 'b4.png': ", "16x12", "4x4")
+
+
+class OnDevices(Compare):
+    HASH = ("float hash(vec2 p) { return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453); }\n"
+            "void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(hash(p)), 1.0); }\n")
+
+    def outcomes(self, devices: str, *arguments: str, code: int = 0) -> dict[str, dict]:
+        done = self.run_program("compare", "--devices", devices, "--size", "32x18", "--json", *arguments)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return {scene["scene"]: scene for scene in json.loads(done.stdout)["scenes"]}
+
+    def write_scenes(self):
+        """Noise with mipmaps, and a buffer with feedback."""
+        self.write("sides.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, 0.5, 1.0); }\n")
+        self.write("noise.glsl", "void mainImage(out vec4 c, in vec2 p) { c = textureLod(iChannel0, p / 50.0, 2.0); }\n")
+        self.write("project/image.glsl", '#iChannel0 "buffer_a.glsl"\nvoid mainImage(out vec4 c, in vec2 p) {'
+                                         " c = texelFetch(iChannel0, ivec2(p), 0) / 16.0; }\n")
+        self.write("project/buffer_a.glsl", '#iChannel0 "self"\nvoid mainImage(out vec4 c, in vec2 p) {'
+                                            " c = texelFetch(iChannel0, ivec2(p), 0) + vec4(1.0, p.x > 9.0, 0.5, 1.0); }\n")
+
+
+class Devices(OnDevices):
+    """`--devices`: llvmpipe against itself and against zink, which draws on it through Vulkan."""
+
+    def test_a_device_equals_itself(self):
+        self.write("a.glsl", self.HASH)
+        self.write("scenes/b.glsl", self.HASH.replace("43758", "17"))
+        (self.folder / "scenes" / "notes.txt").write_text("no scene\n")
+        found = self.outcomes("surfaceless,mesa:llvmpipe", "a.glsl", "scenes")
+        self.assertEqual({name: scene["verdict"] for name, scene in found.items()}, {"a.glsl": "same", "scenes/b.glsl": "same"})
+        self.assertEqual(found["a.glsl"]["differing"], 0)
+
+    def test_a_scene_that_compiles_on_neither_device(self):
+        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(missing); }\n")
+        scene = self.outcomes("surfaceless,mesa:llvmpipe", "a.glsl", code=1)["a.glsl"]
+        self.assertEqual(scene["verdict"], "neither")
+        self.assertIn("a.glsl:1", scene["problems"]["surfaceless"])
+
+    def test_a_device_without_opengl_4_5_is_named(self):
+        self.write("a.glsl", self.HASH)
+        scene = self.outcomes("surfaceless,mesa:softpipe", "a.glsl", code=1)["a.glsl"]
+        self.assertEqual(scene["verdict"], "one side only")
+        self.assertIn("OpenGL 4.5", scene["problems"]["mesa:softpipe"])
+        self.assertNotIn("Install", scene["problems"]["mesa:softpipe"])
+
+    def test_zink_draws_and_is_explained(self):
+        """A hash of products, whose constants compilers fold each in its own way."""
+        if "unusable" in self.succeed("inspect", "--devices").stdout.decode().split("mesa:zink")[1].splitlines()[0]:
+            self.skipTest("no zink here")
+        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, 0.5, 1.0); }\n")
+        self.write("b.glsl", "vec2 hash(vec2 p) {\n"
+                             "    vec3 a = fract(p.xyy * vec3(123.34, 234.45, 345.56));\n"
+                             "    a += dot(a, a + 67.78);\n"
+                             "    return fract(vec2(a.x * a.y, a.y * a.z) * 1000.0);\n}\n"
+                             "void mainImage(out vec4 c, in vec2 p) { c = vec4(hash(p * 1.37), 0.0, 1.0); }\n")
+        found = self.outcomes("surfaceless,mesa:zink", "a.glsl", "b.glsl", "-o", "page")
+        self.assertIn(found["a.glsl"]["verdict"], ("same", "within one level"))
+        self.assertIn(found["b.glsl"]["verdict"], ("same", "within one level", "explained"))
+        for cause in found["b.glsl"]["causes"]:
+            self.assertIn(cause["places"][0]["line"], range(1, 7))
+        page = (self.folder / "page" / "index.html").read_text()
+        self.assertEqual(page.count("<article"), found["b.glsl"]["verdict"] == "explained")
+        self.assertEqual('class="compare"' in page, found["b.glsl"]["verdict"] == "explained")
+        self.assertIn('querySelector(".compare")', page)  # the script of the divider
+
+    def test_errors(self):
+        self.write("a.glsl", self.HASH)
+        self.refuse("--devices surfaceless a.glsl", 2, "--devices")
+        self.refuse("a.png", 2, "two pictures", "--devices")
+
+    def test_opengl_es_draws_the_same(self):
+        """softpipe weights neighbouring texels in another way, so its mipmaps are not compared."""
+        self.write_scenes()
+        self.write("volume.glsl", "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, vec3(p / 32.0, 0.3)); }\n")
+        for device, scenes in (("es:surfaceless", ["."]), ("es:mesa:softpipe", ["sides.glsl", "volume.glsl", "project"])):
+            for name, scene in self.outcomes(f"surfaceless,{device}", *scenes).items():
+                with self.subTest(device=device, scene=name):
+                    self.assertIn(scene["verdict"], ("same", "within one level"))
+
+    def test_pictures_from_another_machine(self):
+        sides = "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, 0.37, 1.0); }\n"
+        for name, text in (("a", sides), ("b", sides), ("c", self.HASH)):
+            self.write(f"{name}.glsl", text)
+        self.succeed("capture", "a.glsl", "--size", "32x18", "--time", "10", "-o", "theirs/a.png")
+        self.succeed("capture", "a.glsl", "--size", "16x9", "--time", "10", "-o", "theirs/b.png")
+        self.assertEqual(self.outcomes("surfaceless,pictures:theirs", "a.glsl")["a.glsl"]["verdict"], "same")
+        found = self.outcomes("surfaceless,pictures:theirs", "b.glsl", "c.glsl", code=1)
+        self.assertEqual({scene["verdict"] for scene in found.values()}, {"one side only"})
+        self.assertIn("give --size 16x9", found["b.glsl"]["problems"]["pictures:theirs"])
+        self.assertIn("no picture c.png", found["c.glsl"]["problems"]["pictures:theirs"])
+
+    def test_a_strict_device_must_be_second(self):
+        self.write("a.glsl", self.HASH)
+        for first in ("es:surfaceless", "chromium"):
+            self.refuse(f"--devices {first},surfaceless a.glsl", 2, "second")
+
+
+@unittest.skipUnless(browser.program(), "no Chromium here")
+class Browsers(OnDevices):
+    """The second device is headless Chromium, which draws the exported page."""
+
+    def test_a_page_draws_the_same_with_the_same_driver(self):
+        self.write_scenes()
+        for name, scene in self.outcomes("surfaceless,chromium:egl", ".").items():
+            with self.subTest(scene=name):
+                self.assertIn(scene["verdict"], ("same", "within one level"))
+
+    def test_a_page_that_does_not_compile(self):
+        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    float f = 1;\n    c = vec4(f);\n}\n")
+        scene = self.outcomes("surfaceless,chromium:swiftshader", "a.glsl", code=1)["a.glsl"]
+        self.assertEqual(scene["verdict"], "one side only")
+        self.assertIn("a.glsl:2", scene["problems"]["chromium:swiftshader"])
+
+    def test_swiftshader_is_explained(self):
+        self.write("a.glsl", self.HASH)
+        scene = self.outcomes("surfaceless,chromium:swiftshader", "a.glsl")["a.glsl"]
+        self.assertEqual((scene["verdict"], scene["causes"][0]["cause"]), ("explained", "sine"))
+        self.assertEqual(scene["causes"][0]["places"][0]["line"], 1)
+
+    def test_without_chromium(self):
+        self.write("a.glsl", self.HASH)
+        done = self.run_program("compare", "--devices", "surfaceless,chromium", "a.glsl", env=environment(PATH="/nowhere"))
+        self.assertEqual(done.returncode, 77)
+        self.assertIn("install Debian's package chromium", done.stderr)
 
 
 if __name__ == "__main__":

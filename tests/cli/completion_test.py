@@ -46,15 +46,15 @@ class Completion(ProgramTest):
         self.assertEqual(self.completed("capture", "--fra"), {"--frame", "--frames"})
         self.assertEqual(self.completed("view", "--fra"), set())
         self.assertEqual(self.completed("inspect", "--dev"), {"--device", "--devices"})
-        self.assertEqual(self.completed("bake", "r"), {"ramps"})
+        self.assertEqual(self.completed("bake", "n"), {"noise"})
         self.assertEqual(self.completed("bake", "--s"), set())
         self.assertEqual(self.completed("bake", "noise", "--s"), {"--seed"})
         self.assertEqual(self.completed("capture", "a.glsl", "--fra"), {"--frame", "--frames"})
 
-    def test_another_shell(self):
+    def test_unknown_shell(self):
         self.expect_error(["completion", "csh"], 2, "SHELL", "'csh'")
 
-    def test_what_a_scene_names(self):
+    def test_knobs_and_definitions_of_the_scene(self):
         self.write("wave.glsl", SCENE)
         self.assertEqual(self.completed("capture", "wave.glsl", "--set", "h"), {"height=", "hue="})
         self.assertEqual(self.completed("study", "wave.glsl", "--define", "S"), {"STEPS="})
@@ -66,6 +66,7 @@ class Completion(ProgramTest):
         self.assertEqual(self.completed("check", "--probe", "no_"), {"no_nan"})
         self.assertEqual(self.completed("capture", "--precision", "d"), {"double"})
         self.assertEqual(self.completed("inspect", "--device", "au"), {"auto"})
+        self.assertLessEqual({"auto", "surfaceless", "display", "mesa:llvmpipe"}, self.completed("capture", "--device", ""))
 
     def test_a_scene_without_a_command_is_viewed(self):
         self.write("wave.glsl", SCENE)
@@ -75,7 +76,7 @@ class Completion(ProgramTest):
     def test_topics(self):
         self.assertEqual(self.completed("help", "record"), {"record-and-replay"})
 
-    def test_on_a_line_that_is_typed(self):
+    def test_completion_on_an_interactive_line(self):
         """In a terminal: what readline makes of a word, its backslashes and blanks, too."""
         self.write("wave.glsl", SCENE)
         self.write("my waves.glsl", SCENE)

@@ -81,7 +81,7 @@ class Forms(ProgramTest):
         for line in lines:
             self.assertRegex(line, r"^broken\.glsl:\d+:\d+: (error|warning|note): ")
 
-    def test_gcc_gives_a_whole_file_line_1(self) -> None:
+    def test_gcc_places_an_error_without_a_line_on_line_1(self) -> None:
         (self.folder / "empty").mkdir()
         self.write("two/image.glsl", GOOD)
         self.write("two/buffer_a.glsl", GOOD)
@@ -90,7 +90,7 @@ class Forms(ProgramTest):
         done = self.run_program("inspect", "empty", "--device", "none", "--diagnostics", "gcc")
         self.assertRegex(done.stderr, r"^empty:1:1: error: 'empty' has no image.glsl")
 
-    def test_what_cannot_be_read_has_a_place(self) -> None:
+    def test_unreadable_files_have_a_place(self) -> None:
         why = "cannot read 'none.glsl': no such file"
         self.expect_failure(["capture", "none.glsl", "--diagnostics", "gcc"], 3, f"none.glsl:1:1: error: {why}")
         found = self.json_lines("capture", "none.glsl")
@@ -113,7 +113,7 @@ class Forms(ProgramTest):
         self.assertEqual([each["line"] for each in found if each["severity"] == "error"], [3, 4])
         self.assertTrue(any("follow" in each["message"] for each in found if each["severity"] == "note"), found)
 
-    def test_every_command_that_compiles_has_it(self) -> None:
+    def test_every_command_that_compiles_takes_the_option(self) -> None:
         for command in ("capture", "check", "study", "inspect", "trace"):
             with self.subTest(command):
                 more = {"trace": ("--pixel", "1,1"), "study": ("--vary", "STEPS=1,2")}.get(command, ())
@@ -122,7 +122,7 @@ class Forms(ProgramTest):
         for command in ("export", "view"):
             self.assertIn(b"--diagnostics", self.succeed(command, "--help").stdout)
 
-    def test_standard_error_is_for_programs_alone(self) -> None:
+    def test_successful_runs_give_no_diagnostics(self) -> None:
         self.write("good.glsl", GOOD)
         self.assertEqual(self.json_lines("capture", "good.glsl", "-o", "a.png", "--size", "16x9", code=0), [])
         self.assertEqual(self.sarif("capture", "good.glsl", "-o", "b.png", "--size", "16x9", code=0)["results"], [])
@@ -158,13 +158,13 @@ class Forms(ProgramTest):
         self.assertEqual({result["ruleId"] for result in run["results"]}, {"portable"})
         self.assertEqual(self.run_program("check", "--portable", "old.glsl", "--diagnostics", "gcc").stdout, b"")
 
-    def test_a_limit_is_a_result_too(self) -> None:
+    def test_an_exceeded_limit_is_a_sarif_result(self) -> None:
         self.write("slow.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.0); for (int i = 0; i < 60000; ++i) "
                    "c += sin(float(i) + p.x * c.y + iTime); }\n")  # long enough for its memory to be looked at
         run = self.sarif("capture", "slow.glsl", "--memory", "1M", code=5)
         self.assertEqual([result["ruleId"] for result in run["results"]], ["limits"])
 
-    def test_another_form_is_refused(self) -> None:
+    def test_unknown_form_is_refused(self) -> None:
         self.expect_error(["capture", "broken.glsl", "--diagnostics", "xml"], 2, "--diagnostics", "'xml'")
 
 

@@ -66,14 +66,14 @@ class Crash(ProgramTest):
         if not has_mesa_22():
             self.skipTest("this driver compiles the sum")
 
-    def test_is_said_with_what_the_driver_was_at(self):
+    def test_is_reported_with_the_driver_call(self):
         self.write("sum.glsl", sum_of(20000))
         for command in (["capture", "sum.glsl"], ["inspect", "sum.glsl"]):
             self.expect_failure_like(
                 command, 3,
                 r"tidemark: error: the driver crashed \(SIG[A-Z]+\) compiling Image of 'sum\.glsl'")
 
-    def test_of_a_pass_names_the_pass(self):
+    def test_message_names_the_pass(self):
         self.write("folder/image.glsl", '#iChannel0 "buffer_a.glsl"\n' + MAIN % "c = texelFetch(iChannel0, ivec2(p), 0);")
         self.write("folder/buffer_a.glsl", sum_of(20000))
         done = self.run_program("capture", "folder")
@@ -82,7 +82,7 @@ class Crash(ProgramTest):
 
 
 class Memory(ProgramTest):
-    def test_ends_a_text_that_takes_too_much(self):
+    def test_exceeded_memory_ends_the_command(self):
         for name, text in MEMORY_EATERS.items():
             with self.subTest(name):
                 self.write(f"{name}.glsl", text)
@@ -91,7 +91,7 @@ class Memory(ProgramTest):
                     rf"(still .*\n)*tidemark: error: (compiling Image|preparing the first frame|drawing a frame) of "
                     rf"'{name}\.glsl' takes more than 700 MiB of memory \(--memory\)( \(in frame 0\))?")
 
-    def test_in_every_command_that_draws(self):
+    def test_limits_every_command_that_draws(self):
         self.write("macros.glsl", "#iUniform float k = 1.0 in { 0.0, 2.0 }\n" + doubling_macros(40))
         for command in (["inspect", "macros.glsl"], ["study", "macros.glsl", "--vary", "k=1,2"]):
             with self.subTest(command[0]):
@@ -99,18 +99,18 @@ class Memory(ProgramTest):
                 self.assertEqual(done.returncode, 5, done.stderr)
                 self.assertRegex(done.stderr, r"takes more than 700 MiB of memory \(--memory\)\n\Z")
 
-    def test_that_suffices_says_nothing(self):
+    def test_sufficient_memory_prints_no_message(self):
         self.write("plain.glsl", PLAIN)
         done = self.succeed("capture", "plain.glsl", "--memory", "50%")
         self.assertEqual(done.stderr, "wrote plain.png\n")
 
-    def test_no_size(self):
+    def test_invalid_sizes(self):
         self.write("plain.glsl", PLAIN)
         self.expect_error(["capture", "plain.glsl", "--memory", "much"], 2, "--memory much")
 
 
 class Timeout(ProgramTest):
-    def test_of_compiling(self):
+    def test_while_compiling(self):
         self.write("switch.glsl", MAIN % ("c = vec4(0.0); switch (int(p.x)) { "
                                           + "".join(f"case {i}: c.x = {i}.0; break; " for i in range(30000)) + "}"))
         for command in ("capture", "inspect"):
@@ -119,12 +119,12 @@ class Timeout(ProgramTest):
                                          r"tidemark: error: (stopped compiling after 1(\.\d+)? s|compiling Image of "
                                          r"'switch\.glsl' takes more than 1 s) \(--timeout\)")
 
-    def test_of_a_first_draw_that_never_ends(self):
+    def test_during_an_endless_first_draw(self):
         self.write("endless.glsl", ENDLESS)
         self.expect_failure_like(["capture", "endless.glsl", "--timeout", "2"], 5,
                                  r"tidemark: error: stopped drawing frame 0 after 2(\.\d+)? s \(--timeout\)")
 
-    def test_counts_the_frames_that_lead_to_one(self):
+    def test_covers_the_frames_before_the_captured_frame(self):
         self.write("feedback.glsl", '#iChannel0 "self"\n' + MAIN % "c = texelFetch(iChannel0, ivec2(p), 0) + 0.001;")
         self.expect_failure_like(["capture", "feedback.glsl", "--size", "8x8", "--frame", "100000000", "--timeout", "4"], 5,
                                  r"(\d+/100000000 frames stepped, .* a second, \d+ s left\n)*"
@@ -150,7 +150,7 @@ class LastFrames(ProgramTest):
         self.assertIn(b"frame 100000000", done.stdout)
 
 
-class DriverThatDoesNotStart(ProgramTest):
+class DriverStart(ProgramTest):
     """A library of another vendor's, found by libEGL, that crashes or hangs where it is asked to start."""
 
     def vendor(self, statement: str) -> dict[str, str]:
@@ -163,7 +163,7 @@ class DriverThatDoesNotStart(ProgramTest):
                                               "ICD": {"library_path": str(self.folder / "vendor.so")}}))
         return environment(__EGL_VENDOR_LIBRARY_FILENAMES=str(self.folder / "vendor.json"))
 
-    def test_a_crash_is_said(self):
+    def test_a_crash_is_reported(self):
         env = self.vendor("abort();")
         self.write("plain.glsl", PLAIN)
         self.expect_failure_like(["capture", "plain.glsl"], 77,
@@ -172,7 +172,7 @@ class DriverThatDoesNotStart(ProgramTest):
                                  r"tidemark: error: listing OpenGL's devices: the driver crashed \(SIGABRT\) starting "
                                  r"OpenGL.*", env=env)
 
-    def test_one_that_hangs_is_given_up(self):
+    def test_a_hanging_driver_is_stopped(self):
         env = self.vendor("for (;;) pause();")
         self.write("plain.glsl", PLAIN)
         self.expect_failure_like(["inspect", "plain.glsl", "--timeout", "1"], 5,
@@ -196,7 +196,7 @@ class FullDisk(ProgramTest):
         self.assertEqual(done.stderr, "wrote o.png\n")
         (self.folder / "o.png").unlink()
 
-    def test_the_driver_does_without(self):
+    def test_does_not_stop_the_driver(self):
         self.write("plain.glsl", PLAIN)
         folder = str(self.mount("8k"))
         self.capture(MESA_SHADER_CACHE_DIR=folder)
@@ -204,13 +204,13 @@ class FullDisk(ProgramTest):
         self.capture(HOME=folder, XDG_CACHE_HOME=None)
         self.assertEqual(self.succeed("inspect", "plain.glsl", env=environment(TMPDIR=folder)).stderr, "")
 
-    def test_with_room_it_is_used(self):
+    def test_the_disk_cache_is_used_with_enough_space(self):
         self.write("plain.glsl", PLAIN)
         folder = self.mount("16m")
         self.capture(MESA_SHADER_CACHE_DIR=str(folder))
         self.assertTrue([name for name in self.files() if name.startswith("cache/mesa_shader_cache")])
 
-    def test_no_home(self):
+    def test_missing_home_folder(self):
         self.write("plain.glsl", PLAIN)
         self.capture(HOME=None, XDG_CACHE_HOME=None)
         self.capture(HOME="/nowhere", XDG_CACHE_HOME=None)
@@ -250,7 +250,7 @@ class Supervised(ProgramTest):
         below = self.wait_for(lambda: children(running.pid))
         return running, below
 
-    def test_nothing_outlives_a_kill(self):
+    def test_no_child_outlives_a_kill(self):
         running, below = self.start_endless()
         running.kill()
         running.wait(timeout=TIME_LIMIT)
@@ -266,7 +266,7 @@ class Supervised(ProgramTest):
         self.assertIn(running.returncode, (130, -signal.SIGINT))
         self.wait_for(lambda: all(gone(child) for child in below))
 
-    def test_one_ctrl_c_at_a_terminal_is_one(self):
+    def test_ctrl_c_at_a_terminal_counts_once(self):
         """The whole foreground group gets it: the frame in hand is finished all the same."""
         self.write("plain.glsl", PLAIN)
         running = subprocess.Popen([PROGRAM, "capture", "plain.glsl", "--size", "64x64", "--frames", "0-9999999"],
@@ -280,7 +280,7 @@ class Supervised(ProgramTest):
         self.assertEqual(running.returncode, 130)
         self.assertRegex(stderr, r"interrupted after (\d+) of 10000000 frames; \1 frames are complete; .*\n\Z")
 
-    def test_ended_by_a_signal_as_before(self):
+    def test_signals_end_the_command(self):
         running, below = self.start_endless()
         running.send_signal(signal.SIGQUIT)
         running.wait(timeout=TIME_LIMIT)

@@ -20,7 +20,7 @@ class Names(ProgramTest):
             with self.subTest(command=command, directive=directive):
                 self.expect_error([*command, "a.glsl"], 3, "a.glsl:2: error: ", why)
 
-    def test_include_of_nothing(self):
+    def test_empty_include_name(self):
         self.refused('#include ""', '#include "" names no file')
         self.write("sub/b.glsl", '#include ""\n')
         self.write("a.glsl", '#include "sub/b.glsl"\n' + GOOD)
@@ -35,12 +35,12 @@ class Names(ProgramTest):
         self.refused('#include ".."', f"'..' {outside}")
         self.refused('#include "/"', f"'/' {outside}")
 
-    def test_names_too_long(self):
+    def test_too_long_names(self):
         name = "a" * 256
         self.refused(f'#include "{name}"', f"cannot read '{name}': File name too long")
         self.refused(f'#iChannel0 "{name}.png"', f"cannot read '{name}.png': File name too long")
 
-    def test_links_that_go_round(self):
+    def test_circular_links(self):
         os.symlink("y.glsl", self.folder / "x.glsl")
         os.symlink("x.glsl", self.folder / "y.glsl")
         self.refused('#include "x.glsl"', "'x.glsl': Too many levels of symbolic links")
@@ -48,12 +48,12 @@ class Names(ProgramTest):
         self.refused('#iChannel0 "round/a.png"', "'round/a.png': Too many levels of symbolic links")
         self.expect_error(["capture", "x.glsl"], 3, "'x.glsl'", "symbolic links")
 
-    def test_a_link_to_nothing_says_where_it_leads(self):
+    def test_a_dangling_link_names_its_target(self):
         os.symlink("none.glsl", self.folder / "x.glsl")
         self.refused('#include "x.glsl"', "'x.glsl': it is a link to 'none.glsl'")
         self.expect_error(["capture", "x.glsl"], 3, "'x.glsl'", "is a link", "'none.glsl'")
 
-    def test_bytes_that_are_no_utf_8(self):
+    def test_names_with_invalid_utf8(self):
         self.write("a.glsl", b'#include "\xff\xfe"\n' + GOOD.encode())
         for command in ("capture", "inspect"):
             done = self.run_bytes(command, "a.glsl")
@@ -142,7 +142,7 @@ class OtherFiles(ProgramTest):
                         self.assertEqual(done.returncode, 3)
                         self.assertRegex(done.stderr, "lies outside the scene's folder|there is a zero byte in its")
 
-    def test_what_lies_beside_a_scene_is_no_link_out_of_its_folder(self):
+    def test_companion_files_linked_out_of_the_folder_are_refused(self):
         self.write("elsewhere.json", "{}")
         self.write("scene/a.glsl", GOOD)
         for kind, command in (("study", ["study"]), ("check", ["check", "--budget", "1"])):
@@ -161,7 +161,7 @@ class Cache(ProgramTest):
         said = [line for line in done.stderr.splitlines() if not line.endswith("---disabling.")]  # the driver's own
         self.assertEqual(said, ["wrote a.png"])
 
-    def test_nowhere_to_keep_anything(self):
+    def test_unusable_cache_folders_are_ignored(self):
         self.write("file", "")
         (self.folder / "read-only").mkdir(mode=0o555)
         os.symlink("round", self.folder / "round")
@@ -173,7 +173,7 @@ class Cache(ProgramTest):
                 with self.subTest(**variables):
                     self.capture_in(**variables)
 
-    def test_what_lies_in_its_place(self):
+    def test_foreign_files_in_place_of_the_cache_are_left_alone(self):
         programs = self.folder / "cache/tidemark/programs"
         self.capture_in(XDG_CACHE_HOME=str(self.folder / "cache"))
         if not programs.exists():

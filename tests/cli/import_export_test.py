@@ -13,7 +13,7 @@ def in_order(text: bytes | str):
 
 
 class RoundTrip(ProgramTest):
-    def test_of_every_form(self):
+    def test_every_form_of_project_survives(self):
         for project in sorted(PROJECTS.glob("*.json")):
             with self.subTest(project=project.name):
                 folder = project.stem
@@ -23,14 +23,14 @@ class RoundTrip(ProgramTest):
                 self.assertEqual(back.stderr, "")
                 self.assertEqual(self.succeed("export", f"{folder}/scene.json").stdout, back.stdout)
 
-    def test_code_byte_for_byte(self):
+    def test_code_stays_byte_for_byte(self):
         code = "\ufeff// é 🌊 \"quoted\" \\ \r\n\tvoid mainImage(out vec4 c, in vec2 p) {}\r\r\n\n// \x01\x7f no end"
         self.write("x.json", json.dumps([{"type": "image", "code": code}]))
         self.succeed("import", "x.json")
         self.assertEqual((self.folder / "x/image.glsl").read_bytes(), code.encode())
         self.assertEqual(json.loads(self.succeed("export", "x").stdout), [{"type": "image", "code": code}])
 
-    def test_an_edit_comes_back(self):
+    def test_an_edit_survives(self):
         self.write("x.json", json.dumps([{"type": "image", "code": SHADER, "id": "1"}]))
         self.succeed("import", "x.json")
         self.write("x/image.glsl", SHADER + "// mine\n")
@@ -53,7 +53,7 @@ class Import(ProgramTest):
         report = json.loads(done.stdout)
         self.assertEqual((report["folder"], report["files"]), ("x", ["image.glsl", "common.glsl", "scene.json"]))
 
-    def test_again_takes_away_what_is_gone(self):
+    def test_second_import_removes_files_of_removed_passes(self):
         self.succeed("import", "x.json")
         self.write("x.json", json.dumps(self.project[:1]))
         self.succeed("import", "x.json")
@@ -86,7 +86,7 @@ class Import(ProgramTest):
 
 
 class Export(ProgramTest):
-    def test_of_a_file_is_a_project(self):
+    def test_single_file_becomes_a_project(self):
         self.write("a.glsl", "#iUniform float speed = 2.0\n" + SHADER)
         project = json.loads(self.succeed("export", "a.glsl", "--set", "speed=3").stdout)
         passes = project["Shader"]["renderpass"]
@@ -94,7 +94,7 @@ class Export(ProgramTest):
         self.assertEqual(passes[1]["code"], "const float speed = 3.0;\n")
         self.assertEqual(project["Shader"]["info"]["name"], "a")
 
-    def test_to_embed_is_ascii(self):
+    def test_embedded_page_is_ascii(self):
         """The page around it says in which encoding it is read, or nothing at all."""
         self.write("wäve.glsl", "// é 🌊\n" + SHADER)
         self.succeed("export", "wäve.glsl", "--html", "figure.html", "--embed")
@@ -119,8 +119,8 @@ class Export(ProgramTest):
         self.expect_failure(["export", "none.glsl"], 3, "tidemark: error: cannot read 'none.glsl': no such file")
 
 
-class Outside(ProgramTest):
-    def test_needs_leave(self):
+class PathsOutside(ProgramTest):
+    def test_need_allow_outside(self):
         self.write("s/a.glsl", '#include "../b.glsl"\n' + SHADER)
         self.write("b.glsl", "int b;\n")
         self.expect_error(["export", "s/a.glsl"], 3, "s/a.glsl:1: error:", "'b.glsl'", "lies outside", "'s'")

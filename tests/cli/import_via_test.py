@@ -23,13 +23,13 @@ class Via(ProgramTest):
         self.assertEqual((self.folder / folder / "image.glsl").read_text(), CODE)
 
 
-class OfAFile(Via):
-    def test_a_page(self) -> None:
+class ViaFile(Via):
+    def test_project_in_a_page(self) -> None:
         self.write("page.html", PAGE)
         self.imported(ADDRESS, "--via", "page.html")
         self.imported("page.html", folder="page")
 
-    def test_one_of_a_list(self) -> None:
+    def test_project_chosen_from_a_list(self) -> None:
         other = {"info": {"id": "other1"}, "renderpass": [{"type": "image", "code": "x"}]}
         self.write("all", json.dumps({"userName": "me", "shaders": [other, PROJECT]}))
         self.imported("abCD12", "--via", "all")
@@ -37,12 +37,12 @@ class OfAFile(Via):
         self.expect_failure(["import", "nobody", "--via", "all"], 3,
                             "all: error: this holds other1, abCD12, but not nobody")
 
-    def test_a_page_without_a_project(self) -> None:
+    def test_page_without_a_project(self) -> None:
         self.write("page.html", "<html><script>load('abCD12');</script></html>")
         self.expect_error(["import", ADDRESS, "--via", "page.html"], 3, "page.html: error:")
 
 
-class OfACommand(Via):
+class ViaCommand(Via):
     def fails(self, words: str, code: int = 3, *options: str) -> None:
         self.expect_error(["import", "abCD12", "--via", "./fetch", *options], code, words)
 
@@ -50,21 +50,21 @@ class OfACommand(Via):
         self.program(f"assert sys.argv[1:] == ['-q', '$HOME;', 'abCD12'], sys.argv\nprint({json.dumps(PROJECT)!r})")
         self.imported(ADDRESS, "--via", "./fetch -q $HOME;")
 
-    def test_may_print_a_page_and_be_found_in_path(self) -> None:
+    def test_command_in_path_may_print_a_page(self) -> None:
         self.program(f"print({PAGE!r})")
         self.imported("abCD12", "--via", f"{sys.executable} fetch")
 
-    def test_a_program_with_blanks_in_its_name(self) -> None:
+    def test_command_with_blanks_in_its_name(self) -> None:
         self.program(f"print({json.dumps(PROJECT)!r})")
         (self.folder / "fetch").rename(self.folder / "my fetch")
         self.imported("abCD12", "--via", "./my fetch")
 
-    def test_what_lies_in_the_current_folder_is_run_by_its_path_alone(self) -> None:
+    def test_program_in_the_current_folder_needs_its_path(self) -> None:
         self.program("open('ran', 'w')")
         self.expect_failure_like(["import", "abCD12", "--via", "fetch"], 3,
                                  "tidemark: error: 'fetch abCD12': there is no program 'fetch' in PATH: .*")
 
-    def test_that_fails(self) -> None:
+    def test_failing_command_is_reported(self) -> None:
         self.program("sys.exit('first\\nno such shader')")
         self.fails("'./fetch abCD12': no such shader")
         self.program("sys.exit(3)")
@@ -72,13 +72,13 @@ class OfACommand(Via):
         self.program("pass")
         self.fails("'./fetch abCD12' printed nothing")
 
-    def test_without_end(self) -> None:
+    def test_endless_command_is_stopped(self) -> None:
         self.program("time.sleep(600)")
         self.fails("'./fetch abCD12': it took longer than --timeout 0.3 s", 5, "--timeout", "0.3")
         self.program("while True: print('x' * 99999)")
         self.fails("'./fetch abCD12': './fetch' prints more than 16 MiB")
 
-    def test_that_is_not_there(self) -> None:
+    def test_missing_command_is_reported(self) -> None:
         self.expect_error(["import", "abCD12", "--via", "no-such-program"], 3,
                           "'no-such-program abCD12'", "'no-such-program'", "PATH", "--via")
 

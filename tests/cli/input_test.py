@@ -17,16 +17,16 @@ class Input(ProgramTest):
         self.write("a.glsl", probe.shader(MOUSE))
         self.write("take.txt", TAKE)
 
-    def test_each_frame_sees_what_was_done_before_it(self):
+    def test_each_frame_applies_all_earlier_events(self):
         for frame, wanted in ((1, [0, 0, 0, 0]), (2, [10, 20, 10, 20]), (3, [12, 5, 10, -20]),
                               (4, [12, 5, 10, -20]), (5, [12, 5, -10, -20])):
             self.assertEqual(self.told("--frame", str(frame)), wanted)
             self.assertEqual(self.told("--frames", f"0-{frame}"), wanted)
 
-    def test_time_counts_in_frames(self):
+    def test_time_advances_by_frames(self):
         self.assertEqual(self.told("--time", "0.35", "--fps", "10"), [12, 5, 10, -20])
 
-    def test_feedback_sees_every_event_on_the_way(self):
+    def test_feedback_frames_receive_every_event(self):
         self.write("s/buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) {"
                                       "c = texelFetch(iChannel0, ivec2(p), 0) + step(0.5, iMouse.w); }")
         self.write("s/image.glsl", probe.shader({"clicks": "texelFetch(iChannel0, ivec2(0), 0).x"}))

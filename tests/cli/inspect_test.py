@@ -1,5 +1,7 @@
 """`inspect`: what a scene needs, what was left out, and where it can be drawn."""
+import contextlib
 import json
+import wave
 
 from support import png
 from support.program import ProgramTest, environment, has_mesa_22, main
@@ -24,7 +26,7 @@ class Scene(ProgramTest):
         self.assertEqual(done.stderr, "")
         facts = json.loads(done.stdout)
         self.assertEqual(list(facts), ["tidemark", "scene", "driver", "renderer", "files", "uniforms", "passes",
-                                       "knobs", "definitions", "precision", "left_out"])
+                                       "sounds", "knobs", "definitions", "precision", "left_out"])
         self.assertEqual(facts["scene"], "sea.glsl")
         self.assertEqual(facts["files"], ["sea.glsl", "lib.glsl"])
         self.assertEqual(sorted(facts["uniforms"]), ["height", "iChannel1", "iTime"])
@@ -41,7 +43,7 @@ class Scene(ProgramTest):
             "iChannelResolution, iCamera, iOrbit, iOrbitPan, iTimeLow, iBeat, iMouseButton, iViewMatrix",
             "knobs: tint", "channels: iChannel0, iChannel2, iChannel3"])
 
-    def test_the_uniforms_left_out_are_those_that_the_scene_does_not_read(self):
+    def test_unread_uniforms_are_left_out(self):
         self.write("own.glsl", "uniform vec4 iOrbit;\nuniform mat4 iCamera;\nvoid mainImage(out vec4 c, in vec2 p) "
                    "{ c = iOrbit + iCamera[3] + iMouseButton; }\n")
         facts = json.loads(self.succeed("inspect", "own.glsl", "--json").stdout)
@@ -63,7 +65,7 @@ class Scene(ProgramTest):
             "iChannelTime, iChannelResolution, iCamera, iOrbit, iOrbitPan, iTimeLow, iBeat, iMouseButton, iViewMatrix",
             "  left out  knobs: tint", "  left out  channels: iChannel0, iChannel2, iChannel3"])
 
-    def test_a_scene_that_reads_no_noise_gets_none(self):
+    def test_a_scene_without_channels_gets_no_noise(self):
         self.write("plain.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n")
         facts = json.loads(self.succeed("inspect", "plain.glsl", "--json").stdout)
         del facts["passes"][0]["program"]
@@ -79,7 +81,8 @@ class Scene(ProgramTest):
                             env=environment(LD_DEBUG="files"))
         self.assertNotRegex(done.stderr, "libLLVM|libGLX_mesa|libEGL_mesa|_dri.so|tidemark_pictures")
         facts = json.loads(done.stdout)
-        self.assertEqual(list(facts), ["tidemark", "scene", "files", "passes", "knobs", "definitions"])
+        self.assertEqual(list(facts), ["tidemark", "scene", "files", "passes", "sounds", "knobs", "definitions"])
+        self.assertEqual(facts["sounds"], [])
         self.assertEqual(facts["files"], ["sea.glsl", "lib.glsl"])
         self.assertEqual(facts["passes"], [{"name": "Image", "channels": {"iChannel1": "noise"}}])
         self.assertEqual(facts["knobs"], json.loads(self.succeed("inspect", "sea.glsl", "--json", "--set",
@@ -87,6 +90,21 @@ class Scene(ProgramTest):
         self.assertEqual(self.succeed("inspect", "sea.glsl", "--device", "none").stdout.decode().splitlines(), [
             "sea.glsl", "  file      sea.glsl", "  file      lib.glsl", "  pass      Image", "  iChannel1 noise",
             "  knob      float height = 0.5 in { 0, 2 }", "  knob      color3 tint = vec3(1, 0.5, 0)"])
+
+    def test_length_rate_and_channels_of_sounds(self):
+        with contextlib.closing(wave.open(str(self.folder / "song.wav"), "wb")) as file:
+            file.setnchannels(1)
+            file.setsampwidth(2)
+            file.setframerate(48000)
+            file.writeframes(bytes(2 * 12000))
+        self.write("s/image.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n")
+        self.write("s/buffer_a.glsl", '#iChannel2 "../song.wav"\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n')
+        for options in ((), ("--device", "none")):
+            facts = json.loads(self.succeed("inspect", "s", "--allow-outside", "--json", *options).stdout)
+            self.assertEqual(facts["sounds"], [{"channel": "Buffer A iChannel2 song.wav", "file": "song.wav",
+                                                "seconds": 0.25, "rate": 48000, "channels": 1}])
+            self.assertIn("  sound     Buffer A iChannel2 song.wav: 0.250 s, 48 kHz mono\n",
+                          self.succeed("inspect", "s", "--allow-outside", *options).stdout.decode())
 
     def test_names_all_six_files_of_a_cube(self):
         for face in ("px", "nx", "py", "ny", "pz", "nz"):
@@ -99,7 +117,7 @@ class Scene(ProgramTest):
             self.assertEqual(facts["passes"][0]["channels"], {"iChannel0": files})
             self.assertIn(f"  iChannel0 {files}\n", self.succeed("inspect", "sky.glsl", *options).stdout.decode())
 
-    def test_names_what_can_be_defined(self):
+    def test_lists_definitions_with_their_values(self):
         (self.folder / "project").mkdir()
         self.write("project/common.glsl", "#define PI 3.14\nconst int STEPS = \t 64; // many\n#define SQUARE(x) ((x)*(x))\n")
         self.write("project/image.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(PI); }\n")
@@ -107,14 +125,14 @@ class Scene(ProgramTest):
         self.assertEqual(facts["definitions"], {"PI": "3", "STEPS": "64"})
         self.assertIn("  define    STEPS = 64", self.succeed("inspect", "project").stdout.decode().splitlines())
 
-    def test_code_that_cannot_be_followed_is_kept(self):
+    def test_unanalysable_code_is_kept(self):
         self.write("odd.glsl", "#ifdef GL_ARB_gpu_shader5\n#endif\nfloat unused;\n"
                                "#if GL_ARB_gpu_shader5\nfloat doubtful;\n#endif\n"
                                "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n")
         self.assertIn("  code removed: none, because odd.glsl:5:1: error: cannot tell whether this line is compiled",
                       self.succeed("inspect", "odd.glsl").stdout.decode().splitlines())
 
-    def test_the_text_of_a_long_sequence(self):
+    def test_source_of_a_long_sequence(self):
         self.write("loop.glsl", "float heavy() { return 1.0; }\n"
                                 "void mainImage(out vec4 c, in vec2 p) {\n"
                                 "    c = vec4(0.0);\n"
@@ -136,7 +154,7 @@ class Scene(ProgramTest):
             self.skipTest("this driver has no form of its own")
         return facts["passes"][0]["program"]
 
-    def test_what_the_driver_makes_of_it(self):
+    def test_counts_of_the_drivers_program(self):
         # Every driver removes a function that is not called; a loop over a knob's value it must keep.
         self.write("knob.glsl", "#iUniform int waves = 0 in { 0, 9 }\n"
                                 "void mainImage(out vec4 c, in vec2 p) {\n"
@@ -178,7 +196,7 @@ class Scene(ProgramTest):
         self.assertEqual(done.returncode, 4)
 
 
-class With(ProgramTest):
+class Savings(ProgramTest):
     """What was left out is put back, measured, and changes nothing."""
 
     def savings(self, scene, *things):
@@ -198,7 +216,7 @@ class With(ProgramTest):
         self.write("p/buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p, iTime, 1); }\n")
         self.write("p/buffer_b.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.25); }\n")
 
-    def test_each_thing_adds_its_work_and_no_pixel_changes(self):
+    def test_each_item_adds_work_and_changes_no_pixel(self):
         self.project()
         rows, _ = self.savings("p", "passes", "unchanged", "frames", "uniforms", "mipmaps", "second-textures")
         size = 16 * 9 * 16  # of a buffer
@@ -233,20 +251,20 @@ class With(ProgramTest):
         text = self.succeed("inspect", "a.glsl", "--with", "alpha", "--size", "16x9", "--budget", "30").stdout.decode()
         self.assertRegex(text, r"alpha +encoding a PNG: [\d.]+ [+-][\d.]+ \[.+\], \d+ -> \d+ bytes; its colours are the same\n")
 
-    def test_alpha_that_is_not_one_is_no_omission(self):
+    def test_alpha_other_than_1_is_not_left_out(self):
         self.project()
         self.write("p/buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p, 0, 0.5); }\n")
         done = self.succeed("inspect", "p", "--pass", "Buffer A", "--with", "alpha", "--size", "16x9", "--budget", "30",
                             "--json")
         self.assertFalse(json.loads(done.stdout)["savings"][0]["left_out"])
 
-    def test_what_a_scene_needs_is_not_left_out(self):
+    def test_needed_items_are_not_left_out(self):
         self.write("self.glsl", '#iChannel0 "self"\nvoid mainImage(out vec4 c, in vec2 p) '
                                 "{ c = texelFetch(iChannel0, ivec2(p), 0) + 0.125; }\n")
         rows, _ = self.savings("self.glsl", "frames", "passes")
         self.assertEqual([row["left_out"] for row in rows.values()], [False, False])
 
-    def test_all_is_everything_alone_and_together_and_the_libraries(self):
+    def test_all_measures_each_item_their_sum_and_the_libraries(self):
         self.project()
         rows, libraries = self.savings("p", "all")
         self.assertEqual(list(rows)[-1], "all")
@@ -261,7 +279,7 @@ class With(ProgramTest):
         text = self.succeed("inspect", "p", "--with", "passes", "--size", "16x9", "--budget", "30").stdout.decode()
         self.assertRegex(text, r"passes +[\d.]+ [+-][\d.]+ \[.+\] .+ 1 -> 2 .+ the same\n")
 
-    def test_the_budget_is_kept_and_what_it_cut_is_said(self):
+    def test_budget_limits_the_time_and_cut_items_are_named(self):
         self.write("heavy.glsl", "float unused() { return 1.0; }\nvoid mainImage(out vec4 c, in vec2 p) {\n    c = vec4(0.0);\n"
                                  "    for (int i = 0; i < 20000; ++i) c += sin(c + p.x * float(i));\n}\n")
         done = self.run_program("inspect", "heavy.glsl", "--with", "all", "--size", "64x64", "--budget", "0.01", "--json")
@@ -271,32 +289,49 @@ class With(ProgramTest):
         text = self.run_program("inspect", "heavy.glsl", "--with", "code", "--size", "64x64", "--budget", "0.01").stdout.decode()
         self.assertRegex(text, r"\ncode +not measured: --budget is spent: [\d.e-]+ s are left, and starting takes [\d.e-]+ s\n")
 
-    def test_a_thing_that_there_is_not(self):
+    def test_unknown_item(self):
         done = self.run_program("inspect", "p", "--with", "wings")
         self.assertEqual(done.returncode, 2)
         self.assertIn("second-textures", done.stderr)
 
 
 class Devices(ProgramTest):
-    def test_lists_what_capture_takes(self):
+    def test_lists_devices_that_capture_accepts(self):
         devices = json.loads(self.succeed("inspect", "--devices", "--json").stdout)["devices"]
-        self.assertEqual((devices[0]["name"], devices[-1]["name"]), ("surfaceless", "display"))
+        names = [device["name"] for device in devices]
+        self.assertEqual((names[0], names[-4:]), ("surfaceless", ["display", "mesa:llvmpipe", "mesa:softpipe", "mesa:zink"]))
         self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n")
         for device in devices:
             with self.subTest(device=device["name"]):
                 done = self.run_program("capture", "a.glsl", "--size", "4x4", "-o", "-", "--device", device["name"])
                 self.assertEqual(done.returncode, 77 if "unusable" in device else 0)
 
-    def test_without_a_driver_the_list_says_why(self):
+    def test_other_versions_of_a_driver_are_listed(self):
+        """softpipe has no OpenGL 4.5; the list says which versions it has."""
+        devices = {d["name"]: d for d in json.loads(self.succeed("inspect", "--devices", "--json").stdout)["devices"]}
+        self.assertRegex(devices["mesa:llvmpipe"]["es_version"], r"^OpenGL ES 3\.[12] ")
+        self.assertRegex(devices["mesa:softpipe"]["unusable"],
+                         r"no OpenGL 4\.5 core \(\w+\), only OpenGL 3\.3 .*; it has OpenGL ES 3\.1 .*: `check --portable` and `capture --es`")
+        self.assertRegex(self.succeed("inspect", "--devices", "--device", "mesa:llvmpipe").stdout.decode(), ", OpenGL ES 3")
+
+    def test_without_a_driver_the_reason_is_printed(self):
         done = self.succeed("inspect", "--devices", env=environment(__EGL_VENDOR_LIBRARY_FILENAMES="/dev/null"))
-        self.assertEqual(done.stdout.decode(), "surfaceless  unusable: no driver offers it (EGL_BAD_PARAMETER)\n"
-                                               "display      unusable: no driver offers it (EGL_BAD_PARAMETER)\n")
+        lines = done.stdout.decode().splitlines()
+        self.assertEqual([line.split()[0] for line in lines], ["surfaceless", "display", "mesa:llvmpipe", "mesa:softpipe", "mesa:zink"])
+        for line in lines:
+            self.assertRegex(line, r"^\S+ +unusable: no driver offers it \(EGL_BAD_PARAMETER\)$")
+
+    def test_selects_one_device_by_name(self):
+        done = self.succeed("inspect", "--devices", "--device", "mesa:llvmpipe")
+        self.assertRegex(done.stdout.decode(), r"^mesa:llvmpipe  software, llvmpipe .*\n$")
+        self.expect_error(["inspect", "--devices", "--device", "nothing"], 2, "--device nothing")
 
 
 class SelfTest(ProgramTest):
     def test_each_device_gets_its_verdicts(self):
-        done = self.succeed("inspect", "--devices", "--self-test", "--json")
-        devices = [device for device in json.loads(done.stdout)["devices"] if "unusable" not in device]
+        done = self.succeed("inspect", "--devices", "--self-test", "--json", env=environment(TIDEMARK_CACHE="off"))  # keeps no weights
+        devices = [device for device in json.loads(done.stdout)["devices"]
+                   if "unusable" not in device and not device["name"].startswith("mesa:")]
         self.assertTrue(devices)
         for device in devices:
             verdicts = {check["check"]: check for check in device["checks"]}
@@ -309,7 +344,7 @@ class SelfTest(ProgramTest):
                 else:
                     self.assertEqual(verdicts["loops"]["verdict"], "pass")
 
-    def test_a_processor_is_no_gpu(self):
+    def test_software_driver_is_not_a_gpu(self):
         devices = json.loads(self.succeed("inspect", "--devices", "--json").stdout)["devices"]
         if any(device["kind"] == "hardware" for device in devices):
             self.skipTest("a graphics card is here")

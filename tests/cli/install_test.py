@@ -36,7 +36,7 @@ class Installed(ProgramTest):
         self.assertEqual((self.folder / name).read_bytes(), (self.folder / ("build-" + name)).read_bytes())
         return done.stderr
 
-    def test_without_its_library_says_so(self) -> None:
+    def test_a_missing_library_is_reported(self) -> None:
         shutil.move(self.prefix / "share", self.folder / "elsewhere")
         self.write("mine.glsl", OF_LIBRARY)
         for more in ([], ["--allow-outside"]):
@@ -49,7 +49,7 @@ class Installed(ProgramTest):
         self.assertEqual(self.installed("--version").stdout, self.succeed("--version").stdout.decode())
 
     @unittest.skipUnless(shutil.which("ninja") and shutil.which("dpkg-query"), "no ninja, or no Debian")
-    def test_its_copyright_names_all_that_is_compiled_in(self) -> None:
+    def test_copyright_names_all_compiled_in_libraries(self) -> None:
         text = (self.prefix / "share/doc/tidemark/copyright").read_text()
         self.assertEqual(package_contents.unnamed(text, BUILD), [])
         self.assertEqual(package_contents.unnamed(text.replace("libcli11-dev", "a library"), BUILD), ["libcli11-dev"])
@@ -80,14 +80,14 @@ class Installed(ProgramTest):
         self.assertIn(b".SH COMMANDS", gzip.decompress((self.prefix / "share/man/man1/tidemark.1.gz").read_bytes()))
 
     @unittest.skipUnless(has_context(), "no OpenGL context")
-    def test_draws_with_its_library_and_its_plug_ins(self) -> None:
+    def test_draws_with_library_and_plug_ins(self) -> None:
         self.write("mine.glsl", OF_LIBRARY)
         self.made("capture", "mine.glsl", *SMALL, "-o", "mine.exr")
         scene = str(self.prefix / "share/tidemark/shaders/stylized_waves.glsl")  # reads a texture
         self.assertNotIn("warning", self.made("capture", scene, *SMALL, "-o", "waves.png"))
 
     @unittest.skipUnless(has_context(), "no OpenGL context")
-    def test_the_library_ends_at_its_folder(self) -> None:
+    def test_library_includes_stay_in_its_folder(self) -> None:
         self.write("scenes/out.glsl", OF_LIBRARY.replace("noise.glsl", "../water_surface.glsl"))
         done = self.installed("capture", "scenes/out.glsl", *SMALL)
         self.assertEqual(done.returncode, 3)

@@ -38,7 +38,7 @@ class Interrupted(ProgramTest):
         self.assertEqual(len(rows), 1)
         return names
 
-    def test_finishes_the_frame_in_hand(self):
+    def test_finishes_the_current_frame(self):
         for stop in (signal.SIGINT, signal.SIGTERM):
             with self.subTest(stop=stop.name):
                 running = self.start()
@@ -56,7 +56,7 @@ class Interrupted(ProgramTest):
                 for name in self.files():
                     (self.folder / name).unlink()
 
-    def test_killed_leaves_no_half_file_under_a_final_name(self):
+    def test_kill_leaves_no_partial_file(self):
         running = self.start()
         running.kill()
         running.wait(timeout=TIME_LIMIT)
@@ -70,7 +70,7 @@ class Interrupted(ProgramTest):
         drawn = {"wave.0000.png", "wave.0001.png"}  # encoders work side by side: a later one may have been done first
         self.assertEqual(self.files(), {"wave.glsl", *names, *drawn})
 
-    def test_every_signal_leaves_whole_pictures_alone(self):
+    def test_every_signal_keeps_complete_pictures(self):
         for stops in ([signal.SIGINT] * 5, [signal.SIGTERM, signal.SIGINT], [signal.SIGHUP, signal.SIGHUP],
                       [signal.SIGQUIT], [signal.SIGHUP, signal.SIGTERM]):
             with self.subTest(stops=stops):
@@ -83,7 +83,7 @@ class Interrupted(ProgramTest):
                 for name in self.files():
                     (self.folder / name).unlink()
 
-    def test_stopped_child_follows_too(self):
+    def test_stopped_child_is_ended(self):
         running = self.start()
         with open(f"/proc/{running.pid}/task/{running.pid}/children", encoding="ascii") as file:
             child = int(file.read().split()[0])
@@ -93,7 +93,7 @@ class Interrupted(ProgramTest):
         self.assertEqual(running.returncode, 130)
         self.expect_whole_pictures()
 
-    def test_the_language_server_ends_as_every_command(self):
+    def test_language_server_ends_like_other_commands(self):
         for stop in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with self.subTest(stop=stop.name):
                 client = Client()  # it has answered

@@ -1,9 +1,23 @@
-"""`tidemark_bake` of shaders/bake: the fields of an island, judged by what a scene reads of them, and its study."""
+"""`tidemark_bake` of shaders/bake: the ramps; the fields of an island, by what a scene reads of them; its study."""
 import json
 import math
 
 from support import png
-from support.program import BAKE, ProgramTest, has_context, main
+from support.program import BAKE, ROOT, ProgramTest, has_context, main
+
+
+class Ramps(ProgramTest):
+    def test_equal_the_pictures_of_the_scenes(self):
+        done = self.succeed("--ramps", ".", program=BAKE)
+        self.assertEqual(done.stderr, "wrote ./water_ramp.png\nwrote ./foam_ramp.png\nwrote ./wave_ramps.png\n")
+        self.assertEqual(self.files(), {"water_ramp.png", "foam_ramp.png", "wave_ramps.png"})
+        for name in ("water_ramp.png", "foam_ramp.png", "wave_ramps.png"):
+            baked, kept = png.read(self.folder / name), png.read(ROOT / "textures" / name)
+            self.assertEqual((baked.width, baked.height, baked.channels), (kept.width, kept.height, kept.channels))
+            self.assertTrue(baked.rows == kept.rows, name)
+
+    def test_errors(self):
+        self.expect_error(["--ramps", "none"], 4, "'none/water_ramp.png'", "No such file or directory", program=BAKE)
 
 
 class Island(ProgramTest):
@@ -40,7 +54,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {{
         self.assertEqual(self.files(), {"island.exr"})
         self.assertLess((self.folder / "island.exr").stat().st_size, 600_000)
 
-    def test_says_what_it_is(self):
+    def test_metadata_describe_the_map(self):
         self.bake("--size", "64", "--seed", "3")
         content = (self.folder / "island.exr").read_bytes()
         for fact in (b"path distance, wave mask, depth, height", b"tidemark:extent", b"tidemark:radius",
@@ -56,9 +70,9 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {{
         self.assertNotEqual(sizes["a.exr"], sizes["seed.exr"])
         self.assertGreater(len(sizes["float.exr"]), 1.3 * len(sizes["a.exr"]))
 
-    def test_own_heights(self):
+    def test_heights_of_a_file(self):
         self.need_context()
-        # A bank across the eastern half: what lies behind it is dark, what lies before it is not.
+        # A bank across the eastern half: the water beyond it is dark, the water on this side is not.
         name = self.heights("bank.png", lambda x, y: 160 if x in (46, 47) and 20 < y < 44 else 100)
         self.bake("--heights", name, "--sea", "0.5", "--metres", "10", "--extent", "128")
         mask = self.seen("island.exr", "vec3(t.y)")
@@ -73,7 +87,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {{
         self.assertAlmostEqual(path.pixel(10, 32)[2] / 255, 1.078 / 2, delta=0.005)
         self.assertEqual(path.pixel(46, 32)[1:], (0, 0))
 
-    def test_heights_that_cannot_be_used(self):
+    def test_unusable_heights(self):
         def refused(name: str, why: str, *options: str) -> None:
             self.refuse(["--heights", name, *options], 3, f"cannot use '{name}': ", why)
             self.assertNotIn("island.exr", self.files())
@@ -88,7 +102,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {{
         refused("small.png", "64 to 4096 pixels")
         self.refuse(["--heights", "none.exr"], 3, "tidemark: error: cannot read 'none.exr': no such file")
 
-    def test_heights_that_are_no_numbers(self):
+    def test_nan_heights_are_refused(self):
         self.need_context()
         self.write("nan.glsl", "void mainImage(out vec4 c, in vec2 p) {"
                    "c = vec4(p == vec2(3.5, 60.5) ? uintBitsToFloat(0x7fc00000u) : -1.0); }")
@@ -96,7 +110,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {{
         self.refuse(["--heights", "nan.exr"], 3, "tidemark: error: cannot use 'nan.exr': "
                             "the height at column 3, row 3 is not a number")
 
-    def test_writes_behind_no_link_and_over_no_heights(self):
+    def test_replaces_neither_a_links_target_nor_the_heights(self):
         (self.folder / "island.exr").symlink_to("/nowhere/island.exr")
         self.refuse([], 4, "'island.exr': it is a link to '/nowhere/island.exr'")
         self.write("h.exr", b"heights")

@@ -52,7 +52,7 @@ class Like(ProgramTest):
         asked = [{"48x32": "96x64", "24,16": "48,32"}.get(word, word) for word in ASKED]
         self.assertEqual(self.bytes_of("a.glsl", *asked, "-o", "asked.png"), large)
 
-    def test_all_formats_that_hold_it(self):
+    def test_all_formats_with_metadata(self):
         first = self.bytes_of("a.glsl", *ASKED, "-o", "first.png")
         for ending in ("jpg", "tif", "exr"):
             self.succeed("capture", "a.glsl", *ASKED, "-o", f"first.{ending}")
@@ -63,13 +63,13 @@ class Like(ProgramTest):
         first = self.bytes_of("a.glsl", "--size", "48x32", "--input", "take.txt", "--frame", "7", "-o", "first.png")
         self.assertEqual(self.bytes_of("--like", "first.png", "-o", "again.png"), first)
 
-    def test_what_differs_is_said(self):
+    def test_changed_scene_is_reported(self):
         self.succeed("capture", "a.glsl", *ASKED, "-o", "first.png")
         self.write("a.glsl", SCENE.replace("* 0.1);", "* 0.2);"))
         done = self.succeed("capture", "--like", "first.png", "-o", "again.png")
         self.assertIn(" first.png: another text of the scene\n", done.stderr)
 
-    def test_the_scene_that_is_typed_counts(self):
+    def test_scene_on_the_command_line_wins(self):
         self.succeed("capture", "a.glsl", *ASKED, "-o", "first.png")
         self.write("b/b.glsl", SCENE.replace('#iChannel0 "count.glsl"', '#iChannel0 "noise"'))
         done = self.succeed("capture", "b/b.glsl", "--like", "first.png", "-o", "b.png")
@@ -77,7 +77,7 @@ class Like(ProgramTest):
         asked = self.bytes_of("b/b.glsl", *ASKED, "-o", "asked.png")
         self.assertEqual(png.read(self.folder / "b.png").sha256(), asked)
 
-    def test_paths_that_lead_out_want_to_be_allowed(self):
+    def test_paths_outside_need_allow_outside(self):
         picture = self.folder / "in" / "first.png"
         self.write("in/a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }\n")
         self.write("in/white.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1); }\n")
@@ -88,7 +88,7 @@ class Like(ProgramTest):
         self.assertNotEqual(png.read(self.folder / "again.png").sha256(), first)
         self.assertEqual(self.bytes_of("--like", str(picture), "--allow-outside", "-o", "again.png"), first)
 
-    def test_a_size_that_no_file_may_ask_for(self):
+    def test_a_huge_size_in_the_metadata_is_refused(self):
         self.succeed("capture", "a.glsl", *ASKED, "-o", "first.png")
         file = (self.folder / "first.png").read_bytes()
         wanted = file.replace(b"[48,32]", b"[1000000,1000000]")
@@ -101,7 +101,7 @@ class Like(ProgramTest):
         self.expect_error(["capture", "--like", "forged.png"], 2, "--like forged.png", "1000000x1000000", "32767 pixels", "--size")
         self.succeed("capture", "--like", "forged.png", "--size", "48x32")
 
-    def test_what_is_wrong(self):
+    def test_errors(self):
         self.expect_failure(["capture"], 2, "tidemark: error: capture: SCENE is required")
         self.succeed("capture", "a.glsl", *ASKED, "-o", "first.png")
         self.expect_failure(["capture", "--like", "no.png"], 2, "tidemark: error: --like no.png: cannot read 'no.png': no such file")

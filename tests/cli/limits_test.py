@@ -46,7 +46,7 @@ class Limits(ProgramTest):
                 ["capture", "a.glsl", "--size", "8x8", "--frames", "0-5", "-o", "a.%04d.png"],
                 ["capture", "a.glsl", "--size", "8x8", "-o", "a.exr"])
 
-    def test_a_stack_that_is_too_small_is_said(self):
+    def test_a_too_small_stack_is_an_error(self):
         small = lambda most: lambda: resource.setrlimit(resource.RLIMIT_STACK, (65536, most))
         self.expect_error(["inspect", "--devices"], 4, "1 MiB", "8 MiB", "8192", preexec_fn=small(65536))
         self.succeed("--version", preexec_fn=small(resource.RLIM_INFINITY))
@@ -64,7 +64,7 @@ class Limits(ProgramTest):
                                user=user)
             self.assertEqual(codes - {5}, {0, 4})
 
-    def test_memory_of_its_own(self):
+    def test_memory_limit_of_the_command(self):
         self.assertIn(4, self.sweep(resource.RLIMIT_DATA, [n * MEBIBYTE for n in (1, 4, 8, 24, 48, 200)],
                                     *self.CAPTURES[0]))
 

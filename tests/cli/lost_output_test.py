@@ -84,7 +84,7 @@ class Folders(Failures):
         self.assertEqual(self.resume(*SEQUENCE)[0], f"kept {kept} of 20 frames")
         self.assertEqual(self.contents(), whole)
 
-    def test_the_folder_goes(self):
+    def test_the_folder_is_removed(self):
         process = self.start_slow()
         (self.folder / "out").rename(self.folder / "gone")
         self.expect_cut(self.finished(process), 4, r"'out/f_00\d\d.png': No such file or directory; ")
@@ -92,7 +92,7 @@ class Folders(Failures):
         self.assertRegex(self.resume(*SEQUENCE)[0], r"kept \d+ of 20 frames")
         self.expect_whole()
 
-    def test_the_permission_goes(self):
+    def test_the_permission_is_removed(self):
         someone = become_nobody if os.geteuid() == 0 else None  # root may write everywhere
         self.folder.chmod(0o755)
         (self.folder / "out").chmod(0o777)
@@ -179,14 +179,14 @@ class Encoders(Failures):
         self.assertEqual(self.resume(*self.FILM)[0], "kept 20 of 50 frames")
         self.assertEqual(self.contents(), whole)
 
-    def test_one_that_fails(self):
+    def test_failing_encoder(self):
         self.go_wrong_and_on('[ $run = 3 ] && { head -c 9216 > /dev/null; echo "x264: malloc failed" >&2; exit 1; }',
                              "ffmpeg says: x264: malloc failed")
 
-    def test_one_that_is_killed(self):
+    def test_killed_encoder(self):
         self.go_wrong_and_on("[ $run = 3 ] && { head -c 9216 > /dev/null; kill -9 $$; }", "ffmpeg ended without a message")
 
-    def test_one_that_writes_no_video_and_says_that_all_is_well(self):
+    def test_encoder_that_reports_success_without_a_video(self):
         for script in ("", 'for last; do :; done; echo junk > "${last#file:}"; '):
             with self.subTest(script):
                 self.go_wrong_and_on(f"[ $run = 3 ] && {{ cat > /dev/null; {script}exit 0; }}",
@@ -210,12 +210,12 @@ class Encoders(Failures):
                 return process
         self.fail("it ended")
 
-    def test_one_that_hangs_is_given_up(self):
+    def test_hanging_encoder_times_out(self):
         done = self.run_program(*self.FILM, "--timeout", "2", env=self.with_ffmpeg(self.HANGS))
         self.assertEqual(self.expect_cut(done, 5, r"error: stopped encoding frame 2\d after 2(\.\d+)? s \(--timeout\)"), 20)
         self.assertEqual(self.resume(*self.FILM)[0], "kept 20 of 50 frames")
 
-    def test_one_that_hangs_is_ended_by_one_interrupt(self):
+    def test_hanging_encoder_ends_with_one_interrupt(self):
         process = self.start_hanging()
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(timeout=60), 130)
@@ -233,7 +233,7 @@ class Encoders(Failures):
         first.wait()
         self.assertEqual(self.resume(*self.FILM)[0], "kept 20 of 50 frames")
 
-    def test_the_folder_of_a_video_goes(self):
+    def test_the_folder_of_a_video_is_removed(self):
         self.write("a.glsl", SCENE.replace("400", "10000"))
         process = subprocess.Popen([PROGRAM, "capture", "a.glsl", "--size", "64x36", "--frames", "0-9999", "-o", "out/a.mp4"],
                                    cwd=self.folder, env=environment(), text=True, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
@@ -245,7 +245,7 @@ class Encoders(Failures):
         self.assertEqual(done.returncode, 4, done.stderr)
         self.assertRegex(done.stderr, r"error: cannot write 'out/a\.mp4[^']*': No such file or directory")
 
-    def test_one_that_went(self):
+    def test_encoder_removed_between_segments(self):
         """After two segments; the next one finds none."""
         whole = self.whole(*self.FILM)
         env = self.with_ffmpeg('[ $run = 2 ] && rm tools/ffmpeg')
@@ -263,21 +263,21 @@ class Encoders(Failures):
 class Memory(Failures):
     LARGE = ("capture", "fb", "--size", "16384x16384", "--frames", "3-4", "-o", "out/f_%d.png")
 
-    def test_the_driver_has_none(self):
+    def test_the_driver_is_out_of_memory(self):
         """Two pictures of 4 GiB, each more than llvmpipe makes."""
         if not llvmpipe():
             self.skipTest("another driver may have the memory")
         self.write_feedback()
         self.expect_error([*self.LARGE], 4, "--size 16384x16384", "Buffer A")
 
-    def test_a_limit(self):
+    def test_memory_limit_is_exceeded(self):
         self.write_feedback()
         done = self.run_program("capture", "fb", "--size", "3000x3000", "--frames", "0-1", "-o", "out/f_%d.png", "--memory", "250M")
         self.assertEqual(done.returncode, 5, done.stderr)
         self.assertRegex(done.stderr, r"error: .* takes more than 250 MiB of memory \(--memory\)")
         self.assertRegex(done.stderr, r"preparing the first frame|\((before|in) frame \d\)")
 
-    def test_what_the_system_ends(self):
+    def test_drawing_process_killed_by_the_system(self):
         """As it does where memory has run out: the process that draws, not the one that looks after it."""
         process = self.start_slow()
         children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()

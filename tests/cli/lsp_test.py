@@ -83,7 +83,7 @@ class Lsp(ProgramTest):
 
 
 class Diagnostics(Lsp):
-    def test_an_edit_that_is_not_saved(self) -> None:
+    def test_unsaved_edits_are_compiled(self) -> None:
         client, scene, _ = self.scene()
         self.assertEqual(errors(client.diagnostics(scene)), [])
         client.change(scene, GOOD.replace("disc(p)", "disk(p)"), 2)
@@ -96,7 +96,7 @@ class Diagnostics(Lsp):
         client.diagnostics(scene, lambda found: not errors(found))
         self.assertEqual(client.close(), 0)
 
-    def test_of_scenes_with_a_main_of_their_own(self) -> None:
+    def test_scenes_with_their_own_main(self) -> None:
         client = self.client()
         glslsandbox = "uniform float time;\nvoid main() { gl_FragColor = vec4(sin(tiem)); }\n"
         glslviewer = "#version 330\nuniform float u_time;\nout vec4 color;\nvoid main() { color = vec4(sin(u_tiem)); }\n"
@@ -108,7 +108,7 @@ class Diagnostics(Lsp):
                 client.change(scene, text.replace("tiem", "time"), 2)
                 client.diagnostics(scene, lambda found: not errors(found))
 
-    def test_of_no_vertex_shader(self) -> None:
+    def test_vertex_shaders_are_skipped(self) -> None:
         vertex = self.write("vertex.glsl", "void main() { gl_Position = vec4(nowhere); }\n")
         scene = self.write("scene.glsl", SHAPES + "void main() { gl_FragColor = vec4(disc(nowhere)); }\n")
         client = self.client()
@@ -118,7 +118,7 @@ class Diagnostics(Lsp):
         told = [message["params"] for message in client.kept if message.get("method") == "textDocument/publishDiagnostics"]
         self.assertEqual([each for each in told if each["uri"] == vertex.as_uri() and each["diagnostics"]], [])
 
-    def test_an_error_in_an_include_stands_in_it(self) -> None:
+    def test_an_error_in_an_include_has_its_place(self) -> None:
         client, scene, shapes = self.scene()
         client.diagnostics(scene)
         client.open(shapes, SHAPES.replace("length(p)", "lenght(p)"))
@@ -127,14 +127,14 @@ class Diagnostics(Lsp):
         client.change(shapes, SHAPES, 2)
         client.diagnostics(shapes, lambda found: not errors(found))
 
-    def test_an_include_alone_is_compiled_in_the_scene_that_reads_it(self) -> None:
+    def test_an_open_include_is_compiled_with_its_scene(self) -> None:
         shapes = self.write("shapes.glsl", SHAPES.replace("smoothstep(", "smoothstep(0.0, "))
         self.write("a.glsl", GOOD)
         client = self.client()
         client.open(shapes)
         self.assertTrue(errors(client.diagnostics(shapes)))
 
-    def test_all_passes_of_a_folder(self) -> None:
+    def test_errors_of_all_passes_of_a_folder(self) -> None:
         self.write("s/common.glsl", "float one() { return 1.0; }\n")
         self.write("s/buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(wrong_a); }\n")
         self.write("s/buffer_b.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(wrong_b); }\n")
@@ -160,7 +160,7 @@ class Diagnostics(Lsp):
             self.assertEqual(span(found[0]), (1, units, 1, units + 5))
             self.assertEqual(client.close(), 0)
 
-    def test_hints_of_what_a_driver_takes(self) -> None:
+    def test_hints_for_code_that_only_some_drivers_accept(self) -> None:
         scene = self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) {\n  float sum;\n  if (p.x > 9.0) sum = 1.0;\n"
                            "  c = vec4(sum) + fma(1.0, 2.0, 3.0);\n}\n")
         client = self.client()
@@ -170,14 +170,14 @@ class Diagnostics(Lsp):
         self.assertTrue(any("sum has no value, on some path" in each["message"] for each in hints), hints)
         self.assertTrue(any("fma" in each["message"] for each in hints), hints)
 
-    def test_the_newest_text_wins(self) -> None:
+    def test_the_newest_text_is_compiled(self) -> None:
         client, scene, _ = self.scene()
         for version in range(2, 40):
             client.change(scene, GOOD.replace("disc(p)", f"wrong{version}(p)"), version)
         found = errors(client.diagnostics(scene, errors))
         self.assertIn("wrong39", found[0]["message"])
 
-    def test_an_entry_point_that_is_misspelt_is_missed(self) -> None:
+    def test_a_misspelt_entry_point_is_reported(self) -> None:
         scene = self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n")
         client = self.client()
         client.open(scene)
@@ -195,7 +195,7 @@ class Diagnostics(Lsp):
         self.assertEqual({each["severity"] for each in found}, {HINT})
         self.assertIn((0, 19, 0, 24), [span(each) for each in found])
 
-    def test_closing_takes_them_away(self) -> None:
+    def test_closing_removes_diagnostics(self) -> None:
         scene = self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = wrong; }\n")
         client = self.client()
         client.open(scene)
@@ -203,7 +203,7 @@ class Diagnostics(Lsp):
         client.notify("textDocument/didClose", {"textDocument": {"uri": scene.as_uri()}})
         client.diagnostics(scene, lambda found: not found)
 
-    def test_a_text_that_takes_all_memory_is_a_diagnostic(self) -> None:
+    def test_a_text_that_exceeds_the_memory_is_a_diagnostic(self) -> None:
         doubling = "".join(f"#define A{i} A{i - 1} A{i - 1}\n" for i in range(1, 40))
         scene = self.write("a.glsl", f"#define A0 +1.0\n{doubling}void mainImage(out vec4 c, in vec2 p) {{ c = vec4(A39); }}\n")
         client = self.client("--timeout", "2", "--memory", "1G")
@@ -234,14 +234,14 @@ class Questions(Lsp):
         self.assertIn("float sqrt(float)\n", text)
         self.assertIn("Undefined of a negative number.", text)
 
-    def test_hover_on_what_an_include_declares(self) -> None:
+    def test_hover_on_a_declaration_of_an_include(self) -> None:
         self.assertEqual(self.hover("disc(p)"),
                          "```glsl\nfloat disc(vec2 p)\n```\n1 inside of the unit disc.\n\nFrom `shapes.glsl`.\n")
 
     def test_hover_on_an_include(self) -> None:
         self.assertIn("Shapes with soft edges.", self.hover("#include"))
 
-    def test_hover_shows_nothing_from_outside_of_the_scenes_folder(self) -> None:
+    def test_hover_reads_no_file_outside_the_scenes_folder(self) -> None:
         self.write("outside.txt", "// the secret of another\n")
         (self.folder / "inner").mkdir()
         scene = self.write("inner/a.glsl", '#include "../outside.txt"\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n')
@@ -249,7 +249,7 @@ class Questions(Lsp):
         client.open(scene)
         self.assertIsNone(self.at(client, "hover", scene, scene.read_text(), "outside")["result"])
 
-    def test_hover_on_the_hosts_uniform_and_on_nothing(self) -> None:
+    def test_hover_on_a_host_uniform_and_on_a_number(self) -> None:
         self.assertIn("uniform vec3 iResolution", self.hover("iResolution"))
         self.assertEqual(self.hover("{ 0.0, 2.0"), "")
 
@@ -296,7 +296,7 @@ class Questions(Lsp):
         self.assertEqual(shown[0]["label"], "color3(0.25, 0, 1)")
         self.assertEqual(shown[0]["textEdit"]["range"], found[0]["range"])
 
-    def test_a_renamed_knob_draws_the_same(self) -> None:
+    def test_renaming_a_knob_keeps_the_picture(self) -> None:
         client, scene, shapes = self.scene()
         edits = self.at(client, "rename", scene, GOOD, "bright *", newName="glow")["result"]["changes"]
         self.assertEqual(set(edits), {scene.as_uri()})
@@ -310,9 +310,11 @@ class Questions(Lsp):
             self.succeed("capture", f"{name}.glsl", "--size", "32x18", "-o", f"{name}.png")
         self.succeed("compare", "a scene.png", "renamed.png", "--max-difference", "0")
 
-    def test_renames_that_are_refused(self) -> None:
+    def test_renames_outside_the_scene_are_refused(self) -> None:
         client, scene, _ = self.scene()
-        for word, name, why in (("paint(p /", "x", "only knobs"), ("bright *", "paint", "has that name already"),
+        for word, name, why in (("TURN)", "x", "'TURN' is a macro"), ("mainImage", "x", "the host calls 'mainImage'"),
+                                ("sqrt", "x", "given by GLSL or the host"),
+                                ("iResolution", "x", "given by GLSL or the host"), ("bright *", "paint", "has that name already"),
                                 ("bright *", "disc", "has that name already"), ("bright *", "2x", "not a GLSL name"),
                                 ("bright *", "vec3", "reserved by GLSL or the host"), ("bright *", "while", "reserved by GLSL "
                                         "or the host"),
@@ -320,9 +322,10 @@ class Questions(Lsp):
                                         "GLSL or the host")):
             with self.subTest(name):
                 self.assertIn(why, self.at(client, "rename", scene, GOOD, word, newName=name)["error"]["message"])
-        self.assertIsNone(self.at(client, "prepareRename", scene, GOOD, "paint(p /")["result"])
+        self.assertIn("is a macro", self.at(client, "prepareRename", scene, GOOD, "TURN)")["error"]["message"])
+        self.assertIsNone(self.at(client, "prepareRename", scene, GOOD, "{ 0.0, 2.0")["result"])
 
-    def test_work_grows_with_the_documents_that_are_open_and_no_faster(self) -> None:
+    def test_work_is_linear_in_the_open_documents(self) -> None:
         """By what the server reads: each scene's include is read once when its document is opened."""
         self.write("shared.glsl", "float shared(vec2 p) { return p.x; }\n")
         counts = []
@@ -351,7 +354,7 @@ class Protocol(Lsp):
             self.assertEqual(client.request("textDocument/hover", params)["error"]["code"], -32602)
         self.assertEqual(client.close(), 0)
 
-    def test_files_that_cannot_be_read(self) -> None:
+    def test_unreadable_files(self) -> None:
         client = self.client()
         for uri in ("untitled:Untitled-1", "http://x/a.glsl", "file://elsewhere/a.glsl", "file:///%zz", "file:///a%00b",
                     (self.folder / "missing.glsl").as_uri()):
@@ -365,14 +368,18 @@ class Protocol(Lsp):
         for line, character in ((10**6, 0), (0, 10**6), (2**40, 2**40)):
             self.assertIn("result", client.at("hover", scene, line, character))
 
-    def test_the_order_of_life(self) -> None:
+    def test_options_added_by_clients_are_accepted(self) -> None:
+        for words in (("--stdio",), ("--stdio", "--clientProcessId=1234"), ("--clientProcessId", "1234", "--stdio")):
+            self.assertEqual(self.client(*words).close(), 0)
+
+    def test_requests_before_initialize_and_exit_before_shutdown_are_errors(self) -> None:
         process = subprocess.Popen([PROGRAM, "lsp"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment())
         out, _ = process.communicate(frame(b'{"jsonrpc":"2.0","id":1,"method":"textDocument/hover"}') +
                                      frame(b'{"jsonrpc":"2.0","method":"exit"}'), timeout=TIME_LIMIT)
         self.assertIn(b"-32002", out)
         self.assertEqual(process.returncode, 1)  # no shutdown came before
 
-    def test_a_stream_without_a_frame_ends_it(self) -> None:
+    def test_a_stream_without_a_header_ends_the_server(self) -> None:
         done = subprocess.run([PROGRAM, "lsp"], input=b"hello\r\n\r\n", capture_output=True, env=environment(),
                               timeout=TIME_LIMIT, check=False)
         self.assertEqual(done.returncode, 2)
@@ -394,7 +401,7 @@ vim.lsp.buf_attach_client(0, client)
 
 @unittest.skipUnless(shutil.which("nvim"), "there is no Neovim")
 class Neovim(Lsp):
-    def test_neovim_shows_what_the_driver_says(self) -> None:
+    def test_neovim_shows_the_drivers_errors(self) -> None:
         self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) {\n  c = wrong;\n}\n")
         self.write("start.lua", f"local arg_program = {PROGRAM!r}\n{NEOVIM}")
         done = subprocess.run(["nvim", "--clean", "--headless", "a.glsl", "-c", "luafile start.lua"], cwd=self.folder,

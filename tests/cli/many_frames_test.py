@@ -23,7 +23,7 @@ class ManyFrames(ProgramTest):
         children = pathlib.Path(f"/proc/{capture.pid}/task/{capture.pid}/children").read_text().split()
         return int(children[0]) if children else capture.pid
 
-    def test_nothing_grows(self):
+    def test_memory_and_descriptors_do_not_grow(self):
         self.write("a.glsl", SCENE)
         (self.folder / "f").mkdir()
         capture = subprocess.Popen([PROGRAM, "capture", "a.glsl", "--frames", f"0-{FRAMES - 1}", "--size", "32x32",

@@ -34,12 +34,12 @@ class Written(ProgramTest):
                 verdicts = {probe["probe"]: probe["verdict"] for probe in json.loads(done.stdout)["probes"]}
                 self.assertLessEqual(set(verdicts.values()), {"pass", "n/a"}, verdicts)
 
-    def test_is_fit_for_shadertoys_site(self) -> None:
+    def test_passes_the_portability_check(self) -> None:
         for kind in ("", "--march", *FOLDERS):
             with self.subTest(kind):
                 self.succeed("check", "--portable", self.make(kind, "site" + kind))
 
-    def test_the_tune_is_heard(self) -> None:
+    def test_sound_template_is_audible(self) -> None:
         self.make("--sound")
         self.succeed("capture", "waves", "-o", "tune.wav", "--duration", "2")
         samples = (self.folder / "tune.wav").read_bytes()[44:]
@@ -57,12 +57,12 @@ class Named(ProgramTest):
             self.succeed("new", kind[2:], kind)
             self.assertEqual({file.name for file in (self.folder / kind[2:]).iterdir()}, files)
 
-    def test_a_folder_may_end_in_a_slash(self) -> None:
+    def test_a_folder_with_a_slash_at_its_end(self) -> None:
         self.succeed("new", "pond/", "--buffers")
         self.assertTrue((self.folder / "pond/image.glsl").is_file())
         self.expect_error(["new", "pond/"], 2, "'pond/'", "not a name")
 
-    def test_nothing_is_written_over(self) -> None:
+    def test_existing_files_are_kept(self) -> None:
         self.write("a.glsl", "mine")
         self.write("b/mine.txt", "mine")
         (self.folder / "c.glsl").symlink_to("elsewhere.glsl")

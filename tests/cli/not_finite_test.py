@@ -23,7 +23,7 @@ class NotFinite(ProgramTest):
         done = self.succeed("capture", *options, "--json")
         return [frame["not_finite"] for frame in json.loads(done.stdout)["frames"]]
 
-    def test_one_line_says_how_many_and_where_first(self):
+    def test_one_line_gives_the_count_and_the_first_place(self):
         self.write("a b.glsl", SCENE)
         done = self.succeed("capture", "a b.glsl", *SIZE, "--frames", "0-5", "--fps", "30", "-o", "f%d.png")
         said = [line for line in done.stderr.splitlines() if "finite" in line]
@@ -32,7 +32,7 @@ class NotFinite(ProgramTest):
         command = shlex.split(re.search("find the origin with: tidemark (.*)", done.stderr)[1])
         self.assertIn("a b.glsl:6", self.run_program(*command).stdout.decode())
 
-    def test_nothing_is_said_of_numbers(self):
+    def test_finite_pictures_give_no_warning(self):
         self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1e30, -1e30, p.x, 0.2); }")
         done = self.succeed("capture", "a.glsl", *SIZE, "-o", "a.png")
         self.assertEqual(done.stderr, "wrote a.png\n")
@@ -53,7 +53,7 @@ class NotFinite(ProgramTest):
                              "void main() { colour = vec4(gl_FragCoord.x < 3.0 ? sqrt(-1.0 - iTime) : 0.5); }\n")
         self.assertEqual(self.counts("a.glsl", *SIZE, "-o", "a.png"), [12])
 
-    def test_marks_are_not_visible(self):
+    def test_marks_are_not_in_the_saved_picture(self):
         """Alpha is 1 in the file and in the digest, and in what a pass reads of Image."""
         self.write("a.glsl", SCENE)
         self.succeed("capture", "a.glsl", *SIZE, "--frame", "2", "-o", "a.tif")

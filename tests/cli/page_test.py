@@ -13,7 +13,7 @@ from support.program import ROOT, SKIPPED, ProgramTest, main
 
 SCENES = ROOT / "shaders"
 CASES = ROOT / "tests" / "cases" / "conformance"
-# What an address does not tell a page: people, options and other clocks.
+# Settings that a page's address does not hold: input, options and other clocks.
 NOT_ASKED = ("mouse", "keys", "resize", "reset", "date", "fps")
 # Frames of a conformance scene with all that happens before each, drawn by the page's own renderer, mouse and keyboard;
 # the samples of Image, from the bottom left, as it left them.
@@ -95,15 +95,15 @@ class Page(ProgramTest):
 
 
 class Pictures(Page):
-    def test_of_the_waters(self):
+    def test_waters_equal_capture(self):
         for scene in sorted(SCENES.glob("*.glsl")):
             with self.subTest(scene=scene.name):
                 self.export(str(scene))
-                # Where a march ends in grazing light the translator's rounding decides.
+                # At grazing angles the translator's rounding decides where a march ends.
                 most = 0.005 if scene.stem == "procedural_ocean" else 0
                 self.assert_same(str(scene), "time=1.5&size=160x90", "--time", "1.5", "--size", "160x90", most=most)
 
-    def test_of_the_conventions(self):
+    def test_conformance_cases_equal_capture(self):
         asked = 0
         for case in sorted(CASES.iterdir()):
             if not case.is_dir():
@@ -122,7 +122,7 @@ class Pictures(Page):
                 asked += 1
         self.assertGreater(asked, 40)
 
-    def test_of_the_conventions_that_need_a_person(self):
+    def test_other_conformance_cases_equal_capture(self):
         """Every other conformance scene with frames, but for two: the page plays an input of sound in real time, and
         `--channel` is none of its options."""
         asked = 0
@@ -154,7 +154,7 @@ class Pictures(Page):
             for sample, value in zip(got, colour):
                 self.assertLessEqual(abs(sample - float_of(value)), frame.get("tolerance", 0), (frame, x, y, got))
 
-    def test_of_files(self):
+    def test_inputs_from_files_equal_capture(self):
         """What the browser decodes, and 16 bits, which only we do."""
         if not shutil.which("ffmpeg"):
             self.skipTest("ffmpeg is not installed")
@@ -201,7 +201,7 @@ class Behaviour(Page):
         self.export("counter.glsl")
         self.assert_same("counter.glsl", "frame=100&size=64x36", "--frame", "100", "--size", "64x36")
 
-    def test_a_stated_size_is_its_proportion(self):
+    def test_a_stated_size_sets_the_aspect_ratio(self):
         for size in ((90, 200), (200, 90), (300, 100), (640, 360)):
             with self.subTest(size=size):
                 self.write("a.glsl", "#iSize %dx%d\n" % size + COUNTER)
@@ -213,7 +213,7 @@ class Behaviour(Page):
         self.open("paused&size=50x50")
         self.assertEqual((len(self.shown()[0]) // 3, len(self.shown())), (50, 50))
 
-    def test_a_drag_is_iMouse(self):
+    def test_a_drag_sets_iMouse(self):
         self.write("mouse.glsl", MOUSE)
         self.export("mouse.glsl")
         self.open("size=64x36&paused")
@@ -225,7 +225,23 @@ class Behaviour(Page):
         self.browser.mouse("mouseReleased", *self.place(0.501, 0.751), button="left", buttons=0)
         self.wait_for_pixel((round(255 * 32 / 64), round(255 * 27 / 36), 0))
 
-    def test_a_drag_turns_the_camera(self):
+    def test_the_mouse_of_another_hosts_text_follows_the_pointer(self):
+        self.write("mouse.glsl", "uniform vec2 u_mouse;\nuniform vec2 u_resolution;\n"
+                   "void main() { gl_FragColor = vec4(u_mouse / u_resolution, 0.0, 1.0); }\n")
+        self.export("mouse.glsl")
+        self.open("size=64x36&paused")
+        self.wait_for_pixel((0, 0, 0))
+        self.browser.mouse("mouseMoved", *self.place(0.501, 0.751))
+        self.wait_for_pixel((round(255 * 32 / 64), round(255 * 27 / 36), 0))
+        self.write("mouse.glsl", MOUSE)  # of ShaderToy: only with a button
+        self.export("mouse.glsl")
+        self.open("size=64x36&paused")
+        self.browser.mouse("mouseMoved", *self.place(0.501, 0.751))
+        self.assertEqual(self.browser.evaluate(f"{FIGURE}.mouse.position"), [0, 0])
+        self.browser.mouse("mousePressed", *self.place(0.25, 0.5), button="left", buttons=1, clickCount=1)
+        self.wait_for_pixel((round(255 * 16 / 64), round(255 * 18 / 36), 255))
+
+    def test_a_drag_rotates_the_camera(self):
         self.write("orbit.glsl", "uniform mat4 iCamera;\nvoid mainImage(out vec4 c, in vec2 p) "
                    "{ c = vec4(0.5 + 0.5 * normalize(iCamera[3].xyz), 1.0); }\n")
         self.export("orbit.glsl")
@@ -248,7 +264,7 @@ class Behaviour(Page):
         self.export("beat.glsl", "--bpm", "90")
         self.assert_same("beat.glsl", "time=1.3&size=8x4", "--time", "1.3", "--size", "8x4", "--bpm", "90")
 
-    def test_a_drag_moves_a_scene_of_its_own_view(self):
+    def test_a_drag_moves_a_scene_with_its_own_camera(self):
         self.write("own.glsl", "uniform vec4 iOrbit;\nuniform vec3 iOrbitPan;\nvoid mainImage(out vec4 c, in vec2 p) "
                    "{ c = vec4(0.5 + 0.1 * (p.x < 32.0 ? iOrbit.xyz : iOrbitPan), 1.0); }\n")
         self.export("own.glsl")
@@ -289,6 +305,13 @@ class Behaviour(Page):
             self.browser.evaluate(turn % (change, name))
             self.wait_for_pixel(wanted)
 
+    def test_own_uniforms_have_their_defaults(self):
+        self.write("own.glsl", "uniform float amount;\nuniform vec3 tint = vec3(0.5, 1, 0.25);\n"
+                               "void mainImage(out vec4 c, in vec2 p) { c = vec4(amount + tint, 1.0); }\n")
+        self.export("own.glsl", "--set", "amount=0.25")
+        self.open("size=64x36&paused")
+        self.assertEqual(self.shown()[0][:3], bytes((191, 255, 128)))
+
     def test_pause_and_time(self):
         self.write("time.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(iTime / 100.0, 0, 0, 1); }\n")
         self.export("time.glsl")
@@ -315,7 +338,7 @@ class Behaviour(Page):
                                             f" return [s[i], s[i + 1]]; }})({FIGURE})")
                 self.assertEqual(got, [left, right], (name, first))
 
-    def test_the_sound_is_heard_without_gaps(self):
+    def test_the_sound_plays_without_gaps(self):
         self.write("tone/image.glsl", MOUSE)
         self.write("tone/sound.glsl", "vec2 mainSound(int samp, float time) { return vec2(fract(time), 0.0); }\n")
         self.export("tone")
@@ -342,7 +365,7 @@ class Behaviour(Page):
         self.assertEqual(self.message().split("\n")[:2], ["Image does not compile in this browser:",
                                                           "wrong.glsl:3: error: 'two' : no matching overloaded function found"])
 
-    def test_goes_on_without_what_fails(self):
+    def test_draws_without_broken_inputs(self):
         self.write("s/image.glsl", '#iChannel0 "song.wav"\n'
                    "void mainImage(out vec4 c, in vec2 p) { c = vec4(0, 1, texelFetch(iChannel0, ivec2(0, 1), 0).r, 1); }\n")
         self.write("s/song.wav", "no sound")
@@ -358,7 +381,7 @@ class Behaviour(Page):
         self.open("size=64x36&time=1e15&paused")
         self.wait_for_pixel((255, 128, 0))
 
-    def test_asks_the_network_for_nothing(self):
+    def test_makes_no_network_requests(self):
         self.write("noise.glsl", "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p / 64.0); }\n")
         self.export("noise.glsl")
         self.open("size=64x36&paused")
@@ -381,8 +404,8 @@ class Behaviour(Page):
         self.browser.wait_for(f"{script} === '[[255,0,0,255],[0,255,0,255]]'")
 
 
-class Words(ProgramTest):
-    def test_of_the_command(self):
+class Messages(ProgramTest):
+    def test_option_errors_of_the_command(self):
         self.write("a.glsl", MOUSE)
         for words, message in ((["--embed"], "--embed needs --html FILE"), (["--media", "."], "--media needs --html FILE"),
                                (["--bpm", "90"], "--bpm needs --html FILE"),
@@ -391,7 +414,7 @@ class Words(ProgramTest):
         self.assertEqual(self.succeed("export", "a.glsl", "--html", "a.html").stderr, "wrote a.html\n")
         self.assertTrue((self.folder / "a.html").read_text().startswith("<!doctype html>"))
 
-    def test_a_texture_that_is_not_there(self):
+    def test_missing_texture(self):
         self.write("a.glsl", "#iChannel0 \"none.png\"\nvoid mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p); }\n")
         done = self.run_program("export", "a.glsl", "--html", "a.html")
         self.assertEqual(done.returncode, 3)

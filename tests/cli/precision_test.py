@@ -27,7 +27,7 @@ class Precision(ProgramTest):
         done = self.succeed("capture", "hashed.glsl", "--size", "16x8", "-o", "x.png", "--json", *options)
         return json.loads(done.stdout), png.read(self.folder / "x.png")
 
-    def test_the_report_says_the_precision_and_the_hashes_that_stay_floats(self):
+    def test_the_report_names_the_precision_and_the_float_hashes(self):
         single, before = self.capture("--time", "3.25")
         self.assertEqual(single["precision"], "single")
         self.assertNotIn("float_hashes", single)
@@ -48,11 +48,11 @@ class Precision(ProgramTest):
                           for p in ("single", "double"))
         self.assertEqual((single, double), (0, 64))
 
-    def test_definitions_and_knobs_work_as_ever(self):
+    def test_definitions_and_knobs_work_in_double(self):
         _, picture = self.capture("--time", "0.5", "--precision", "double", "--define", "SPEED=0.5")
         self.assertEqual(picture.pixel(0, 0)[1], 64)
 
-    def test_inspect_shows_the_text_and_what_stays(self):
+    def test_inspect_shows_the_text_and_the_float_hashes(self):
         source = self.succeed("inspect", "hashed.glsl", "--source", "--precision", "double").stdout.decode()
         self.assertTrue(source.startswith("#version 450 core\n"))
         self.assertIn("double scatter(dvec2 a0) { return tidemark_float_scatter(vec2(a0)); }", source)
@@ -61,7 +61,7 @@ class Precision(ProgramTest):
         lines = self.succeed("inspect", "hashed.glsl", "--precision", "double").stdout.decode()
         self.assertIn("  precision double\n  float     sine hash scatter, hashed.glsl:2\n", lines)
 
-    def test_sound_is_promoted_too(self):
+    def test_sound_is_promoted(self):
         self.write("project/image.glsl", HASHED)
         self.write("project/sound.glsl", TONE)
         for precision in ("single", "double"):
@@ -76,13 +76,13 @@ class Precision(ProgramTest):
             data = file.readframes(file.getnframes())
         return struct.unpack(f"<{len(data) // 2}h", data)
 
-    def test_wrong_words(self):
+    def test_invalid_options(self):
         self.expect_failure_like(["capture", "hashed.glsl", "--precision", "quadruple"], 2,
                                  r"tidemark: error: --precision: .*single.*double.*")
         self.expect_failure_like(["capture", "hashed.glsl", "--double-hashes"], 2,
                                  r"tidemark: error: .*--double-hashes.*--precision.*")
 
-    def test_what_has_no_double_form_is_named(self):
+    def test_code_without_a_double_form_is_named(self):
         self.write("depth.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    c = vec4(1);\n    gl_FragDepth = 0.5;\n}\n")
         self.expect_error(["capture", "depth.glsl", "--precision", "double"], 3,
                           "depth.glsl:3:5: error:", "'gl_FragDepth'")

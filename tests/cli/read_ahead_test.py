@@ -88,7 +88,7 @@ class SameBytes(ProgramTest):
 
 
 class Ends(ProgramTest):
-    def test_what_is_drawn_is_written_when_interrupted(self):
+    def test_drawn_frames_are_written_after_an_interrupt(self):
         self.write("a.glsl", resume_test.SCENE.replace("400", "40000"))
         (self.folder / "out").mkdir()
         process = subprocess.Popen([PROGRAM, *resume_test.SEQUENCE], cwd=self.folder, env=AHEAD, text=True,
@@ -107,10 +107,10 @@ class Ends(ProgramTest):
 
 # Tests of other files that are run with the variable set; `./dev soak` (TIDEMARK_KILLS) runs all of theirs.
 RESUMED = (
-    (resume_test.Feedback, ("goes_on_from_the_state",)),
-    (resume_test.Videos, ("goes_on_from_whole_segments",)),
-    (lost_output_test.Folders, ("a_full_disk", "the_folder_goes")),
-    (lost_output_test.Encoders, ("one_that_is_killed", "one_that_hangs_is_ended_by_one_interrupt", "the_folder_of_a_video_goes")),
+    (resume_test.Feedback, ("continues_from_the_state",)),
+    (resume_test.Videos, ("continues_after_whole_segments",)),
+    (lost_output_test.Folders, ("a_full_disk", "the_folder_is_removed")),
+    (lost_output_test.Encoders, ("killed_encoder", "hanging_encoder_ends_with_one_interrupt", "the_folder_of_a_video_is_removed")),
 )
 
 

@@ -13,11 +13,11 @@ HEADINGS = re.findall(r"^## (\S+) \((\S+)\)$", (ROOT / "CHANGELOG.md").read_text
 
 
 class Version(ProgramTest):
-    def test_the_program_has_that_of_the_changelog(self) -> None:
+    def test_program_and_changelog_agree(self) -> None:
         self.assertEqual(self.succeed("--version").stdout.decode(), f"tidemark {HEADINGS[0][0]}\n")
 
     @unittest.skipUnless((DOCUMENTS / "changelog.gz").is_file(), "there is no build folder")
-    def test_debians_changelog_has_all_of_it(self) -> None:
+    def test_debian_changelog_has_every_entry(self) -> None:
         debian = gzip.decompress((DOCUMENTS / "changelog.gz").read_bytes()).decode()
         self.assertEqual(re.findall(r"^tidemark \((\S+)\) stable; urgency=medium$", debian, re.MULTILINE),
                          [version for version, _ in HEADINGS])
@@ -25,7 +25,7 @@ class Version(ProgramTest):
         self.assertEqual([line[4:] for line in debian.splitlines() if line.startswith("  ")], items)
 
     @unittest.skipUnless((DOCUMENTS / "changelog.gz").is_file() and shutil.which("dpkg-parsechangelog"), "no dpkg-dev")
-    def test_dpkg_reads_it(self) -> None:
+    def test_dpkg_parses_the_debian_changelog(self) -> None:
         self.write("changelog", gzip.decompress((DOCUMENTS / "changelog.gz").read_bytes()))
         read = subprocess.run(["dpkg-parsechangelog", "-l", "changelog", "--show-field", "Version"], cwd=self.folder,
                               capture_output=True, text=True, check=True)
@@ -56,7 +56,7 @@ class Release(ProgramTest):
         self.assertNotEqual(done.returncode, 0)
         return done.stderr
 
-    def test_what_it_refuses(self) -> None:
+    def test_unready_releases_are_refused(self) -> None:
         self.assertEqual(self.release(), "./dev: give the version that CHANGELOG.md begins with: ./dev release 1.2.0\n")
         self.assertEqual(self.release("1.1.0"),
                          "./dev: CHANGELOG.md begins with 1.2.0, not with 1.1.0: say there what is new\n")
@@ -67,7 +67,7 @@ class Release(ProgramTest):
         self.git("tag", "v1.2.0")
         self.assertEqual(self.release("1.2.0"), "./dev: there is a tag v1.2.0: that version is out\n")
 
-    def test_a_good_one_comes_to_the_checks(self) -> None:
+    def test_a_ready_release_runs_the_checks(self) -> None:
         self.write("clang-format", "#!/bin/sh\necho formatted >&2; exit 1\n").chmod(0o755)
         self.write("a.cpp", "")
         self.commit()

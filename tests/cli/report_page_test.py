@@ -61,7 +61,7 @@ class Page(ProgramTest):
 
 
 class Exploring(Page):
-    def test_it_is_named_after_the_scene_and_asks_nobody(self):
+    def test_has_the_scenes_name_and_makes_no_requests(self):
         self.assertEqual(self.seen("document.title"), "waves: error against run time")
         self.assertEqual(self.seen("document.querySelector('h1').textContent"), "waves")
         asked = [address for address in self.browser.requests if not address.startswith("data:")]
@@ -69,7 +69,7 @@ class Exploring(Page):
         self.assertEqual(self.browser.complaints, [])
         self.assertTrue(self.seen("[...document.images].length > 9 && [...document.images].every(i => i.naturalWidth === 32)"))
 
-    def test_the_pointer_shows_a_card_and_a_click_keeps_it(self):
+    def test_hovering_shows_a_card_and_a_click_pins_the_card(self):
         self.assertEqual(self.seen(CARD), ["defaults"])
         self.browser.mouse("mouseMoved", *self.mark(3))
         self.browser.wait_for(f"{CARD}.join() === 'STEPS = 8'")
@@ -92,7 +92,7 @@ class Exploring(Page):
             self.key("Tab", 9)
         self.assertEqual(names, ["defaults", "STEPS = 1", "STEPS = 2"])
 
-    def test_a_number_field_leaves_what_keeps_it(self):
+    def test_a_number_field_filters_the_points(self):
         points = json.loads((self.folder / "report/study.json").read_text())["points"]
         limit = points[3]["all"]["picture"]["rmse"] * 1.01
         self.assertEqual(self.left(), [0, 1, 2, 3, 4])
@@ -104,7 +104,7 @@ class Exploring(Page):
         self.seen("document.querySelector('.limits button').click()")
         self.browser.wait_for("document.querySelectorAll('.out').length === 0")
 
-    def test_a_line_is_dragged_and_turned_by_keys(self):
+    def test_a_limit_line_moves_by_mouse_and_keys(self):
         x, y = self.middle(".diagram.wide [data-limit=error] rect")
         below = (self.mark(2)[1] + self.mark(3)[1]) / 2
         self.browser.mouse("mousePressed", x, y, button="left", buttons=1, clickCount=1)
@@ -138,7 +138,7 @@ class Exploring(Page):
 
 
 class Widths(Page):
-    def test_nothing_is_wider_than_the_window(self):
+    def test_page_fits_the_window(self):
         for width in (360, 768, 2000):
             for dark in (False, True):
                 with self.subTest(width=width, dark=dark):
@@ -151,7 +151,7 @@ class Widths(Page):
                     self.assertEqual(self.seen("getComputedStyle(document.body).backgroundColor"),
                                      "rgb(23, 25, 28)" if dark else "rgb(252, 252, 250)")
 
-    def test_labels_cover_no_label_and_no_mark(self):
+    def test_labels_do_not_overlap(self):
         for width in (360, 1200):
             self.resize(width)
             self.open()
@@ -171,7 +171,7 @@ class WithoutScripts(Page):
         self.addCleanup(self.browser.call, "Emulation.setScriptExecutionDisabled", value=False)
         super().open()
 
-    def test_diagram_table_and_cards_are_there(self):
+    def test_shows_diagram_table_and_cards(self):
         self.assertEqual(self.seen("document.querySelectorAll('.diagram.wide .mark').length"), 5)
         self.assertEqual(self.seen("document.querySelector('.diagram.wide .mark title').textContent.split(':')[0]"), "defaults")
         self.assertFalse(self.seen("document.querySelector('.limits').checkVisibility()"))

@@ -65,7 +65,7 @@ class Reset(ProgramTest):
         self.assertEqual((done.returncode, self.contents()), (5, {}))
 
     @not_sanitized
-    def test_no_memory_for_the_picture(self):
+    def test_reset_without_memory_for_the_picture(self):
         done = self.struck("capture", "a.glsl", "--size", "2048x2048", "-o", "out/a.png", TIDEMARK_TEST_NO_TARGET="1")
         self.assertRegex(done.stderr, r"\Atidemark: error: --size 2048x2048: .* \(before frame 0\)\n\Z")
         self.assertEqual((done.returncode, self.contents()), (4, {}))
@@ -85,7 +85,7 @@ class Reset(ProgramTest):
         self.assertEqual(self.contents(), whole)
 
     @not_sanitized
-    def test_what_measures(self):
+    def test_measuring_commands_print_nothing(self):
         """A number that was taken of a lost context is none: nothing is printed, nothing is written."""
         self.write("k.glsl", KNOBS)
         of_measuring = "reset while measuring: .* --size"
@@ -111,7 +111,7 @@ class Reset(ProgramTest):
         self.assertRegex(done.stdout.decode(), "(?m)^pass +repeats")
 
     @not_sanitized
-    def test_cures(self):
+    def test_fixes(self):
         self.write("faulty.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(sqrt(p.x - 3.0), 0.0, 0.0, 1.0); }\n")
         self.assertIn(b"+void mainImage", self.run_program("check", "faulty.glsl", "--fix").stdout)
         done = self.struck("check", "faulty.glsl", "--fix", TIDEMARK_TEST_RESET="2")

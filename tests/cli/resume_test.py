@@ -17,7 +17,7 @@ from support.resume import SCENE, SEQUENCE, Resume
 KILLS = int(os.environ.get("TIDEMARK_KILLS", "4"))
 
 class Sequences(Resume):
-    def test_keeps_what_is_there(self):
+    def test_keeps_existing_frames(self):
         for extension in ("png", "jpg", "tif", "exr"):
             sequence = (*SEQUENCE[:-1], f"out/f_%04d.{extension}")
             self.succeed(*sequence)
@@ -39,7 +39,7 @@ class Sequences(Resume):
         self.assertEqual(lines[1], "kept 0 of 20 frames")
         self.assertEqual(self.resume(*SEQUENCE, *changes), ["kept 20 of 20 frames"])
 
-    def test_draws_again_what_was_drawn_otherwise(self):
+    def test_redraws_frames_with_other_settings(self):
         self.succeed(*SEQUENCE)
         self.expect_redrawn("other knobs", "--set", "speed=0.75")
         self.expect_redrawn("other knobs, another time, size, mouse or camera", "--mouse", "3,4")
@@ -48,7 +48,7 @@ class Sequences(Resume):
         self.write("a.glsl", SCENE.replace("400", "401"))
         self.expect_redrawn("another text of the scene, other drawing options")
 
-    def test_a_changed_input_is_noticed(self):
+    def test_a_changed_input_redraws(self):
         def picture(value: int) -> bytes:
             return b"P6 1 1 255\n" + bytes([value] * 3)
 
@@ -77,14 +77,14 @@ class Sequences(Resume):
             "kept 16 of 20 frames", "wrote 4 frames, out/f_0001.png to out/f_0007.png"])
         self.assertEqual(self.contents(), whole)
 
-    def test_says_what_it_cannot_resume(self):
+    def test_refuses_outputs_that_cannot_be_resumed(self):
         for output, why in (("-", "frames on standard output cannot be resumed"),
                             ("f_%d.hdr", "a .hdr cannot record how it was drawn: give a .png, .jpg, .tif or .exr"),
                             ("a.wav", "a sound cannot be resumed")):
             self.expect_failure(["capture", "a.glsl", "--frames", "0-1", "-o", output, "--resume"], 2,
                                 f"tidemark: error: --resume: {why}")
 
-    def test_six_faces_are_one_frame(self):
+    def test_six_faces_count_as_one_frame(self):
         self.write("cube/image.glsl", '#iChannel0 "Cube A"\n'
                                       "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, vec3(1)); }\n")
         self.write("cube/cube_a.glsl", "void mainCubemap(out vec4 c, in vec2 p, in vec3 o, in vec3 d) "
@@ -111,7 +111,7 @@ class Feedback(Resume):
         self.assertEqual(self.run_program(*arguments).returncode, 4)
         (self.folder / "out/f_0037.png").rmdir()
 
-    def test_goes_on_from_the_state(self):
+    def test_continues_from_the_state(self):
         whole = self.whole(*self.RUN)
         self.cut(*self.RUN)
         states = [name for name in self.contents() if name.endswith(".state")]
@@ -125,7 +125,7 @@ class Feedback(Resume):
         self.assertEqual(frames[min(frames)]["passes_drawn"], (min(frames) - 30) * 2 + 2)
         self.assertEqual(self.contents(), whole)
 
-    def test_a_damaged_state_is_none(self):
+    def test_a_damaged_state_is_ignored(self):
         whole = self.whole(*self.RUN)
         for damage in (lambda b: b[:100], lambda b: b[:-70] + b"x" + b[-69:], lambda b: b"",
                        lambda b: b"[]\n" + hashlib.sha256(b"[]\n").hexdigest().encode()):
@@ -137,7 +137,7 @@ class Feedback(Resume):
             for name in whole:
                 (self.folder / "out" / name).unlink()
 
-    def test_a_state_that_grew_is_none(self):
+    def test_an_oversized_state_is_ignored(self):
         """It takes no room on disk, and would take all memory."""
         whole = self.whole(*self.RUN)
         self.cut(*self.RUN)
@@ -169,7 +169,7 @@ class Videos(Resume):
         return subprocess.run(["ffmpeg", "-v", "error", "-i", f"out/{name}", "-f", "framemd5", "-"], cwd=self.folder,
                               stdout=subprocess.PIPE, check=True).stdout
 
-    def test_goes_on_from_whole_segments(self):
+    def test_continues_after_whole_segments(self):
         self.write_feedback()
         for extension, scene in ((".webm", "a.glsl"), (".gif", "a.glsl"), (".mov", "a.glsl"), (".mp4", "fb")):
             arguments = self.video(extension, scene)
@@ -185,7 +185,7 @@ class Videos(Resume):
             self.assertEqual(self.contents(), whole)
             (self.folder / f"out/a{extension}").unlink()
 
-    def test_damaged_and_other_segments_are_drawn_again(self):
+    def test_damaged_and_foreign_segments_are_redrawn(self):
         arguments = self.video(".mp4")
         whole = self.whole(*arguments)
         self.cut(arguments, 3)
@@ -198,7 +198,7 @@ class Videos(Resume):
         self.cut(arguments, 2)
         self.assertTrue(self.resume(*arguments, "--set", "speed=0.75")[0].startswith("drawing frames 0 to 9 again: "))
 
-    def test_segments_change_no_time(self):
+    def test_segments_keep_the_frame_times(self):
         """Each frame appears when it does in a video of one segment, at a rate that no clock divides."""
         for extension in (".mp4", ".webm"):
             times = []
@@ -210,7 +210,7 @@ class Videos(Resume):
             self.assertEqual(len(times[0]), 30)
             self.assertEqual(times[0], times[1])
 
-    def test_a_dead_encoder_costs_a_segment(self):
+    def test_a_dead_encoder_loses_one_segment(self):
         """One that ends in its third run."""
         tools = self.folder / "tools"
         self.write("tools/ffmpeg", "#!/bin/sh\necho run >> count\n"

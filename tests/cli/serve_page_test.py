@@ -1,5 +1,7 @@
 """tidemark serve in headless Chromium: a person at the page sees what is drawn and steers it."""
+import http.server
 import sys
+import threading
 
 from support import browser
 from support.program import SKIPPED, ProgramTest, main
@@ -13,6 +15,9 @@ void mainImage(out vec4 c, in vec2 p) {
     c = vec4(iMouse.z > 0.0 ? iMouse.x / iResolution.x : 0.5, GREEN * 0.5, blue, 1.0);
 }
 """
+OTHER_HOST = "uniform vec2 u_mouse;\nuniform vec2 u_resolution;\nvoid main() { gl_FragColor = vec4(u_mouse / u_resolution, 0.0, 1.0); }\n"
+ORBIT = ("uniform mat4 iCamera;  // at first 10 from the target, 30 degrees to the east and 20 up\n"
+         "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.5, abs(iCamera[3].x - 4.698) < 0.01 ? 0.5 : 1.0, 0.0, 1.0); }\n")
 MOVING = "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.5 + 0.5 * sin(iTime), p / iResolution.xy, 1.0); }\n"
 FIGURE = "document.querySelector('.tidemark').tidemark"
 STATE = "document.querySelector('.tidemark').dataset.state"
@@ -52,6 +57,20 @@ class Page(ProgramTest):
         self.browser.evaluate(f"[...document.querySelectorAll('button')].find(b => b.textContent === '{name}' || b.title === '{name}').click()")
 
 
+class Token(Page):
+    def test_in_the_fragment(self):
+        """As a forwarded address keeps it, escaped or not."""
+        self.open()
+        for between in ("/#token=", "/#token%3D", "/?id=7#token="):
+            with self.subTest(between):
+                self.browser.open(self.service.address.replace("/?token=", between))
+                self.browser.wait_for(f"{FIGURE}.number > 0")
+        self.browser.open(self.service.address.partition("?")[0])
+        self.browser.wait_for("document.body.innerText.includes('Access denied: open the full address')")
+        self.browser.open(self.service.address.partition("?")[0] + "#token=" + "0" * 22)
+        self.browser.wait_for(f"{STATE} === 'ended'")
+
+
 class Steering(Page):
     def test_mouse_knobs_and_definitions(self):
         self.open()
@@ -71,6 +90,16 @@ class Steering(Page):
         self.browser.evaluate("(field => { field.value = 0; field.dispatchEvent(new Event('change')); })"
                               "(document.querySelector('input[aria-label=GREEN]'))")
         self.wait_for_colour(128, 0, 64)
+
+    def test_the_mouse_of_another_hosts_text_follows_the_pointer(self):
+        self.open(OTHER_HOST)
+        self.mouse("mouseMoved", 48.5, 9.5)
+        self.wait_for_colour(191, 64, 0)
+        self.mouse("mouseMoved", 16.5, 27.5)
+        self.wait_for_colour(64, 191, 0)
+        self.write("a.glsl", SCENE)  # of ShaderToy: only with a button
+        self.wait_for_colour(128, 128, 64)
+        self.browser.wait_for(f"{FIGURE}.state.everyMove === false")
 
     def test_time(self):
         self.open(MOVING)
@@ -93,6 +122,20 @@ class Steering(Page):
         self.browser.evaluate("[...document.querySelectorAll('button')].find(b => b.textContent === 'A 0.01 s').click()")
         self.browser.wait_for(f"{FIGURE}.state.time.from === null")
 
+    def test_reset_camera_is_hidden_without_a_camera(self):
+        button = "[...document.querySelectorAll('button')].find(b => b.textContent === 'Reset camera')"
+        self.open()
+        self.browser.wait_for(f"{FIGURE}.state.knobs.length === 1 && {button}.hidden")
+        self.write("a.glsl", ORBIT)
+        self.browser.wait_for(f"!{button}.hidden")
+        self.wait_for_colour(None, 127, None)
+        self.mouse("mousePressed", 10.5, 20.5, button="left", buttons=1, clickCount=1)
+        self.mouse("mouseMoved", 42.5, 20.5, button="left", buttons=1)
+        self.mouse("mouseReleased", 42.5, 20.5, button="left", clickCount=1)
+        self.wait_for_colour(128, 255, None)
+        self.press_button("Reset camera")
+        self.wait_for_colour(128, 127, None)
+
     def test_the_copied_command(self):
         self.open()
         self.press_button("Copy command")
@@ -101,7 +144,7 @@ class Steering(Page):
         self.assertTrue(words.startswith("tidemark capture a.glsl"), words)
 
 
-class Looking(Page):
+class Watching(Page):
     def test_errors_are_over_the_picture(self):
         self.open()
         self.write("a.glsl", SCENE.replace("GREEN * 0.5", "nowhere"))
@@ -112,7 +155,7 @@ class Looking(Page):
         self.wait_for_colour(128, 255, 64)
         self.browser.wait_for("document.querySelector('.tidemark-errors').hidden")
 
-    def test_one_who_watches_is_told_so(self):
+    def test_a_watching_viewer_has_no_control(self):
         self.write("a.glsl", SCENE)
         service = Service(self.folder, "a.glsl", "--size", "64x36")
         self.addCleanup(service.close)
@@ -127,7 +170,7 @@ class Looking(Page):
         first.close()
         self.browser.wait_for(f"{FIGURE}.steering.viewers === 1")
 
-    def test_the_end(self):
+    def test_page_shows_the_end_of_the_service(self):
         self.open()
         self.service.close()
         self.browser.wait_for(f"{STATE} === 'ended'")
@@ -139,7 +182,7 @@ class Looking(Page):
         address = self.service.address.partition("?")[0]
         self.assertEqual([asked for asked in self.browser.requests if not asked.startswith((address, "data:"))], [])
 
-    def test_breaks_no_rule_of_its_own(self):
+    def test_violates_no_content_security_policy(self):
         """The address of its icon included, which a browser with a window loads."""
         self.open()
         refused = self.browser.evaluate("""new Promise(done => {
@@ -158,6 +201,110 @@ class Looking(Page):
             self.assertTrue(self.browser.evaluate("document.documentElement.scrollWidth <= document.documentElement.clientWidth"), width)
             wide, high = self.browser.evaluate(f"(r => [r.width, r.height])({CANVAS}.getBoundingClientRect())")
             self.assertAlmostEqual(wide / high, 64 / 36, places=1)
+
+
+class Lenses(Page):
+    """The picture's pixels in steps: column + 1 iterations, with a bar, statistics and the value under the pointer."""
+
+    LOOPS = """void mainImage(out vec4 c, in vec2 p) {
+    float sum = 0.0;
+    for (int i = 0; i < int(p.x) + 1; ++i)
+        sum += 0.001;
+    c = vec4(sum, 0.5, 0.5, 1.0);
+}
+"""
+    LEGEND = "document.querySelector('.tidemark-legend')"
+
+    def choose(self, name):
+        self.browser.evaluate("((list, name) => { list.value = name; list.dispatchEvent(new Event('change')); })"
+                              f"(document.querySelector('select[aria-label=Lens]'), '{name}')")
+
+    def fill(self, field, text):
+        self.browser.evaluate("((field, text) => { field.value = text; field.dispatchEvent(new Event('change')); })"
+                              f"(document.querySelector('input[aria-label=\"{field}\"]'), '{text}')")
+
+    def test_a_lens_is_chosen_from_a_list(self):
+        self.open(self.LOOPS)
+        names = self.browser.evaluate("[...document.querySelector('select[aria-label=Lens]').options].map(o => o.textContent)")
+        self.assertEqual(names, ["off", "cost", "steps", "error", "rounding", "proof", "value", "branch"])
+        self.assertTrue(self.browser.evaluate(f"{self.LEGEND}.hidden"))
+        self.choose("value")
+        self.fill("Line of the lens", "2")
+        words = self.browser.wait_for(f"!{self.LEGEND}.hidden && {self.LEGEND}.innerText.includes('sum at') && {self.LEGEND}.innerText")
+        self.assertIn("counted", words)
+        self.choose("")
+        self.browser.wait_for(f"{self.LEGEND}.hidden")
+        self.wait_for_colour(8, 128, 128)
+
+    def test_the_legend_shows_the_value_under_the_pointer(self):
+        self.open(self.LOOPS)
+        self.choose("steps")
+        self.fill("Line of the lens", "3")
+        words = self.browser.wait_for(f"{self.LEGEND}.innerText.includes('iterations') && {self.LEGEND}.innerText.includes('64') && {self.LEGEND}.innerText")
+        for number in ("min", "median", "99", "max"):
+            self.assertIn(number, words)
+        self.browser.wait_for("document.querySelector('.tidemark-scale') !== null")
+        for column in (10, 50):
+            self.mouse("mouseMoved", column + 0.5, 20.5)
+            self.browser.wait_for(f"/\\b{column + 1}\\b/.test(document.querySelector('.tidemark-value').textContent)")
+        # The colours rise from dark blue to yellow.
+        self.browser.wait_for(f"(([a], [b]) => b > a + 50)(...[2, 60].map(x => {CANVAS}.getContext('2d').getImageData(x, 18, 1, 1).data))")
+
+    def test_a_lens_that_the_scene_has_not_is_refused_with_the_reason(self):
+        self.open("void mainImage(out vec4 c, in vec2 p) { c = vec4(0.5); }\n")
+        self.choose("proof")
+        self.browser.wait_for(f"{self.LEGEND}.innerText.includes('no marching loop')")
+
+
+class Framed(Page):
+    """What the page and the one around it, an editor's, say to each other."""
+
+    def frame(self) -> None:
+        """Shows the page in a frame; `said` are the messages of the page."""
+        test = self
+
+        class Around(http.server.BaseHTTPRequestHandler):
+            def do_GET(self):
+                self.send_response(200)
+                self.end_headers()
+                self.wfile.write(f"""<body style="margin:0"><iframe style="border:0;width:100%;height:700px" src="{test.service.address}"></iframe>
+                    <script>said = []; onmessage = ({{data}}) => said.push(data);
+                    ask = tidemark => document.querySelector("iframe").contentWindow.postMessage({{tidemark}}, "*")</script>""".encode())
+
+            def log_message(self, *_):
+                pass
+
+        around = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Around)
+        threading.Thread(target=around.serve_forever, daemon=True).start()
+        self.addCleanup(around.server_close)
+        self.addCleanup(around.shutdown)
+        self.write("a.glsl", SCENE)
+        origin = f"http://127.0.0.1:{around.server_port}"
+        self.service = Service(self.folder, "a.glsl", "--size", "64x36", "--frame-ancestor", origin)
+        self.addCleanup(self.service.close)
+        self.browser.open(origin)
+
+    def said(self, what: str) -> dict:
+        return self.browser.wait_for(f"said.find(({{tidemark}}) => tidemark === '{what}')")
+
+    def test_pictures_commands_and_pixels(self):
+        self.frame()
+        picture = self.said("picture")
+        self.assertEqual((picture["size"], picture["bad"]), ([64, 36], 0))
+        self.assertGreater(picture["draw"], 0)
+        self.browser.evaluate("ask('command')")
+        self.assertTrue(self.said("command")["text"].startswith("tidemark capture a.glsl"))
+        self.browser.evaluate("ask('pick')")
+        self.browser.evaluate("ask('command')")  # messages come in order: the answer shows that the page waits for a click
+        self.browser.wait_for("said.filter(({tidemark}) => tidemark === 'command').length === 2")
+        for kind in ("mousePressed", "mouseReleased"):
+            self.browser.mouse(kind, 300, 100, button="left", buttons=int(kind == "mousePressed"), clickCount=1)
+        pixel = self.said("pick")
+        self.assertTrue(0 <= pixel["x"] < 64 and 0 <= pixel["y"] < 36, pixel)
+        # The scene's mouse did not move: the command names none.
+        self.browser.evaluate("ask('command')")
+        self.browser.wait_for("said.filter(({tidemark}) => tidemark === 'command').length === 3")
+        self.assertNotIn("--mouse", self.browser.evaluate("said.findLast(({tidemark}) => tidemark === 'command').text"))
 
 
 if __name__ == "__main__":

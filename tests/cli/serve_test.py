@@ -2,10 +2,11 @@
 import os
 import signal
 import socket
+import subprocess
 import time
 
 from support import png
-from support.program import ProgramTest, environment, main
+from support.program import PROGRAM, TIME_LIMIT, ProgramTest, environment, main
 from support.websocket import BINARY, TEXT, Service, Viewer, ask
 
 # Smooth, as JPEG likes it, and still.
@@ -60,13 +61,13 @@ class Serve(ProgramTest):
 
 
 class Pictures(Serve):
-    def test_are_those_of_capture(self):
+    def test_equal_those_of_capture(self):
         viewer = self.viewer(self.serve("a.glsl", "--quality", "95", text=GRADIENT))
         head, file = viewer.picture()
         self.assertEqual((head["number"], head["frame"], len(head["costs"])), (1, 0, 1))
         self.assert_shows(file)
 
-    def test_that_stand_still_are_sent_once(self):
+    def test_still_pictures_are_sent_once(self):
         viewer = self.viewer(self.serve("a.glsl", text=GRADIENT))
         viewer.picture()
         viewer.send("turn", name="blue", value=[0.75])
@@ -75,7 +76,7 @@ class Pictures(Serve):
         viewer.send("turn", name="blue", value=[0.5])
         self.assertEqual(viewer.picture()[0]["number"], 3, "none was sent between")
 
-    def test_that_move_go_on_while_they_are_seen(self):
+    def test_moving_pictures_wait_for_acknowledgement(self):
         service = self.serve("a.glsl", text=MOVING)
         viewer = self.viewer(service)
         numbers = [viewer.picture()[0]["number"] for _ in range(5)]
@@ -97,7 +98,7 @@ class Pictures(Serve):
         brightest = max(max(self.pixels(viewer.picture()[1])[0]) for _ in range(3))
         self.assertLess(brightest, 200, "iTimeDelta of 8 s is white")
 
-    def test_of_another_pass(self):
+    def test_another_pass_is_shown(self):
         self.write("a/image.glsl", '#iChannel0 "buffer_a.glsl"\nvoid mainImage(out vec4 c, in vec2 p)'
                                    " { c = vec4(0.0, texelFetch(iChannel0, ivec2(p), 0).x, 0.0, 1.0); }\n")
         self.write("a/buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0, 0.0, 0.0, 1.0); }\n")
@@ -109,7 +110,7 @@ class Pictures(Serve):
         self.seen_until(viewer, lambda r, g, b: r > 200 and g < 50)
 
 
-    def test_that_are_drawn_in_parts_take_all_of_their_parts(self):
+    def test_time_of_a_frame_drawn_in_parts_covers_all_parts(self):
         """By the program's own clock: a slow frame is drawn over many turns of its loop, not in the last one."""
         slow = """\
 void mainImage(out vec4 c, in vec2 p) {
@@ -127,7 +128,7 @@ void mainImage(out vec4 c, in vec2 p) {
         self.assertGreaterEqual(head["draw"], head["costs"][0])
 
 
-class Hands(Serve):
+class Controls(Serve):
     def test_mouse_and_knobs(self):
         viewer = self.viewer(self.serve("a.glsl", "--quality", "95", text=GRADIENT))
         viewer.picture()
@@ -168,7 +169,7 @@ class Hands(Serve):
         command = viewer.text("clipboard")
         self.assertRegex(command, r"^tidemark capture a\.glsl .*--set blue=0\.5")
 
-    def test_keys_that_are_the_windows_alone(self):
+    def test_shortcuts_of_the_window_are_ignored(self):
         """S would save a file on the other machine, Esc end the program."""
         service = self.serve("a.glsl", text=GRADIENT)
         viewer = self.viewer(service)
@@ -180,7 +181,7 @@ class Hands(Serve):
         viewer.picture()
         self.assertEqual(sorted(os.listdir(self.folder)), ["a.glsl"])
 
-    def test_what_is_not_there_is_ignored(self):
+    def test_unknown_names_are_ignored(self):
         viewer = self.viewer(self.serve("a.glsl", text=GRADIENT))
         viewer.picture()
         viewer.send("turn", name="nothing", value=[1])
@@ -204,8 +205,9 @@ ARRAY = """\
 const int A = 4;
 void mainImage(out vec4 c, in vec2 p) {
     float values[A];
-    values[0] = float((-2147483647 - 1) / A);
-    c = vec4(values[0] < 0.0 ? 1.0 : 0.0);
+    for (int i = 0; i < 2; ++i)
+        values[(int(p.x) + i) % A] = float((-2147483647 - 1) / A);
+    c = vec4(values[int(p.y) % A] < 0.0 ? 1.0 : 0.0);
 }
 """
 
@@ -217,7 +219,7 @@ def nested(depth: int) -> str:
 
 
 class Crashes(Serve):
-    def test_a_definition_is_tried_apart(self):
+    def test_a_definition_is_compiled_in_another_process(self):
         """The driver divides by zero at compile time, or takes all memory: in a process of its own."""
         viewer = self.viewer(self.serve("a.glsl", "--memory", "1G", text=ARRAY))
         viewer.picture()
@@ -229,7 +231,7 @@ class Crashes(Serve):
                 viewer.send("define", name="A", value="2")
                 viewer.text("state", lambda state: not state["errors"])
 
-    def test_a_text_that_never_compiles_is_given_up_for_the_next(self):
+    def test_an_endless_compilation_is_cancelled_by_the_next_save(self):
         viewer = self.viewer(self.serve("a.glsl", text=GRADIENT))
         viewer.picture()
         for depth in (40, 41, 42, 43):
@@ -240,7 +242,7 @@ class Crashes(Serve):
 
 
 class Viewers(Serve):
-    def test_one_steers(self):
+    def test_one_viewer_has_control(self):
         service = self.serve("a.glsl", text=GRADIENT)
         first = self.viewer(service)
         self.assertEqual(first.text("steering"), {"you": True, "viewers": 1})
@@ -257,7 +259,7 @@ class Viewers(Serve):
         second.close()
         self.assertEqual(first.text("steering", lambda steering: steering["you"]), {"you": True, "viewers": 1})
 
-    def test_sees_the_scene_that_is_saved_and_what_is_wrong_with_it(self):
+    def test_receive_the_saved_scene_and_its_errors(self):
         viewer = self.viewer(self.serve("a.glsl", text=GRADIENT))
         viewer.picture()
         self.write("a.glsl", GRADIENT.replace("uv.x", "nowhere"))
@@ -275,20 +277,20 @@ class Viewers(Serve):
         self.seen_until(viewer, lambda r, g, b: r > 240)
         viewer.text("state", lambda state: not state["errors"])
 
-    def test_of_a_scene_that_is_not_there_yet(self):
+    def test_wait_for_a_scene_file(self):
         viewer = self.viewer(self.serve("a.glsl"))
         viewer.text("state", lambda state: state["errors"])
         self.write("a.glsl", GRADIENT)
         self.assert_shows(viewer.picture()[1], most=12)
 
-    def test_the_last_ends_it_if_told(self):
+    def test_the_last_viewer_ends_the_service_with_once(self):
         service = self.serve("a.glsl", "--once", text=GRADIENT)
         viewer = self.viewer(service)
         viewer.picture()
         viewer.close()
         self.assertEqual(service.end(), (0, ""))
 
-    def test_may_come_again(self):
+    def test_may_reconnect(self):
         service = self.serve("a.glsl", text=GRADIENT)
         for _ in range(2):
             viewer = self.viewer(service)
@@ -297,7 +299,7 @@ class Viewers(Serve):
         service.process.send_signal(signal.SIGINT)
         self.assertEqual(service.end(), (130, ""))
 
-    def test_too_many(self):
+    def test_are_limited_in_number(self):
         service = self.serve("a.glsl", text=GRADIENT)
         viewers = [self.viewer(service) for _ in range(16)]
         for viewer in viewers:
@@ -315,18 +317,43 @@ class Access(Serve):
         self.assertTrue(page.startswith(b"<!doctype html>"))
         self.assertNotIn(service.address.partition("token=")[2].encode(), page)
 
-    def test_is_refused(self):
+    def test_is_refused_without_a_token(self):
         service = self.serve("a.glsl", text=GRADIENT)
         path = "/?" + service.address.partition("/?")[2]
         other = "0" * 22
         for what, headers, method, status in (
-                ("/", {}, "GET", 403), (f"/?token={other}", {}, "GET", 403), (path, {"Host": "evil.example"}, "GET", 403),
+                ("/socket", {}, "GET", 403), (f"/?token={other}", {}, "GET", 403), (path, {"Host": "evil.example"}, "GET", 403),
                 (path.replace("/?", "/etc/passwd?"), {}, "GET", 404), (path, {}, "POST", 405)):
             with self.subTest(what=what, method=method):
                 self.assertEqual(ask(service.address, what, headers, method)[0], status)
         self.assertEqual(self.viewer(service, token=other).status, 403)
+        self.assertEqual(self.viewer(service, token="").status, 403)
         self.assertEqual(self.viewer(service, Origin="http://evil.example").status, 403)
         self.assertEqual(self.viewer(service, Origin="http://" + service.address.split("/")[2]).status, 101)
+
+    def test_pages_that_may_frame_it_and_forwarded_addresses(self):
+        origin = "https://name-8080.example.dev"
+        service = self.serve("a.glsl", "--frame-ancestor", "vscode-webview:", "--frame-ancestor", "https://*.vscode-cdn.net",
+                             "--allow-origin", origin, text=GRADIENT)
+        self.assertEqual(ask(service.address, "/", {"Host": "name-8080.example.dev"})[0], 200)
+        self.assertEqual(self.viewer(service, Origin=origin).status, 101)
+        self.assertEqual(self.viewer(service, Origin=origin + ":1").status, 403)
+        self.expect_error(["serve", "a.glsl", "--frame-ancestor", "https:"], 2, "--frame-ancestor: 'https:' cannot frame")
+        self.expect_error(["serve", "a.glsl", "--allow-origin", "example.dev"], 2, "--allow-origin: 'example.dev' is no origin")
+
+    def test_texts_of_an_editor(self):
+        self.write("a.glsl", GRADIENT)
+        for lines, wrong in (("", "ended before the first line"), ("{}\n", "needs lines such as"), ("7\n", "needs lines such as"),
+                             ('{"texts": {"a.glsl": 7}}\n', "needs lines such as")):
+            with self.subTest(lines):
+                self.assertIn("--editor: standard input " + wrong, self.refused("a.glsl", lines))
+        self.assertIn("--editor: standard input cannot hold the scene, too", self.refused("-", GRADIENT))
+
+    def refused(self, scene: str, texts: str) -> str:
+        done = subprocess.run([PROGRAM, "serve", scene, "--editor"], cwd=self.folder, input=texts, capture_output=True, text=True,
+                              env=environment(), timeout=TIME_LIMIT, check=False)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        return done.stderr
 
     def test_hostile_messages(self):
         service = self.serve("a.glsl", text=GRADIENT)
@@ -352,7 +379,7 @@ class Access(Serve):
                     pass
         self.viewer(service).picture()
 
-    def test_mute_connections_do_not_block_others(self):
+    def test_silent_connections_do_not_block_viewers(self):
         service = self.serve("a.glsl", text=GRADIENT)
         at = service.address.split("/")[2].split(":")
         mute = [socket.create_connection((at[0], int(at[1]))) for _ in range(100)]
@@ -372,7 +399,7 @@ class Access(Serve):
         self.expect_failure(["serve", "a.glsl"], 2, "tidemark: error: the token has 5 characters: give 16 to 128 letters, digits, "
                             "- or _, as in `openssl rand -hex 16`", env=environment(TIDEMARK_TOKEN="short"))
 
-    def test_where_to_listen(self):
+    def test_host_and_port_to_listen_at(self):
         service = self.serve("a.glsl", text=GRADIENT)
         port = service.address.split("/")[2].split(":")[1]
         self.assertEqual(service.address.split("/")[2].split(":")[0], "127.0.0.1")
@@ -393,7 +420,7 @@ class Loading(Serve):
         with open(f"/proc/{process}/maps", encoding="utf-8") as maps:
             return maps.read()
 
-    def test_what_it_needs(self):
+    def test_loads_only_needed_libraries(self):
         service = self.serve("a.glsl", text=GRADIENT)
         self.viewer(service).picture()
         loaded = self.libraries(service.process.pid)

@@ -3,7 +3,7 @@ import json
 
 from support.program import ProgramTest, main
 
-# Of 500 turns of a loop nobody sees anything; of 200 others a little.
+# 500 iterations of one loop change nothing that is seen; 200 of another change a little.
 SCENE = """float dear(float x, int n) {
     float sum = x;
     for (int i = 0; i < 5000; ++i) {
@@ -20,7 +20,7 @@ void mainImage(out vec4 c, in vec2 p) {
     c = vec4(colour, 1.0);
 }
 """
-QUICK = ("--size", "96x54", "--budget", "60")
+QUICK = ("--size", "48x27", "--budget", "60")
 
 
 class Simplify(ProgramTest):
@@ -50,7 +50,7 @@ class Simplify(ProgramTest):
         for cut in found["cuts"]:
             self.assertEqual(cut["error_alone"], 0)
 
-    def test_what_shows_little_goes_within_the_error(self):
+    def test_nearly_invisible_work_is_cut_within_the_error(self):
         found, said = self.simplify("--max-error", "psnr=40dB")
         self.assertEqual((self.folder / "dear.glsl").read_text(), SCENE)
         unseen, *others = found["cuts"]
@@ -82,7 +82,7 @@ void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p / iResolution.x
         self.assertIn("p *= 2.0;", (self.folder / "smooth.glsl").read_text())
         self.assertIn("0.5 * fract(p / iResolution.xy)", (self.folder / "dear.glsl").read_text())
 
-    def test_frames_that_lead_to_the_next_are_searched_near_the_first(self):
+    def test_feedback_scenes_are_searched_near_the_first_frame(self):
         self.write("dear.glsl", """#iChannel0 "self"
 void mainImage(out vec4 c, in vec2 p) { c = 0.9 * texture(iChannel0, p / iResolution.xy) + 0.1 * sin(iTime + p.x); }
 """)
@@ -91,14 +91,14 @@ void mainImage(out vec4 c, in vec2 p) { c = 0.9 * texture(iChannel0, p / iResolu
         self.assertEqual(views[:4], ["t=0.2", "t=0.5", "t=1", "t=2"], said)
         self.assertLess(max(float(view.removeprefix("t=").split(",")[0]) for view in views), 6)
 
-    def test_a_loop_without_an_end_is_named_and_left(self):
+    def test_an_endless_loop_is_named_and_kept(self):
         self.write("dear.glsl", SCENE.replace("for (int i = 0; i < 5000; ++i) {", "int i = -1; for (;;) { ++i;"))
         found, said = self.simplify("--exact")
         self.assertIn("dear.glsl:3: this loop may be endless by its head", said)
         for cut in found["cuts"]:
             self.assertNotRegex(cut["cut"], r"dear\.glsl:[3-6]:")
 
-    def test_nothing_to_leave_out_is_said(self):
+    def test_reports_a_scene_without_cuts(self):
         self.write("dear.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, 0.0, 1.0); }\n")
         found, said = self.simplify("--exact")
         self.assertEqual(found["cuts"], [])
@@ -122,7 +122,7 @@ void mainImage(out vec4 c, in vec2 p) { c = 0.9 * texture(iChannel0, p / iResolu
         self.assertIn("--- project/image.glsl\n", done.stdout.decode())
         self.assertEqual((self.folder / "project.json").read_bytes(), before)
 
-    def test_a_picture_of_nan_cannot_be_held_against(self):
+    def test_a_picture_of_nan_is_refused_as_reference(self):
         self.write("dear.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(sqrt(-p.x)); }\n")
         done = self.run_program("simplify", "dear.glsl", *QUICK)
         self.assertEqual(done.returncode, 1, done.stderr)

@@ -13,7 +13,7 @@ from support.program import PROGRAM, TIME_LIMIT, ProgramTest, environment, main
 
 PLAIN = "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.25, 0.5, 0.75, 1.0); }\n"
 SMALL = ("--size", "16x16")
-# A colour, a window title, the one-character form of CSI, a direction of writing, bytes that are no UTF-8.
+# A colour, a window title, the one-character form of CSI, a direction of writing, bytes that are not UTF-8.
 STEER = b"\x1b[31m\x1b]0;owned\x07\xc2\x9b31m\xe2\x80\xae\xff\r\x08\x7f"
 
 
@@ -28,7 +28,7 @@ def steers(text: bytes) -> list[str]:
 
 
 class Patterns(ProgramTest):
-    def test_default_names_are_no_patterns(self):
+    def test_default_names_are_not_patterns(self):
         for stem in ("shot#1", "50%", "%04d", "%s%n", "{}", "sky_{}", "a b", "$(touch x)", "#", "a'b\"c", "x.mp4"):
             with self.subTest(stem):
                 self.write(f"{stem}.glsl", PLAIN)
@@ -54,7 +54,7 @@ class Patterns(ProgramTest):
         self.assertIn("check --trace ./-x.glsl", done.stderr)
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
-    def test_videos_with_names_that_ffmpeg_knows_otherwise(self):
+    def test_videos_with_names_special_to_ffmpeg(self):
         self.write("a.glsl", PLAIN)
         for name in ("-y.mp4", "concat:a.mp4", "pipe:1.webm", "http:x.gif", "%d.mp4", "a b'c.mp4"):
             with self.subTest(name):
@@ -147,7 +147,7 @@ class Terminal(ProgramTest):
             with self.subTest(command=command):
                 self.expect_tame(*command, codes=(0, 1, 2, 3))
 
-    def test_printed_commands_are_the_files_own(self):
+    def test_printed_commands_quote_file_names(self):
         """A shell gives the program the very name back."""
         name = "n\x1b[31m'\\\n\x7f"
         self.write(f"{name}.glsl", PLAIN.replace("0.25", "sqrt(-1.0 - p.x)"))
@@ -157,7 +157,7 @@ class Terminal(ProgramTest):
                                 stderr=subprocess.STDOUT, timeout=TIME_LIMIT)
         self.assertEqual(traced.returncode, 1, traced.stdout)
 
-    def test_source_through_a_pipe_is_exact_and_on_a_terminal_tame(self):
+    def test_source_is_exact_in_a_pipe_and_escaped_on_a_terminal(self):
         scene = self.write_bytes(b"a.glsl", b"// \x1b[31m\xff\n" + PLAIN.encode())
         self.assertIn(b"// \x1b[31m\xff\n", self.succeed("inspect", scene, "--source").stdout)
         leader, follower = pty.openpty()

@@ -23,8 +23,8 @@ void mainImage(out vec4 c, in vec2 p) {
 }
 """
 
-# A plane at z = 5 in front of the camera at 0, looking along z; t is known. Steps of half the distance: after N of
-# them 5 * 0.5^N is left of it, unless it is nearer than NEAR.
+# A plane at z = 5 and a camera at 0 that looks along z; t is known. Steps of half the distance: after N steps the
+# distance is 5 * 0.5^N, unless it is smaller than NEAR.
 PLANE = """
 #define N 8
 #define NEAR 1e-9
@@ -65,7 +65,7 @@ class Study(ProgramTest):
 
 
 class Pictures(Study):
-    def test_a_rule_of_second_order_is_seen_as_one(self):
+    def test_a_second_order_rule_converges_at_second_order(self):
         self.write("sum.glsl", SUM)
         points = self.points(self.study("sum.glsl", "--vary", "STEPS=4,8,16,32"))
         errors = [points[f"STEPS = {n}"]["all"]["picture"]["rmse"] for n in (4, 8, 16, 32)]
@@ -86,7 +86,7 @@ class Pictures(Study):
         self.assertLess(reference["uncertainty"], 0.11 * strict)
         self.assertFalse(self.points(study)["STEPS = 4"]["hollow"])
 
-    def test_a_named_reference_makes_its_like_hollow(self):
+    def test_points_near_a_named_reference_are_hollow(self):
         self.write("sum.glsl", SUM)
         study = self.study("sum.glsl", "--vary", "STEPS=4,16", "--reference", "STEPS=16")
         points = self.points(study)
@@ -115,7 +115,7 @@ class Pictures(Study):
         if "llvmpipe" in study["machine"]["renderer"]:  # its timer sees some of the work only
             self.assertRegex(study["timing"]["clock"], clock + r" \(the driver's GPU timer shows .* of it and is not used\)")
 
-    def test_one_bad_point_does_not_end_the_study(self):
+    def test_a_failing_point_does_not_end_the_study(self):
         self.write("sum.glsl", SUM)
         points = self.points(self.study("sum.glsl", "--vary", "STEPS=nonsense,4,8"))
         self.assertRegex(points["STEPS = nonsense"]["failure"], r"sum\.glsl:\d+: error: .*nonsense")
@@ -138,7 +138,7 @@ class Pictures(Study):
 
 
 class Hits(Study):
-    def test_errors_work_and_causes_are_those_of_the_geometric_series(self):
+    def test_errors_work_and_causes_of_a_geometric_series(self):
         self.write("plane.glsl", PLANE)
         study = self.study("plane.glsl", "--vary", "N=2,4,8", "--reference", "N=40")
         points = self.points(study)
@@ -173,7 +173,7 @@ class Hits(Study):
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("deep.glsl:", done.stderr)
 
-    def test_error_is_taken_apart(self):
+    def test_error_is_split_into_causes(self):
         self.write("plane.glsl", PLANE)
         self.write("plane.study.json", json.dumps({
             "views": [{"name": "only", "time": 0}],
@@ -206,7 +206,7 @@ class Report(Study):
         orange = png.read(self.folder / "report/maps/01-causes.png").pixel(8, 4)
         self.assertEqual(orange, (229, 158, 0))  # exhaustion
 
-    def test_page_is_whole_and_asks_nobody(self):
+    def test_page_is_well_formed_and_makes_no_requests(self):
         self.write("sum.glsl", SUM)
         self.study("sum.glsl", "--vary", "STEPS=4,8")
         text = (self.folder / "report/report.html").read_text()
@@ -246,7 +246,7 @@ class Baseline(Study):
 
 
 class Interrupted(Study):
-    def test_what_there_is_is_written_and_marked(self):
+    def test_partial_results_are_written_and_marked(self):
         self.write("slow.glsl", SUM.replace("STEPS 4", "STEPS 20000"))
         program = subprocess.Popen([PROGRAM, "study", "slow.glsl", "--vary", "STEPS=4,8,20000", "--reference", "STEPS=8",
                                     "--size", "64x36", "--budget", "1000", "-o", "report"], cwd=self.folder,
@@ -266,7 +266,7 @@ class Interrupted(Study):
         self.assertIn("incomplete", (self.folder / "report/report.html").read_text())
 
 
-    def test_before_there_is_a_reference_it_ends_as_an_interrupt_does(self):
+    def test_interrupt_before_the_reference_exits_130(self):
         self.write("slow.glsl", SUM.replace("STEPS 4", "STEPS 20000"))
         program = subprocess.Popen([PROGRAM, "study", "slow.glsl", "--vary", "STEPS=4,8,20000", "--size", "640x360",
                                     "-o", "report"], cwd=self.folder, stderr=subprocess.PIPE, text=True, env=environment())
@@ -291,7 +291,7 @@ class Kept(Study):
     def contents(self) -> dict[str, bytes]:
         return {name: (self.folder / name).read_bytes() for name in self.files() if name.startswith("report/")}
 
-    def test_a_study_that_fails_replaces_nothing(self):
+    def test_a_failing_study_replaces_nothing(self):
         self.write("broken.glsl", "#define STEPS 1\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(nothing); }\n")
         for arguments, code in (("sum.glsl --vary STOPS=4,8", 2), ("sum.glsl --vary STEPS=4,8 --reference STOPS=1", 2),
                                 ("broken.glsl --vary STEPS=4,8", 3), ("none.glsl --vary STEPS=4,8", 3),
@@ -320,7 +320,7 @@ class Kept(Study):
         self.assertEqual(lines[2], "4", done.stderr)
         self.assertEqual(lines[:2], lines[3:])
 
-    def test_an_interrupted_one_goes_beside_it(self):
+    def test_an_interrupted_study_is_written_beside_the_old_study(self):
         self.write("slow.glsl", SUM.replace("STEPS 4", "STEPS 20000"))
         for _ in range(2):
             program = subprocess.Popen([PROGRAM, "study", "slow.glsl", "--vary", "STEPS=4,8,20000", "--reference", "STEPS=8",
@@ -339,7 +339,7 @@ class Kept(Study):
             study = json.loads((self.folder / "report-interrupted/study.json").read_text())
             self.assertFalse(study["complete"])
 
-    def test_a_baseline_that_is_no_study_is_told_so(self):
+    def test_an_invalid_baseline_is_an_error(self):
         for text in ('{"schema": 5, "points": []}', '{"schema": "tidemark study 1"}', "[1]",
                      '{"schema": "tidemark study 1", "points": [{"all": 1, "label": 7}], "views": 3}'):
             self.write("old.json", text)
@@ -355,7 +355,7 @@ class Names(Study):
                "=cmd|' /C calc'!A0", "+1+1", "-1+1", "@SUM(1)", "</script><script>alert(1)</script>", "a,b", "<b>&amp;",
                "x\nEOD\nsystem('touch RAN')\n!touch RAN\n", "x\ty\x1b]0;z\x07", "{/Symbol a}^2_3", "%s %d \\"]
 
-    def test_are_text_wherever_they_end(self):
+    def test_are_escaped_in_every_output(self):
         self.write("sum.glsl", SUM)
         self.write("sum.study.json", json.dumps({
             "about": "</p><script>alert(2)</script>\n`touch RAN`",
@@ -384,7 +384,7 @@ class Names(Study):
         self.assertNotIn("alert(1)</script>", page)
         self.assertFalse([c for c in page if ord(c) < 32 and c != "\n"])
 
-    def test_knobs_that_are_called_like_a_column(self):
+    def test_knobs_named_like_a_column(self):
         self.write("a.glsl", SUM.replace("STEPS", "label"))
         self.study("a.glsl", "--vary", "label=4,8")
         rows = list(csv.DictReader((self.folder / "report/points.csv").read_text().splitlines()))
@@ -423,7 +423,7 @@ class BadInput(Study):
         self.assertEqual((done.returncode, done.stderr),
                          (3, 'bad.study.json:2: error: /serie: did you mean "series"?\n'))
 
-    def test_a_folder_that_cannot_be_written_is_told_before_the_work(self):
+    def test_an_unwritable_folder_is_reported_before_the_work(self):
         self.write("sum.glsl", SUM)
         self.write("file", "")
         start = time.monotonic()

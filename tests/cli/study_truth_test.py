@@ -52,7 +52,7 @@ class OwnError(Truth):
         self.assertLessEqual(really, 1.001 * reference["uncertainty"], reference)
         self.assertLess(reference["uncertainty"], most * really + 1e-6, reference)
 
-    def test_slow_sums(self):
+    def test_bounds_of_slow_sums(self):
         self.expect_bound(sum_of("pow(f, -1.1) / 16.0"), 10.5844484649508098 / 16,
                           lambda n: math.fsum(k ** -1.1 for k in range(1, n + 1)) / 16)
         self.expect_bound(sum_of("pow(f, -1.5) / 4.0"), 2.6123753486854883 / 4,
@@ -60,13 +60,13 @@ class OwnError(Truth):
         self.expect_bound(sum_of("1.0 / (f * f)"), math.pi ** 2 / 6,
                           lambda n: math.fsum(1 / k ** 2 for k in range(1, n + 1)))
 
-    def test_fast_ones(self):
+    def test_bounds_of_fast_sums(self):
         self.expect_bound(sum_of("pow(0.9, f) / 9.0"), 1, lambda n: 1 - 0.9 ** n, vary="N=16,32,64", most=1e9)
         self.expect_bound(scene("float x = 0.0; for (int k = 0; k < N; ++k) x += exp((float(k) + 0.5) / float(N)) / "
                                 "(2.0 * float(N));", "#define N 4"), (math.e - 1) / 2,
                           lambda n: sum(math.exp((k + 0.5) / n) for k in range(n)) / (2 * n))
 
-    def test_what_does_not_converge_has_no_truth(self):
+    def test_divergent_series_have_no_truth(self):
         self.expect_no_truth(self.study(sum_of("1.0 / f"), "--vary", "N=4,8,16,32"), "it does not converge: ")
         self.expect_no_truth(self.study(sum_of("0.01"), "--vary", "N=4,8"), "it does not converge: ")
 
@@ -76,12 +76,12 @@ class OwnError(Truth):
         self.assertTrue(all(point["hollow"] for point in study["points"]))
         self.assertFalse([line for line in study["verdict"] if line.startswith(("cheapest", "at equal error"))])
 
-    def test_a_cycle_that_only_even_steps_hide_is_found(self):
+    def test_a_cycle_visible_only_at_odd_steps_is_found(self):
         two = scene("float x = 0.25; for (int k = 0; k < N; ++k) x = 0.125 / x;", "#define N 2")
         self.expect_no_truth(self.study(two, "--vary", "N=2,4,8"),
                              r"it does not converge: N = 8 and N = 16 show the same, but N = \d+ differs by 0\.25")
 
-    def test_so_is_one_of_any_length(self):
+    def test_a_cycle_of_any_length_is_found(self):
         for length in (3, 5, 7):
             cycle = scene(f"float x = 0.25 + 0.5 * float(N % {length} == 0);", f"#define N {length}")
             study = self.study(cycle, "--vary", f"N={length},{2 * length},{4 * length}")
@@ -95,7 +95,7 @@ class OwnError(Truth):
         strictest = {point["label"]: point for point in study["points"]}["N = 64"]
         self.assertTrue(strictest["hollow"])
 
-    def test_nothing_to_go_on_is_no_truth(self):
+    def test_knobs_without_a_stricter_value_give_no_truth(self):
         text = scene("float x = FINE ? 0.25 : 0.5;", "#define FINE false")
         self.expect_no_truth(self.study(text, "--vary", "FINE=false,true"),
                              "no knob of the study is a number that can be made stricter")
@@ -112,15 +112,25 @@ class Limits(Truth):
         text = scene("float v = 0.2 + 0.6 * p.x / iResolution.x, x = 0.0; for (int k = 0; k < N; k++) x += v; x /= float(N);",
                      "#define N 50")
         study = self.study(text, "--vary", "N=500,5000,50000,500000")
-        if "llvmpipe" not in study["machine"]["renderer"]:
-            self.skipTest("this driver does not cut loops")
         reference = study["references"]["picture"]
         self.assertLess(reference["uncertainty"], 1e-6)
         points = {point["label"]: point for point in study["points"]}
+        if "failure" not in points["N = 500000"]:  # Mesa 25 runs such a loop to its end
+            self.assertLess(points["N = 500000"]["all"]["picture"]["rmse"], 1e-2)
+            self.skipTest("this driver does not cut loops")
         self.assertIn("the driver ends a pixel's loops after 65535 iterations", points["N = 500000"]["failure"])
         self.assertIn("the driver ends a pixel's loops", reference["self_check"])
         self.assertIn("not measured: N = 500000: ", self.words)
         self.assertLess(points["N = 50000"]["all"]["picture"]["rmse"], 1e-3)  # of a sum of floats
+
+    def test_the_ladder_ends_at_non_finite_values(self):
+        """Past 256 terms there is no number, as where whole numbers overflow."""
+        text = scene("float x = 0.0; for (int k = 1; k <= N; k++) x += 0.5 / (float(k) * float(k)); "
+                     "if (N > 256) x = sqrt(-x);", "#define N 8")
+        reference = self.study(text, "--vary", "N=8,16,32")["references"]["picture"]
+        self.assertGreater(reference["uncertainty"], 0.3 / 256)
+        self.assertLess(reference["uncertainty"], 3.0 / 256)
+        self.assertIn("are NaN or infinite with N = 512", reference["self_check"])
 
     def test_a_march_whose_rays_all_end_has_an_exact_truth(self):
         study = self.study("""#define TURNS 12
@@ -154,7 +164,7 @@ void mainImage(out vec4 c, in vec2 p) {
         self.assertLess(reference["uncertainty"], 1000 * step)
         self.assertIn("its buffers are stored as floats", reference["self_check"])
 
-    def test_a_rule_of_even_steps_is_asked_for(self):
+    def test_a_rule_that_needs_even_steps_is_named(self):
         simpson = scene("float h = 1.0 / float(N), x = 0.0; for (int k = 0; k <= N; k++) x += h / 3.0 * exp(-float(k) * h) * "
                         "(k == 0 || k == N ? 1.0 : k % 2 == 1 ? 4.0 : 2.0); x += N % 2 == 1 ? 0.1 : 0.0;", "#define N 4")
         none = self.study(simpson, "--vary", "N=8,64,512")["references"]["picture"]["none"]
@@ -188,7 +198,7 @@ void mainHit(out vec4 hit, in vec2 p) { float n, t = march(ray(p), n); hit = vec
 #endif
 """
 
-    def test_few_steps_that_miss_rays_are_not_as_exact(self):
+    def test_few_steps_that_miss_rays_are_less_exact(self):
         study = self.study(self.SPHERE, "--vary", "STEPS=4,24,48,96", size=("--size", "64x36"))
         points = {point["label"]: point for point in study["points"]}
         self.assertGreater(points["STEPS = 4"]["all"]["hits"]["wrong_0.1_percent"], 3)
@@ -206,11 +216,11 @@ void mainHit(out vec4 hit, in vec2 p) { float n, t = march(ray(p), n); hit = vec
         self.assertTrue([line for line in study["verdict"] if line.startswith(("cheapest", "no tested", "at equal"))], study["verdict"])
 
 
-class NotANumber(Truth):
+class NonFinite(Truth):
     MIDPOINT = ("float x = 0.0; for (int k = 0; k < N; ++k) x += exp(-3.0 * (float(k) + 0.5) / float(N)) / float(N);"
                 "if ({}) x = sqrt(-1.0 - p.x);")
 
-    def test_pixels_of_a_truth_that_is_nan_are_in_no_error(self):
+    def test_nan_pixels_of_the_truth_are_left_out_of_errors(self):
         plain = self.study(scene(self.MIDPOINT.format("false"), "#define N 4"), "--vary", "N=4,8,16")
         study = self.study(scene(self.MIDPOINT.format("p.x < 1.0"), "#define N 4"), "--vary", "N=4,8,16")
         reference = study["references"]["picture"]
@@ -226,18 +236,18 @@ class NotANumber(Truth):
         self.assertIn("is NaN or infinite in 18 pixels", self.words)
         self.assertIn("It is NaN or infinite in 18 pixels", self.page())
 
-    def test_a_truth_of_too_many_is_none(self):
+    def test_a_truth_with_many_nan_pixels_is_rejected(self):
         self.expect_no_truth(self.study(scene(self.MIDPOINT.format("p.x < 4.0"), "#define N 4"), "--vary", "N=4,8,16"),
                              r"25 % of its pixels are NaN or infinite")
         self.expect_no_truth(self.study(scene(self.MIDPOINT.format("N > 8"), "#define N 4"), "--vary", "N=4,8,16"),
                              r"100 % of its pixels are NaN or infinite")
 
-    def test_a_point_that_is_nan_where_the_truth_is_not_has_no_number(self):
+    def test_a_point_with_nan_in_finite_pixels_has_no_error(self):
         study = self.study(scene(self.MIDPOINT.format("N == 8 && p.x < 1.0"), "#define N 4"), "--vary", "N=4,8,16")
         bad = study["points"][2]["all"]["picture"]
         self.assertEqual((bad["rmse"], bad["non_finite_pixels"], bad["no_truth_pixels"]), (None, 18, 0))
 
-    def test_hits_of_a_truth_that_is_nan_are_in_no_error(self):
+    def test_nan_hits_of_the_truth_are_left_out_of_errors(self):
         def plane(bad: str) -> str:
             return (scene("float x = 0.5;", "#define N 4") +
                     "#ifdef TIDEMARK_HIT\nvoid mainHit(out vec4 hit, in vec2 p) {\nfloat t = 0.0;\n"
@@ -254,8 +264,8 @@ class NotANumber(Truth):
         self.assertEqual(study["references"]["hits"]["no_truth_pixels"], 18)
 
 
-class WhatIsKnown(Truth):
-    def test_a_knob_that_does_nothing_is_named_and_gives_no_verdict(self):
+class Facts(Truth):
+    def test_a_knob_without_effect_is_named_and_gives_no_verdict(self):
         study = self.study(scene("float x = p.x / 16.0;", "#define FOO 1"), "--vary", "FOO=1,2,4,8")
         self.assertEqual(study["idle"], [{"knob": "FOO", "series": "FOO"}])
         self.assertEqual(study["verdict"][0], "FOO changes nothing here: the scene shows the same picture, bit for bit, at all its values")
@@ -263,7 +273,7 @@ class WhatIsKnown(Truth):
         self.assertTrue(all(point["idle"] for point in study["points"][1:]))
         self.assertIn("FOO changes nothing here", self.words)
 
-    def test_one_of_two_knobs_does_nothing(self):
+    def test_one_of_two_knobs_has_no_effect(self):
         text = scene("float x = 0.0; for (int k = 0; k < N; ++k) x += exp((float(k) + 0.5) / float(N)) / "
                      "(4.0 * float(N));", "#define FOO 1\n#define N 4")
         self.write("a.study.json", json.dumps({
@@ -292,7 +302,7 @@ class WhatIsKnown(Truth):
         observed, = self.study(step, "--vary", "H=0.25,0.125,0.0625,0.03125")["orders"]
         self.assertAlmostEqual(observed["order"], 2, delta=0.1)  # falls with the step, too
 
-    def test_no_order_where_there_is_none(self):
+    def test_no_order_without_a_power_law(self):
         geometric = scene("float x = 0.0; float y = 0.5; for (int k = 0; k < N; ++k) { x += y; y *= 0.5; }", "#define N 1")
         observed, = self.study(geometric, "--vary", "N=1,2,4,8")["orders"]
         self.assertIsNone(observed["order"])
@@ -301,7 +311,7 @@ class WhatIsKnown(Truth):
         observed, = self.study(sum_of("1.0 / f"), "--vary", "N=4,8,16,32")["orders"]
         self.assertIsNone(observed["order"])
 
-    def test_what_is_held_fixed_is_said(self):
+    def test_fixed_settings_are_listed(self):
         text = scene("float x = 0.0; for (int k = 0; k < STEPS; ++k) x += exp((float(k) + 0.5) / float(STEPS)) / "
                      "(4.0 * float(STEPS)); x += EPS * gain;",
                      "#define STEPS 4\n#define EPS 0.01\n#iUniform float gain = 0.5\n#define NAME x")
@@ -312,7 +322,7 @@ class WhatIsKnown(Truth):
         self.assertIn("<dt>Held fixed</dt><dd>EPS = 0.01, gain = 0.5.", self.page())
         self.assertEqual(self.study(text, "--vary", "STEPS=4,8,16", "--vary", "EPS=0.1,0.05")["held"], {"gain": "0.5"})
 
-    def test_each_truth_has_its_own_check(self):
+    def test_picture_and_hits_are_checked_separately(self):
         text = (scene("float x = 0.0; for (int k = 0; k < N; ++k) x += exp((float(k) + 0.5) / float(N)) / "
                       "(4.0 * float(N));", "#define N 4") +
                 "#ifdef TIDEMARK_HIT\nvoid mainHit(out vec4 hit, in vec2 p) {\nfloat t = 0.0;\n"
@@ -343,7 +353,7 @@ class Proved(Truth):
         self.assertRegex(hits["self_check"], r"\A288 of 288 rays, evenly spread")
         self.assertNotIn("no proof", self.words)
 
-    def test_a_water_under_another_name_and_an_edited_one(self):
+    def test_a_renamed_water_and_an_edited_water_are_proved(self):
         moved = self.text.replace("return sea_step * (position.y + crests", "return sea_step * (position.y - 1.5 + crests")
         self.assertNotEqual(moved, self.text)
         for text in ("// mine\n" + self.text, moved):
@@ -351,7 +361,7 @@ class Proved(Truth):
             self.expect_proof_from_the_text(study)
             self.assertLess(study["points"][0]["all"]["hits"]["wrong_0.1_percent"], 5)
 
-    def test_without_a_march_that_is_found_the_reason_is_said(self):
+    def test_without_a_march_the_reason_is_given(self):
         study = self.study("#define N 4\nvoid mainHit(out vec4 hit, in vec2 p) { hit = vec4(1.0 / float(N), 1.0, 0.0, 0.0); }\n"
                            "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0 / float(N)); }\n", "--vary", "N=4,8,16")
         said = "the hits are not proved: no ray-marching loop found in Image"
@@ -383,7 +393,7 @@ void mainImage(out vec4 c, in vec2 f) {
         self.assertNotIn("wrong <=", self.words)
         self.assertIn("PSNR >=", self.words)
 
-    def test_no_scene_is_known_by_its_name(self):
+    def test_the_program_contains_no_scene_name(self):
         names = [path.stem for path in (ROOT / "shaders").glob("*.glsl")]
         for source in (ROOT / "runner").rglob("*.?pp"):
             for name in names:

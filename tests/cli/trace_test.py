@@ -55,14 +55,14 @@ class Trace(ProgramTest):
         self.assertRegex(run.stderr, r"\A[^\n]+\n\Z")
         self.assertRegex(run.stderr, pattern)
 
-    def test_the_colour_stands_beside_that_of_the_device(self):
+    def test_reports_computed_and_drawn_colour(self):
         colour = self.report(MARCH)["colour"]
         self.assertTrue(colour["as_drawn"])
         for float_, double, device in zip(colour["float"], colour["double"], colour["device"]):
             self.assertAlmostEqual(float_, double, 5)
             self.assertAlmostEqual(float_, device, 5)
 
-    def test_a_line_has_the_names_of_its_text(self):
+    def test_a_line_names_its_variables(self):
         (ro, rd) = self.values(6)
         self.assertEqual((ro["name"], ro["float"], rd["name"], rd["rows"]), ("ro", [0, 0, -3], "rd", 3))
 
@@ -72,7 +72,7 @@ class Trace(ProgramTest):
         names = [value["name"] for value in self.values(18)]
         self.assertEqual(names, ["heights[0]", "heights[1]", "heights[2]", "heights[3]"])
 
-    def test_turns_of_a_loop(self):
+    def test_iterations_of_a_loop(self):
         steps = self.values(14, "--turns", "1-100")
         self.assertEqual([value["turns"] for value in steps], [[turn] for turn in range(1, len(steps) + 1)])
         self.assertGreater(len(steps), 10)
@@ -81,7 +81,7 @@ class Trace(ProgramTest):
         self.assertEqual(folded[-1], steps[-1])
         self.assertEqual([value["turns"] for value in self.values(14, "--turns", "3-4")], [[3], [4]])
 
-    def test_a_function_tells_where_it_was_called(self):
+    def test_a_function_lists_its_call_sites(self):
         report = self.report(MARCH, "--line", "2")
         (call,) = report["calls"]
         self.assertEqual(call["function"], "map")
@@ -104,7 +104,7 @@ class Trace(ProgramTest):
         self.assertRegex(text, r"not finite\n  scene.glsl:5: color\n")
         self.assertRegex(text, r"  g +NaN +NaN +0\.0 +NaN\n")
 
-    def test_float_and_double_part_ways(self):
+    def test_divergence_of_float_and_double_is_reported(self):
         lines = {line["line"]: line for line in self.report(
             "void mainImage(out vec4 color, in vec2 place) {\n"
             "    float sum = 1.0;\n"
@@ -117,7 +117,7 @@ class Trace(ProgramTest):
         self.assertIn("parted", lines[5])
         self.assertEqual(lines[5]["text"], "if (sum > 1.0000001)")
 
-    def test_the_seed_decides(self):
+    def test_the_seed_changes_the_samples(self):
         first = self.report(CANCELLED)
         self.assertEqual(first, self.report(CANCELLED))
         other = self.report(CANCELLED, "--seed", "7")
@@ -139,7 +139,7 @@ class Trace(ProgramTest):
         self.assertTrue(run.stdout.decode().endswith(
             "scene.glsl:20:  t = 3.0;\n  the pixel does not reach this line\n"), run.stdout)
 
-    def test_a_value_of_a_global_that_is_computed(self):
+    def test_a_computed_global_has_its_value(self):
         report = self.report("float twice = 2.0 * iTime;\n"
                              "void mainImage(out vec4 color, in vec2 place) { color = vec4(twice); }\n", "--time", "3")
         self.assertEqual(report["colour"]["float"], [6, 6, 6, 1])
@@ -169,7 +169,7 @@ class Trace(ProgramTest):
                              "    c = vec4(0.5);\n}\n")
         self.assertTrue(report["colour"]["as_drawn"], report["colour"])
 
-    def test_textures_are_read_as_the_device_reads_them(self):
+    def test_texture_reads_equal_those_of_the_device(self):
         report = self.report("void mainImage(out vec4 c, in vec2 p) {\n"
                              "    c = textureLod(iChannel0, (floor(p) + 0.5) / 256.0, 0.0) + texelFetch(iChannel0, ivec2(p), 1);\n"
                              "    c += vec4(textureSize(iChannel0, 0), 0.0, 0.0);\n}\n")

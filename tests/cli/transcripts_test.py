@@ -29,10 +29,10 @@ REWRITE = "PYTHONPATH=tests python3 tests/cli/transcripts_test.py --write"
 MACHINE = (
     (re.compile(r"^(\d+/\d+ .*, \d+ s left|times of .* the machine was busy)\n", re.MULTILINE), ""),
     (re.compile(r"(\d\.\d s): \w+ \d+ %.*"), r"\1"),  # the shares of probes
-    (re.compile(r"\bMesa [\d.]+[-\w]*"), "Mesa VERSION"),
+    (re.compile(r"\bMesa [\d.]+[-+~\w]*"), "Mesa VERSION"),
     (re.compile(r"(llvmpipe) \([^)]*\)( on \S+,)?"), r"\1"),
 )
-# A number that is no part of a name or a place.
+# A number that does not belong to a name or a place.
 NUMBER = re.compile(r"(?<![\w.:-])-?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?(?![\w:])")
 
 

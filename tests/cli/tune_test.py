@@ -38,7 +38,7 @@ class Tune(ProgramTest):
         done = self.succeed("tune", "sum.glsl", "--json", *QUICK, *arguments)
         return json.loads(done.stdout), done.stderr
 
-    def test_fewer_steps_are_offered_where_an_error_is_allowed(self):
+    def test_fewer_steps_are_offered_within_an_allowed_error(self):
         found, said = self.tune("--max-error", "psnr=50dB")
         self.assertIn("varies STEPS (bounds the loop at sum.glsl:5): 256, ", said)
         self.assertIn("leaves SIDES unchanged", said)
@@ -50,7 +50,7 @@ class Tune(ProgramTest):
         self.assertEqual(len(names), 4)
         self.assertIn("not searched", names[-1])
 
-    def test_what_was_chosen_is_written(self):
+    def test_the_chosen_settings_are_written(self):
         found, _ = self.tune("--max-error", "psnr=50dB", "--write", "-o", "report")
         steps = found["chosen"]["STEPS"]
         self.assertEqual((self.folder / "sum.glsl").read_text(), SUM.replace("STEPS 1024", f"STEPS {steps}"))
@@ -61,12 +61,12 @@ class Tune(ProgramTest):
         self.assertIn(f"#iUniform int STEPS = {found['chosen']['STEPS']} in {{ 1, 9999 }}\n",
                       (self.folder / "sum.glsl").read_text())
 
-    def test_the_most_exact_within_a_time(self):
+    def test_most_exact_settings_within_a_time(self):
         self.write("sum.glsl", SUM.replace("STEPS 1024", "STEPS 16"))
         found, said = self.tune("--max-time", "100000")
         self.assertGreater(int(found["chosen"]["STEPS"]), 16, said)
 
-    def test_numbers_without_a_name_are_turned_in_the_march(self):
+    def test_literals_of_the_march_are_varied(self):
         self.write("march.glsl", MARCH)
         done = self.succeed("tune", "march.glsl", "--json", *QUICK, "--max-time", "100000", "--write")
         self.assertIn("varies march.glsl:4:25 (8, which bounds the march): 2, 3, 4, 6, 8, 12, 16\n", done.stderr)
@@ -78,7 +78,7 @@ class Tune(ProgramTest):
                          MARCH.replace("i < 8", f"i < {turns}").replace("d < 0.001", f"d < {threshold}"))
         self.succeed("study", "march.glsl", "--vary", "march.glsl:4:25=4,8,16", "--size", "32x18", "--budget", "2")
 
-    def test_the_scene_as_it_is_for_a_truth(self):
+    def test_the_unchanged_scene_as_reference(self):
         found, said = self.tune("--as-it-is", "--max-error", "flip=0.02")
         self.assertIn("unchanged: ", said)
         self.assertLess(int(found["chosen"]["STEPS"]), 1024)
@@ -88,12 +88,12 @@ class Tune(ProgramTest):
         chosen = next(point for point in points if point["settings"] == found["chosen"])
         self.assertLessEqual(chosen["all"]["picture"]["flip"], 0.02)
 
-    def test_own_values_instead_of_ours(self):
+    def test_values_of_vary_replace_the_defaults(self):
         found, said = self.tune("--max-error", "psnr=50dB", "--vary", "STEPS=128,256,512,1024")
         self.assertIn("varies STEPS (--vary): 128, 256, 512, 1024", said)
         self.assertIn(found["chosen"]["STEPS"], ["128", "256", "512"])  # a busy machine tells near ones apart badly
 
-    def test_what_is_kept_or_unknown_is_refused(self):
+    def test_kept_and_unknown_settings_are_refused(self):
         for arguments, words in (
                 (("--keep", "STEPS"), "found no number in this scene that trades time for exactness"),
                 (("--vary", "STEP=1,2"), "did you mean 'STEPS'"),
@@ -108,7 +108,7 @@ class Tune(ProgramTest):
                 self.assertEqual(done.returncode, 2)
                 self.assertIn(words, done.stderr)
 
-    def test_no_truth_is_no_verdict(self):
+    def test_without_a_truth_the_verdict_is_missing(self):
         """A loop whose sum grows without end converges to nothing."""
         self.write("sum.glsl", "#define STEPS 64\nvoid mainImage(out vec4 c, in vec2 p) {\n    float sum = 0.0;\n"
                                "    for (int i = 0; i < STEPS; ++i) sum += p.x;\n    c = vec4(sum);\n}\n")
@@ -117,14 +117,14 @@ class Tune(ProgramTest):
         self.assertIn("no result: ", done.stderr)
         self.assertNotIn("chosen", done.stderr)
 
-    def test_without_a_truth_the_scene_as_it_is_takes_its_place_if_an_error_is_given(self):
+    def test_without_a_truth_max_error_compares_with_the_unchanged_scene(self):
         self.write("sum.glsl", "#define STEPS 64\nvoid mainImage(out vec4 c, in vec2 p) {\n    float sum = 0.0;\n"
                                "    for (int i = 0; i < STEPS; ++i) sum += 0.004 * p.x / iResolution.x;\n    c = vec4(sum);\n}\n")
         _, said = self.tune("--max-error", "psnr=40dB")
         self.assertIn("the scene as it is takes the place of a reference: it does not converge", said)
         self.assertNotIn("error:", said)
 
-    def test_a_step_is_longer_where_the_reach_is_held(self):
+    def test_steps_lengthen_when_the_reach_is_kept(self):
         self.write("sum.glsl", """#define TURNS 200
 const float OMEGA = 0.4;
 float map(vec3 p) { return min(length(p) - 0.8, p.y + 0.9); }

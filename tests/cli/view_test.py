@@ -13,17 +13,17 @@ class NoDisplay(ProgramTest):
         if b"\n  view " not in self.succeed("--help").stdout:
             raise unittest.SkipTest("this build has no window")
 
-    def test_says_so_and_names_capture(self):
+    def test_error_names_capture(self):
         for arguments in (["view", "a.glsl"], ["a.glsl"]):
             with self.subTest(arguments=arguments):
                 self.expect_error(arguments, 77, "neither", "WAYLAND_DISPLAY", "`tidemark capture`")
 
-    def test_display_that_does_not_answer(self):
+    def test_unreachable_display(self):
         self.expect_failure(["view", "a.glsl"], 77,
                             "tidemark: error: cannot open a window: X11: Failed to open display :4711; "
                             "`tidemark capture` draws without one", env=environment(DISPLAY=":4711"))
 
-    def test_bad_options_come_first(self):
+    def test_option_errors_are_reported_first(self):
         self.expect_error(["view", "a.glsl", "--size", "0x5"], 2, "--size 0x5")
         self.expect_failure(["view", "a.glsl", "--size", "99999x5"], 2,
                             "tidemark: error: --size 99999x5: a window has at most 32767 pixels on a side")

@@ -102,7 +102,7 @@ class Cluster(ProgramTest):
         self.assertRegex(self.logs(), r"kept \d+ of 125 frames")
         self.expect_one_machines(job_script())
 
-    def test_a_node_is_killed_that_draws_feedback(self):
+    def test_a_node_that_draws_feedback_is_killed(self):
         script = job_script().replace("wave.glsl", "fb").replace("--shard", "--state-every 50 --shard")
         job = self.submit(script)
         self.kill_a_node(job)

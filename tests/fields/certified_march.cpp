@@ -6,7 +6,8 @@
 namespace tidemark::fields {
 namespace {
 
-/// Where the field changes its sign between `outside` (>= 0) and `inside` (< 0), to the last bits.
+/// Returns the place where the field changes its sign between `outside` (>= 0) and `inside` (< 0), to the
+/// last bits.
 double bisect(const Field& field, const Ray& ray, double outside, double inside, int& samples) {
     while (true) {
         const double middle = outside + 0.5 * (inside - outside);

@@ -51,9 +51,9 @@ Trains trains_of(KnobReader& knobs, double time) {
     return trains;
 }
 
-/// Where the water rests that is now at `place`. The Jacobian's eigenvalues are at least 1 - 0.95, and
-/// Newton's method converges from everywhere: six steps leave 1e-14 at the defaults, steeper waves take some
-/// more.
+/// Returns the rest position of the water that is now at `place`. The Jacobian's eigenvalues are at least 1 -
+/// 0.95, and Newton's method converges from everywhere: six steps leave 1e-14 at the defaults, steeper waves
+/// take some more.
 glm::dvec2 unmoved(const Trains& trains, const glm::dvec2& place) {
     glm::dvec2 rest = place;
     for (int i = 0; i < 30; ++i) {

@@ -15,7 +15,7 @@
 
 namespace tidemark::fields {
 
-/// What a frame of a scene depends on.
+/// The inputs of a scene's frame.
 struct ReferenceInputs {
     std::span<const scene::Knob> knobs{};
     double time = 0;

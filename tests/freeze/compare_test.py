@@ -70,41 +70,41 @@ class Compare(unittest.TestCase):
         for word in words:
             self.assertIn(word, said)
 
-    def test_the_same_program_is_the_same(self) -> None:
+    def test_identical_programs_are_the_same(self) -> None:
         self.expect_same("", "--match", "trace")
         self.expect_same("", "--only", "pages", "--match", "ripples")
 
-    def test_one_sample_of_a_picture(self) -> None:
+    def test_changed_sample_of_a_picture(self) -> None:
         self.expect_difference(ONE_SAMPLE_OF_A_PNG, ["--only", "pictures", "--match", "examples/ripples"], "frame_0.png", "sha256")
 
-    def test_one_pass_of_a_scene(self) -> None:
+    def test_changed_pass_of_a_scene(self) -> None:
         self.expect_difference(ONE_SAMPLE_OF_AN_EXR, ["--only", "pictures", "--match", "time_is_frame_over_fps"], "frame 30, Image", "sha256")
 
-    def test_one_word(self) -> None:
+    def test_changed_word(self) -> None:
         fault = 'err = err.replace(b"wrote", b"made")'
         options = ["--only", "commands", "--match", "compare"]
         self.expect_difference(fault, options, "- wrote a.png", "+ made a.png")
         self.expect_same(fault, *options, "--wording")
 
-    def test_a_number_or_place_counts_with_other_wording(self) -> None:
+    def test_changed_number_or_place_despite_rewording(self) -> None:
         options = ["--only", "commands", "--match", "compare", "--wording"]
         self.expect_difference('out = out.replace(b"32x18", b"33x18").replace(b"PSNR ", b"PSNR 1")', options, "standard output")
         self.expect_difference('err = err.replace(b".glsl:9", b".glsl:8"); out = out.replace(b".glsl:9", b".glsl:8")',
                                ["--only", "commands", "--match", "check and cure", "--wording"], "foam.glsl:8")
 
-    def test_an_exit_code(self) -> None:
+    def test_changed_exit_code(self) -> None:
         self.expect_difference("code = 2 if code == 1 else code", ["--only", "commands", "--match", "compare"], "exit code")
 
-    def test_a_key_of_json(self) -> None:
+    def test_missing_key_of_json(self) -> None:
         for options in ([], ["--wording"]):
             self.expect_difference("""out = out.replace(b'"psnr', b'"peak')""",
                                    ["--only", "commands", "--match", "compare", *options], "peak")
 
-    def test_a_file_that_is_not_made(self) -> None:
+    def test_missing_file(self) -> None:
         self.expect_difference('pathlib.Path("d.png").unlink(missing_ok=True)', ["--only", "commands", "--match", "compare"],
                                "file d.png: only the old program has it")
 
-    def test_one_byte_of_a_page(self) -> None:
+    def test_changed_byte_of_a_page(self) -> None:
         self.expect_difference('for path in pathlib.Path(".").glob("page.html"): path.write_bytes(path.read_bytes() + b" ")',
                                ["--only", "pages", "--match", "ripples"], "page.html")
 

@@ -28,7 +28,7 @@ MEASURED = [
     (re.compile(r"\.part-[\w-]+"), ".part-ID"),
     (re.compile(r"\bversion=[0-9a-f]{8,}"), "version=ID"),  # of the fingerprint in a picture's metadata: another for each build
 ]
-# The words of a text that are no prose: places and numbers, options, code in backticks, names with _ or an inner capital, files.
+# The words of a text that are not prose: places and numbers, options, code in backticks, names with _ or an inner capital, files.
 NOT_PROSE = re.compile(
     r"[\w./-]+:\d+(?::\d+)?|--[a-z][\w-]*|`[^`\n]+`|\b[a-z]+[A-Z]\w*|\b\w+_\w+|[\w/-]+\.(?:glsl|json|png|exr|wav|html|txt|mp4|tif)\b"
     rf"|{NUMBER}")

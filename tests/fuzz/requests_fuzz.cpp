@@ -1,5 +1,5 @@
-// What is typed for frames, date, mouse, camera, size and output: the first byte chooses, the rest is the
-// text.
+// Fuzzes the values of options: frames, date, mouse, camera, size and output. The first byte chooses the
+// option, the rest is the text.
 #include "fuzz.hpp"
 #include "host/frame_files.hpp"
 #include "host/requests.hpp"
@@ -18,7 +18,7 @@ bool taken(const Result<T>& result) {
 }
 
 void check_frames(std::string_view text) {
-    const auto frames = cli::parse_frames(text);
+    const auto frames = host::parse_frames(text);
     if (!taken(frames))
         return;
     REQUIRE(!frames->empty() && frames->size() <= 10'000'000);
@@ -37,7 +37,7 @@ void check_date(std::string_view text) {
 }
 
 void check_mouse(std::string_view text) {
-    const auto parsed = cli::parse_mouse(text);
+    const auto parsed = host::parse_mouse(text);
     if (!taken(parsed))
         return;
     const glm::vec4 mouse = parsed->uniform();
@@ -58,12 +58,12 @@ void check_camera(std::string_view text) {
 }
 
 void check_size(std::string_view text) {
-    const auto size = cli::parse_size(text);
+    const auto size = host::parse_size(text);
     REQUIRE(!taken(size) || (size->width >= 1 && size->height >= 1));
 }
 
 void check_output(std::string_view text) {
-    const auto name = cli::OutputName::parse(text, 2);
+    const auto name = host::OutputName::parse(text, 2);
     if (taken(name) && !name->standard_output() && !name->video())
         REQUIRE(name->of_frame(1).path() != name->of_frame(2).path());
 }

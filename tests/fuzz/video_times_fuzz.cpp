@@ -1,4 +1,4 @@
-// What ffprobe and ffmpeg print about a video.
+// Fuzzes the parsers of the lines that ffprobe and ffmpeg print about a video.
 #include "fuzz.hpp"
 #include "media/video_input.hpp"
 

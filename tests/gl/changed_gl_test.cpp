@@ -1,5 +1,5 @@
-// A pass is drawn again only where something that it reads has changed, and nobody can tell: two renderers
-// of one scene see the same frames, one draws what changed, the other everything.
+// A pass is drawn again only if something that it reads has changed, and the pictures are the same: two
+// renderers draw the same frames of one scene, one only the changed passes, the other all of them.
 #include "gl_test.hpp"
 #include "render/frame_stepper.hpp"
 #include "scene/load_scene.hpp"
@@ -90,7 +90,7 @@ TEST_F(ChangedTest, a_still_picture_is_drawn_once) {
     EXPECT_FALSE(sparing_->follows_clock());
 }
 
-TEST_F(ChangedTest, each_uniform_counts_where_it_is_read_and_only_there) {
+TEST_F(ChangedTest, each_uniform_redraws_only_its_readers) {
     const std::vector<std::pair<std::string, std::function<void(FrameInputs&)>>> uniforms = {
         {"iTime", [](FrameInputs& inputs) { inputs.time += 1; }},
         {"iTimeDelta", [](FrameInputs& inputs) { inputs.time_delta += 1; }},
@@ -112,7 +112,7 @@ TEST_F(ChangedTest, each_uniform_counts_where_it_is_read_and_only_there) {
     }
 }
 
-TEST_F(ChangedTest, what_follows_the_clock_says_so) {
+TEST_F(ChangedTest, clock_uniforms_make_a_scene_follow_the_clock) {
     for (const char* read :
          {"iTime", "iTimeDelta", "float(iFrame)", "iFrameRate", "iDate.w", "iChannelTime[0]"}) {
         open_scene(scene_of(telling({read})));
@@ -128,7 +128,7 @@ TEST_F(ChangedTest, what_follows_the_clock_says_so) {
     }
 }
 
-TEST_F(ChangedTest, knobs_count_by_their_bits) {
+TEST_F(ChangedTest, knobs_are_compared_bit_by_bit) {
     open_scene(scene_of("#iUniform float knob = 0.5 in { 0.0, 1.0 }\n" + telling({"knob", "1.0 / knob"})));
     EXPECT_EQ(draw(at(0)), 1u);
     turn(0.5);
@@ -140,7 +140,7 @@ TEST_F(ChangedTest, knobs_count_by_their_bits) {
     }
 }
 
-TEST_F(ChangedTest, a_change_reaches_those_who_read_it_and_their_readers) {
+TEST_F(ChangedTest, a_change_redraws_direct_and_indirect_readers) {
     open({{"buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p, 0.0, 1.0); }"},
           {"buffer_b.glsl", "#iChannel0 \"buffer_a.glsl\"\n"
                             "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p) + iMouse; }"},
@@ -165,11 +165,11 @@ TEST_F(ChangedTest, a_pass_that_reads_itself_is_always_drawn) {
           {"image.glsl",
            "#iChannel0 \"buffer_a.glsl\"\n"
            "void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }"}});
-    for (int i = 0; i < 40; ++i) // it comes to rest at 2 after 25 frames, which nobody can know
+    for (int i = 0; i < 40; ++i) // it comes to rest at 2 after 25 frames, which cannot be known before
         EXPECT_EQ(draw(at(i)), 2u);
 }
 
-TEST_F(ChangedTest, a_reader_in_front_of_its_source_is_one_frame_late) {
+TEST_F(ChangedTest, a_reader_drawn_before_its_source_is_one_frame_late) {
     open({{"buffer_a.glsl",
            "#iChannel0 \"buffer_b.glsl\"\n"
            "void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }"},
@@ -185,7 +185,7 @@ TEST_F(ChangedTest, a_reader_in_front_of_its_source_is_one_frame_late) {
     EXPECT_EQ(draw(clicked(at(5), 1, 1)), 0u);
 }
 
-TEST_F(ChangedTest, a_circle_of_passes_never_rests) {
+TEST_F(ChangedTest, a_cycle_of_passes_is_always_drawn) {
     open({{"buffer_a.glsl",
            "#iChannel0 \"buffer_b.glsl\"\n"
            "void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }"},
@@ -213,7 +213,7 @@ TEST_F(ChangedTest, a_cube_pass_keeps_its_faces_and_mipmaps_through_a_resize) {
     EXPECT_EQ(draw(at(3)), 2u);
 }
 
-TEST_F(ChangedTest, keys_count_when_they_change_what_is_read) {
+TEST_F(ChangedTest, keys_redraw_only_readers_of_the_keyboard) {
     open({{"image.glsl",
            "#iChannel0 \"keyboard\"\n"
            "void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(65, 0), 0); }"}});
@@ -228,7 +228,7 @@ TEST_F(ChangedTest, keys_count_when_they_change_what_is_read) {
     EXPECT_FALSE(sparing_->follows_clock());
 }
 
-TEST_F(ChangedTest, music_plays_on_with_time) {
+TEST_F(ChangedTest, music_redraws_as_time_advances) {
     scene::Scene scene =
         scene_of("void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }");
     scene.passes[0].channels[0].input = scene::Music{};
@@ -239,7 +239,7 @@ TEST_F(ChangedTest, music_plays_on_with_time) {
     EXPECT_EQ(draw(at(7)), 1u);
 }
 
-TEST_F(ChangedTest, discarded_pixels_stay_what_they_were) {
+TEST_F(ChangedTest, discarded_pixels_keep_their_value) {
     open_scene(scene_of("void mainImage(out vec4 c, in vec2 p) {\n"
                         "    if (p.x < iMouse.x) discard;\n    c = vec4(p, iMouse.y, 1.0);\n}\n"));
     for (const float x : {0.0f, 3.0f, 3.0f, 1.0f, 5.0f, 5.0f})
@@ -247,7 +247,7 @@ TEST_F(ChangedTest, discarded_pixels_stay_what_they_were) {
 }
 
 /// The two textures of a buffer take turns: what is discarded shows the frame before the last.
-TEST_F(ChangedTest, a_buffer_that_discards_keeps_what_the_site_keeps) {
+TEST_F(ChangedTest, a_buffer_that_discards_keeps_pixels_as_shadertoy_does) {
     open({{"buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) {\n"
                             "    if (p.x < iMouse.x) discard;\n    c = vec4(iMouse.y);\n}\n"},
           {"image.glsl",
@@ -266,7 +266,7 @@ TEST_F(ChangedTest, a_buffer_that_discards_keeps_what_the_site_keeps) {
     EXPECT_EQ(shown(9, 3), 3);
 }
 
-TEST_F(ChangedTest, warming_up_draws_nothing_that_stays) {
+TEST_F(ChangedTest, warming_up_changes_no_target) {
     open_scene(scene_of("void mainImage(out vec4 c, in vec2 p) { c = vec4(p, 1.0, 1.0); }"));
     both([](Renderer& renderer) { renderer.warm_up(at(0)); });
     EXPECT_EQ(draw(at(0)), 1u);
@@ -274,7 +274,7 @@ TEST_F(ChangedTest, warming_up_draws_nothing_that_stays) {
     EXPECT_EQ(draw(at(0)), 1u);
 }
 
-TEST_F(ChangedTest, passes_in_front_of_one_that_is_looked_at_are_drawn_when_they_changed) {
+TEST_F(ChangedTest, passes_before_a_preview_are_drawn_if_changed) {
     open({{"buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p, iMouse.xy); }"},
           {"image.glsl",
            "#iChannel0 \"buffer_a.glsl\"\n"
@@ -290,7 +290,7 @@ TEST_F(ChangedTest, passes_in_front_of_one_that_is_looked_at_are_drawn_when_they
     EXPECT_EQ(draw(at(1)), 0u);
 }
 
-TEST_F(ChangedTest, a_renderer_of_a_changed_scene_goes_on_from_what_buffers_hold) {
+TEST_F(ChangedTest, a_renderer_of_a_changed_scene_keeps_the_buffers) {
     const auto count = [&](const char* step) {
         open({{"buffer_a.glsl",
                fmt::format("#iChannel0 \"self\"\nvoid mainImage(out vec4 c, in vec2 p) {{\n"
@@ -324,7 +324,7 @@ TEST_F(ChangedTest, a_renderer_of_a_changed_scene_goes_on_from_what_buffers_hold
 }
 
 /// Everything at once, in any order.
-TEST_F(ChangedTest, pictures_are_the_same_with_and_without_it) {
+TEST_F(ChangedTest, skipping_unchanged_passes_keeps_the_pictures) {
     open({{"common.glsl", "vec4 at(sampler2D s, vec2 p) { return texelFetch(s, ivec2(p), 0); }\n"},
           {"buffer_a.glsl", "#iChannel0 \"buffer_c.glsl\"\n#iUniform float knob = 0.5 in { 0.0, 1.0 }\n"
                             "void mainImage(out vec4 c, in vec2 p) { c = at(iChannel0, p) + knob; }"},

@@ -1,6 +1,22 @@
-// Probes that ask for something from outside of them.
+// Probes that ask for something from outside of them, and fixes.
 #include "gl_test.hpp"
+#include "lab/fix.hpp"
 #include "lab/probes.hpp"
+
+#include <dlfcn.h>
+
+#include <utility>
+
+namespace {
+int links = 0; ///< programs linked so far
+}
+
+/// Takes the place of the library's function.
+extern "C" void glLinkProgram(GLuint program) {
+    static const auto link = reinterpret_cast<void (*)(GLuint)>(::dlsym(RTLD_NEXT, "glLinkProgram"));
+    ++links;
+    link(program);
+}
 
 namespace tidemark::lab::check_gl_test {
 
@@ -19,12 +35,12 @@ protected:
         "void mainImage(out vec4 c, in vec2 p) { c = vec4(sin(p.x) / p.y, 0.0, iTime, 1.0); }";
 };
 
-TEST_F(Threads, TheSameBytesPass) {
+TEST_F(Threads, EqualPicturesPass) {
     const Answer answer = ask([this](const FrameState& where) { return drawn(where); });
     EXPECT_EQ(answer.verdict, Verdict::pass) << answer.sentence;
 }
 
-TEST_F(Threads, OnePixelThatIsAnotherFails) {
+TEST_F(Threads, OneDifferentPixelFails) {
     const Answer answer = ask([this](const FrameState& where) {
         auto picture = drawn(where);
         picture->bytes[3 * 4 * 4321] ^= std::byte{1};
@@ -35,12 +51,50 @@ TEST_F(Threads, OnePixelThatIsAnotherFails) {
     EXPECT_TRUE(answer.where && answer.picture);
 }
 
-TEST_F(Threads, WithoutAWayToDrawSoThereIsNoAnswer) {
+TEST_F(Threads, WithoutAPictureOfOneThreadNotApplicable) {
     EXPECT_EQ(ask({}).verdict, Verdict::not_applicable);
     const Answer answer =
         ask([](const FrameState&) -> Result<image::Image> { return fail(ErrorCode::timed_out, "too slow"); });
     EXPECT_EQ(answer.verdict, Verdict::not_applicable);
     EXPECT_EQ(answer.sentence, "it could not be drawn with one thread: too slow");
+}
+
+class Fixes : public render::RenderTest {
+protected:
+    template <typename Function>
+    static int links_of(const Function& function) {
+        const int before = links;
+        function();
+        return links - before;
+    }
+};
+
+TEST_F(Fixes, TheErrorIsMeasuredWithTheProgramsThatAreSearched) {
+    ::setenv("TIDEMARK_CACHE", "off", 1);
+    const scene::Scene scene = scene_of(
+        "void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(mod(1e8 + p.x, 128.0)) / 100.0, 1.0); }");
+    std::optional<double> worst;
+    std::vector<std::string> said;
+    const auto mend_all = [&](bool measured) {
+        Mending mending{.can_be_written = [](std::span<const glsl::Cure>) { return true; },
+                        .offered = [&](const Offer& offer, auto) { said.push_back(offer.finding); },
+                        .remains = [&](const Remaining& each) { said.push_back(each.finding); }};
+        if (measured)
+            mending.measured = [&](const Result<ShownError>& error) {
+                EXPECT_TRUE(said.empty());
+                worst = error ? error->worst : -1;
+            };
+        EXPECT_TRUE(mend(scene, {}, mending));
+    };
+    const int both = links_of([&] { mend_all(true); });
+    ASSERT_TRUE(worst);
+    EXPECT_NEAR(*worst, 0.035, 1e-6); // around 1e8 a float counts in steps of 8
+    const std::vector<std::string> with = std::exchange(said, {});
+    const int search = links_of([&] { mend_all(false); });
+    EXPECT_EQ(with, said);
+    const int measurement = links_of([&] { EXPECT_TRUE(DrawnScene(scene, {}).shown_error()); });
+    EXPECT_GT(measurement, 1);
+    EXPECT_LT(both, search + measurement);
 }
 
 } // namespace tidemark::lab::check_gl_test

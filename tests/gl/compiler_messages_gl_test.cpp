@@ -10,14 +10,14 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Of a text that no compiler takes.
+/// Compiles a text that every compiler rejects.
 void compile(const std::string& name) {
     const auto linked = Program::link("#version 450 core\nvoid main() { gl_Position = vec4(0.0); }\n",
                                       "#version 450 core\nvoid main() { " + name + "; }\n");
     EXPECT_FALSE(linked);
 }
 
-TEST(CompilerMessages, are_the_compilers_alone_and_only_while_somebody_listens) {
+TEST(CompilerMessages, collect_only_compiler_messages_during_their_lifetime) {
     if (query_capabilities().version.find("Mesa") == std::string::npos)
         GTEST_SKIP() << "what a driver says is its own affair; Mesa's compiler repeats its errors";
     compile("before");
@@ -31,7 +31,7 @@ TEST(CompilerMessages, are_the_compilers_alone_and_only_while_somebody_listens) 
         EXPECT_THAT(messages.take(), Contains(HasSubstr("while_it_lives")));
         EXPECT_THAT(messages.take(), IsEmpty());
     }
-    compile("behind"); // must not write where there is nobody any more
+    compile("behind"); // must not write into the object that was destroyed
     CompilerMessages others;
     EXPECT_THAT(others.take(), IsEmpty());
 }

@@ -40,7 +40,7 @@ std::vector<double> errors_of(const scene::Scene& scene) {
     return errors;
 }
 
-TEST(CutPlaces, a_level_is_what_the_device_takes_where_it_would_be_that) {
+TEST(CutPlaces, fixed_level_0_is_exact_for_magnification) {
     const auto errors = errors_of(image_of("c = texture(iChannel0, uv * 0.05);"));
     ASSERT_EQ(errors.size(), 4U);
     EXPECT_EQ(errors[0], 0) << "magnified: level 0 anyway";
@@ -55,7 +55,7 @@ TEST(CutPlaces, a_coarser_level_is_nearer_where_texels_are_smaller_than_pixels) 
     EXPECT_GT(errors[0], 10 * errors[2]);
 }
 
-TEST(CutPlaces, without_mipmaps_there_is_no_level_to_take) {
+TEST(CutPlaces, textures_without_mipmaps_have_no_level_cuts) {
     EXPECT_TRUE(levels_of(image_of("c = texture(iChannel1, uv);")).empty());
 }
 
@@ -82,7 +82,7 @@ void mainImage(out vec4 c, in vec2 p) {
 }
 )";
 
-TEST(CutPlaces, what_is_computed_once_a_pixel_shows_the_same) {
+TEST(CutPlaces, hoisted_expressions_keep_the_picture) {
     const scene::Scene scene = scene_of(k_march);
     auto found = find_cuts(scene, default_views(), k_extent, [] { return true; });
     ASSERT_TRUE(found);

@@ -78,7 +78,7 @@ tl::expected<gl::Program, std::string> link(const scene::Scene& scene, Precision
     return tl::unexpected(words);
 }
 
-/// What `program` draws into one pixel; iResolution is 1.
+/// Returns the pixel that `program` draws; iResolution is 1.
 std::vector<int> draw(const gl::Program& program) {
     GLuint framebuffer = 0, colours = 0, vertices = 0;
     glCreateFramebuffers(1, &framebuffer);
@@ -116,7 +116,7 @@ protected:
 };
 
 void DialectCase::expect_to_link_and_draw(Precision precision) const {
-    const auto context = platform::HeadlessContext::create();
+    const auto context = host::HeadlessContext::create();
     if (!context)
         GTEST_SKIP() << context.error().message;
     const Case example = read_case(GetParam());

@@ -237,7 +237,7 @@ TEST(DoubleFunctions, every_stated_bound_has_a_reference) {
     }
 }
 
-TEST(DoubleFunctions, of_one_argument_keep_their_bounds) {
+TEST(DoubleFunctions, functions_of_one_argument_keep_their_bounds) {
     for (const Subject& subject : subjects()) {
         std::vector<Point> points;
         for (const double x : points_in(subject.domain))
@@ -277,7 +277,7 @@ struct Special {
     std::vector<std::pair<double, double>> values; ///< argument and result
 };
 
-TEST(DoubleFunctions, special_values_are_what_mathematics_says) {
+TEST(DoubleFunctions, special_values_are_mathematically_correct) {
     const Special specials[] = {
         {"sin", {{0, 0}, {-0.0, 0}, {k_infinity, k_nan}, {-k_infinity, k_nan}, {k_nan, k_nan}}},
         {"cos", {{0, 1}, {-0.0, 1}, {k_infinity, k_nan}, {k_nan, k_nan}}},
@@ -381,7 +381,7 @@ TEST(DoubleFunctions, angles_beyond_the_reduction_stay_bounded) {
     }
 }
 
-TEST(DoubleFunctions, arguments_below_the_normal_numbers_are_small_or_flushed) {
+TEST(DoubleFunctions, subnormal_arguments_give_small_results_or_zero) {
     std::vector<Point> points;
     for (int power = -1074; power < -1021; ++power)
         points.insert(points.end(), {{std::ldexp(1.0, power), 0}, {-std::ldexp(1.0, power), 0}});

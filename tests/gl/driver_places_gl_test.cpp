@@ -35,7 +35,7 @@ public:
         return text + "\n}\n";
     }
 
-    /// Edits that change what stands before and behind, but not the word.
+    /// Returns edits of the text before and after the word, but not of the word.
     std::vector<text::Edit> edits(const std::string& text) {
         std::vector<text::Edit> edits;
         for (size_t at = text.find("void main"); (at = text.find("1.", at + 1)) != text.npos;)
@@ -110,13 +110,13 @@ int found(bool with_macros, int texts) {
     return known;
 }
 
-TEST(DriverPlaces, of_texts_without_macros_are_exact) {
+TEST(DriverPlaces, columns_are_exact_without_macros) {
     if (!is_mesa())
         GTEST_SKIP() << "columns are Mesa's";
     EXPECT_EQ(found(false, 400), 400);
 }
 
-TEST(DriverPlaces, of_texts_with_macros_are_exact_or_none) {
+TEST(DriverPlaces, columns_are_exact_or_missing_with_macros) {
     if (!is_mesa())
         GTEST_SKIP() << "columns are Mesa's";
     EXPECT_EQ(found(true, 400), 400) << "the word is there once";

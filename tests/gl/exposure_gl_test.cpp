@@ -30,7 +30,7 @@ TEST_F(ExposureTest, an_edge_within_a_pixel_covers_its_part_of_the_light) {
     EXPECT_EQ(floats_at(image, 6, 3)[0], 1);
 }
 
-TEST_F(ExposureTest, what_moves_is_blurred_over_the_time_that_the_shutter_is_open) {
+TEST_F(ExposureTest, motion_is_blurred_over_the_shutter_time) {
     const std::string lit = "void mainImage(out vec4 c, in vec2 p) { c = vec4(step(3.02, iTime)); }";
     const auto light = [&](double shutter) {
         const Exposure exposure{.samples = 200, .shutter = shutter, .clamped = true};
@@ -40,7 +40,7 @@ TEST_F(ExposureTest, what_moves_is_blurred_over_the_time_that_the_shutter_is_ope
     EXPECT_NEAR(light(0.25), 0.2, 0.01);
 }
 
-TEST_F(ExposureTest, passes_that_are_read_move_with_it) {
+TEST_F(ExposureTest, read_passes_move_with_the_samples) {
     put("buffer.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(step(3.02, iTime)); }");
     const Image image =
         exposed("#iChannel0 \"buffer.glsl\"\n"
@@ -49,7 +49,7 @@ TEST_F(ExposureTest, passes_that_are_read_move_with_it) {
     EXPECT_NEAR(image::light_of_srgb(double(floats_at(image, 0, 0)[0])), 0.6, 0.02);
 }
 
-TEST_F(ExposureTest, tiles_do_not_show) {
+TEST_F(ExposureTest, tiles_leave_no_seams) {
     const std::string text =
         "void mainImage(out vec4 c, in vec2 p) { c = vec4(fract(p / 3.0), fract(iTime), 1); }";
     const Exposure exposure{.samples = 7, .shutter = 1};

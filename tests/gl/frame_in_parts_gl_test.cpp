@@ -126,7 +126,7 @@ TEST_F(FrameInPartsTest, pixels_that_are_discarded) {
     expect_same(loaded(image.parent_path()));
 }
 
-TEST_F(FrameInPartsTest, until_it_is_whole_the_last_frame_is_there) {
+TEST_F(FrameInPartsTest, an_unfinished_frame_leaves_the_last_frame_visible) {
     Renderer drawn = renderer(feedback(), k_extent);
     drawn.draw(inputs_of_frame(0, 60));
     const auto before = content(drawn);
@@ -148,7 +148,7 @@ TEST_F(FrameInPartsTest, until_it_is_whole_the_last_frame_is_there) {
     EXPECT_EQ(drawn.passes_drawn(), 2 * drawn.plan().passes.size());
 }
 
-TEST_F(FrameInPartsTest, one_that_is_given_up_leaves_no_trace_wherever_that_is) {
+TEST_F(FrameInPartsTest, a_cancelled_frame_leaves_no_trace) {
     const scene::Scene scene = feedback();
     Renderer whole = renderer(scene, k_extent);
     for (int frame = 0; frame < 3; ++frame)
@@ -175,7 +175,7 @@ TEST_F(FrameInPartsTest, one_that_is_given_up_leaves_no_trace_wherever_that_is) 
     }
 }
 
-TEST_F(FrameInPartsTest, a_pass_that_reads_what_it_read_is_not_drawn_again) {
+TEST_F(FrameInPartsTest, a_pass_with_unchanged_inputs_is_not_redrawn) {
     put("buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p, 0, 1); }");
     const auto image =
         put("image.glsl", "#iChannel0 \"buffer_a.glsl\"\nvoid mainImage(out vec4 c, in vec2 p) {\n"
@@ -192,7 +192,7 @@ TEST_F(FrameInPartsTest, a_pass_that_reads_what_it_read_is_not_drawn_again) {
     EXPECT_EQ(drawn.passes_drawn(), 3u) << "nor whole";
 }
 
-TEST_F(FrameInPartsTest, it_begins_anew_where_its_renderer_was_changed) {
+TEST_F(FrameInPartsTest, changes_of_the_renderer_restart_the_frame) {
     const scene::Scene scene = feedback();
     for (const auto& change :
          std::vector<std::function<void(Renderer&)>>{[](Renderer& r) { r.reset(); },
@@ -217,7 +217,7 @@ TEST_F(FrameInPartsTest, it_begins_anew_where_its_renderer_was_changed) {
     }
 }
 
-TEST_F(FrameInPartsTest, each_pass_keeps_one_picture_more_until_it_is_drawn_whole) {
+TEST_F(FrameInPartsTest, each_pass_keeps_one_extra_texture_while_drawn_in_parts) {
     const scene::Scene scene = scene_of("void mainImage(out vec4 c, in vec2 p) { c = vec4(p, iFrame, 1); }");
     Renderer drawn = renderer(scene, k_extent);
     const size_t picture = gl::bytes_of(drawn.target_of(0).texture);
@@ -231,7 +231,7 @@ TEST_F(FrameInPartsTest, each_pass_keeps_one_picture_more_until_it_is_drawn_whol
     EXPECT_EQ(drawn.work().texture_bytes, bytes);
 }
 
-TEST_F(FrameInPartsTest, says_what_each_pass_took) {
+TEST_F(FrameInPartsTest, reports_the_time_of_each_pass) {
     Renderer drawn = renderer(feedback(), k_extent);
     PartSize size;
     FrameInParts parts = begin(drawn, size, 0);

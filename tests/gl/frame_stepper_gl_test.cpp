@@ -22,7 +22,7 @@ protected:
     static float count(const Renderer& drawn) { return floats_at(drawn.read_back(), 0, 0)[0]; }
 };
 
-TEST_F(FrameStepperTest, frames_lead_to_a_frame_from_the_first_on) {
+TEST_F(FrameStepperTest, a_frame_is_reached_by_all_earlier_frames) {
     Renderer drawing = counting();
     FrameStepper stepper(drawing, FrameState{});
     EXPECT_EQ(stepper.draw(3).frames, 4);
@@ -37,7 +37,7 @@ TEST_F(FrameStepperTest, frames_lead_to_a_frame_from_the_first_on) {
     EXPECT_EQ(count(drawing), 3);
 }
 
-TEST_F(FrameStepperTest, the_frames_before_a_time_lie_before_it) {
+TEST_F(FrameStepperTest, earlier_frames_have_earlier_times) {
     Renderer drawing = counting();
     const FrameState state = at_time(0.99);
     std::vector<float> times;
@@ -49,7 +49,7 @@ TEST_F(FrameStepperTest, the_frames_before_a_time_lie_before_it) {
     EXPECT_EQ(times, (std::vector<float>{float(0.99 - 2 / 60.0), float(0.99 - 1 / 60.0), 0.99F}));
 }
 
-TEST_F(FrameStepperTest, it_is_stopped_between_two_frames) {
+TEST_F(FrameStepperTest, stepping_stops_between_frames) {
     Renderer drawing = counting();
     const FrameSteps steps = FrameStepper(drawing, FrameState{}).draw(9, [](int frame, int last) {
         return last == 9 && frame < 2;
@@ -58,26 +58,7 @@ TEST_F(FrameStepperTest, it_is_stopped_between_two_frames) {
     EXPECT_EQ(steps.frames, 2);
 }
 
-TEST_F(FrameStepperTest, a_frame_that_is_drawn_in_parts_is_asked_for_until_it_is_whole) {
-    Renderer drawing = counting();
-    FrameStepper stepper(drawing, FrameState{});
-    std::vector<int> asked;
-    stepper.draw_by([&](const FrameInputs& inputs) {
-        asked.push_back(inputs.frame);
-        if (asked.size() % 2 == 1)
-            return false;
-        drawing.draw(inputs);
-        return true;
-    });
-    int calls = 1;
-    for (; !stepper.draw(2).complete; ++calls)
-        EXPECT_EQ(asked.size() % 2, 1u);
-    EXPECT_EQ(asked, (std::vector<int>{0, 0, 1, 1, 2, 2}));
-    EXPECT_EQ(calls, 4);
-    EXPECT_EQ(count(drawing), 3);
-}
-
-TEST_F(FrameStepperTest, nothing_goes_on_from_half_a_frame) {
+TEST_F(FrameStepperTest, a_preview_leaves_the_buffers_unchanged) {
     Renderer drawing = counting();
     FrameStepper stepper(drawing, FrameState{});
     {
@@ -89,7 +70,7 @@ TEST_F(FrameStepperTest, nothing_goes_on_from_half_a_frame) {
     EXPECT_EQ(count(drawing), 4);
 }
 
-TEST_F(FrameStepperTest, without_feedback_it_jumps) {
+TEST_F(FrameStepperTest, scenes_without_feedback_draw_one_frame) {
     Renderer drawing = renderer("void mainImage(out vec4 c, in vec2 p) { c = vec4(iFrame); }", {2, 2});
     EXPECT_EQ(FrameStepper(drawing, FrameState{}).draw(100).frames, 1);
     EXPECT_EQ(count(drawing), 100);

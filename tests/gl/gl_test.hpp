@@ -1,5 +1,5 @@
-// What the tests of the renderer share: one headless context for the executable, a folder for the scenes of
-// a test, and questions put to a shader.
+// Helpers of the renderer's tests: one headless context for the executable, a folder for the scenes of a
+// test, and functions that evaluate expressions in a shader.
 #pragma once
 
 #include "host/gl_context.hpp"
@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 class ContextEnvironment : public testing::Environment {
 public:
     void SetUp() override {
-        auto made = platform::HeadlessContext::create();
+        auto made = host::HeadlessContext::create();
         if (!made) {
             std::fprintf(stderr, "skipped: %s\n", made.error().message.c_str());
             std::exit(77);
@@ -40,7 +40,7 @@ public:
     void TearDown() override { context_.reset(); }
 
 private:
-    std::optional<platform::HeadlessContext> context_;
+    std::optional<host::HeadlessContext> context_;
 };
 
 inline testing::Environment* const k_context = testing::AddGlobalTestEnvironment(new ContextEnvironment);
@@ -58,7 +58,7 @@ inline Floats4 floats_at(const image::Image& image, int x, int y) {
     return {pixel[0], pixel[1], pixel[2], pixel[3]};
 }
 
-/// A test with a folder of its own that leaves no GL error behind.
+/// A test with a folder of its own, which fails if it leaves a GL error.
 class RenderTest : public testing::Test {
 protected:
     void TearDown() override { EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR)); }

@@ -1,9 +1,13 @@
 // Makes its own contexts, so nothing here may share a process with a test that holds one.
 #include "host/gl_context.hpp"
+#include "render/gl_context.hpp"
+#include "render/gl_sync.hpp"
+#include "render/gl_textures.hpp"
 
-#include <GL/gl.h>
-#include <GL/glext.h>
+#include <EGL/egl.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,8 +16,25 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <vector>
 
-namespace tidemark::platform::headless_context_gl_test {
+namespace {
+int displays_started = 0;
+}
+
+/// Takes the place of the library's function.
+extern "C" EGLBoolean eglInitialize(EGLDisplay display, EGLint* major, EGLint* minor) {
+    static const auto initialize =
+        reinterpret_cast<EGLBoolean (*)(EGLDisplay, EGLint*, EGLint*)>(::dlsym(RTLD_NEXT, "eglInitialize"));
+    ++displays_started;
+    return initialize(display, major, minor);
+}
+
+namespace tidemark::host::headless_context_gl_test {
 
 using Pixel = std::array<unsigned char, 4>;
 using testing::IsEmpty;
@@ -35,6 +56,17 @@ Pixel cleared_pixel(const std::array<float, 4>& colour) {
     return pixel;
 }
 
+std::vector<HeadlessDevice> every_device() {
+    std::vector<HeadlessDevice> devices;
+    list_headless_devices(
+        [&](const HeadlessDevice& device, bool tried) {
+            if (tried)
+                devices.push_back(device);
+        },
+        0);
+    return devices;
+}
+
 constexpr std::array<float, 4> k_colour{1.0f, 0.2f, 0.4f, 0.6f};
 constexpr Pixel k_colour_bytes{255, 51, 102, 153};
 
@@ -54,7 +86,7 @@ TEST(HeadlessContext, is_a_current_opengl_4_5_core_context) {
     EXPECT_EQ(cleared_pixel(k_colour), k_colour_bytes);
 }
 
-TEST(HeadlessContext, debug_context_says_so) {
+TEST(HeadlessContext, debug_context_has_the_debug_flag) {
     const auto context = HeadlessContext::create({"auto"}, DebugContext::yes);
     ASSERT_TRUE(context) << context.error().message;
     EXPECT_NE(integer(GL_CONTEXT_FLAGS) & GL_CONTEXT_FLAG_DEBUG_BIT, 0);
@@ -62,7 +94,7 @@ TEST(HeadlessContext, debug_context_says_so) {
 
 TEST(HeadlessContext, draws_on_every_device_of_the_list) {
     int drawn = 0;
-    for (const HeadlessDevice& device : list_headless_devices()) {
+    for (const HeadlessDevice& device : every_device()) {
         SCOPED_TRACE(device.name);
         if (device.renderer.empty()) {
             EXPECT_THAT(device.reason, Not(IsEmpty()));
@@ -83,8 +115,8 @@ TEST(HeadlessContext, draws_on_every_device_of_the_list) {
     EXPECT_GT(drawn, 0);
 }
 
-TEST(HeadlessContext, list_has_every_name_and_knows_llvmpipe_for_software) {
-    const std::vector<HeadlessDevice> devices = list_headless_devices();
+TEST(HeadlessContext, list_has_every_name_and_marks_llvmpipe_as_software) {
+    const std::vector<HeadlessDevice> devices = every_device();
     ASSERT_GE(devices.size(), 2u);
     EXPECT_EQ(devices.front().name, "surfaceless");
     EXPECT_EQ(devices.back().name, "display");
@@ -94,17 +126,17 @@ TEST(HeadlessContext, list_has_every_name_and_knows_llvmpipe_for_software) {
     }
 }
 
-TEST(HeadlessContext, list_leaves_the_current_context_alone) {
+TEST(HeadlessContext, list_keeps_the_current_context) {
     auto context = HeadlessContext::create();
     ASSERT_TRUE(context);
     GLuint buffer = 0;
     glCreateBuffers(1, &buffer);
-    list_headless_devices();
+    every_device();
     EXPECT_TRUE(glIsBuffer(buffer));
     EXPECT_EQ(cleared_pixel(k_colour), k_colour_bytes);
 }
 
-TEST(HeadlessContext, moves_with_what_is_current) {
+TEST(HeadlessContext, a_move_keeps_the_context_current) {
     auto made = HeadlessContext::create();
     ASSERT_TRUE(made);
     HeadlessContext first = std::move(*made);
@@ -114,7 +146,7 @@ TEST(HeadlessContext, moves_with_what_is_current) {
     EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
 }
 
-TEST(HeadlessContext, one_that_is_replaced_does_not_take_the_other_along) {
+TEST(HeadlessContext, move_assignment_keeps_the_assigned_context) {
     auto first = HeadlessContext::create();
     auto second = HeadlessContext::create();
     ASSERT_TRUE(first && second);
@@ -123,12 +155,12 @@ TEST(HeadlessContext, one_that_is_replaced_does_not_take_the_other_along) {
     EXPECT_EQ(cleared_pixel(k_colour), k_colour_bytes);
 }
 
-TEST(HeadlessContext, is_not_current_any_more_when_it_is_gone) {
+TEST(HeadlessContext, destruction_leaves_no_current_context) {
     ASSERT_TRUE(HeadlessContext::create());
     EXPECT_EQ(glGetString(GL_VERSION), nullptr);
 }
 
-TEST(HeadlessContext, two_take_turns) {
+TEST(HeadlessContext, two_contexts_alternate) {
     auto first = HeadlessContext::create();
     ASSERT_TRUE(first);
     GLuint buffer = 0;
@@ -143,9 +175,7 @@ TEST(HeadlessContext, two_take_turns) {
 }
 
 TEST(HeadlessContext, unknown_device_is_a_usage_error_with_the_list) {
-    std::string names = "auto";
-    for (const HeadlessDevice& device : list_headless_devices())
-        names += ", " + device.name;
+    const std::string names = fmt::format("{}", fmt::join(device_names(), ", "));
     for (const char* unknown : {"gpu", "device:99", "device:", "", "Auto"}) {
         const auto context = HeadlessContext::create({unknown});
         ASSERT_FALSE(context) << unknown;
@@ -154,7 +184,20 @@ TEST(HeadlessContext, unknown_device_is_a_usage_error_with_the_list) {
     }
 }
 
-TEST(HeadlessContext, a_software_driver_is_no_gpu) {
+TEST(HeadlessContext, the_names_are_those_of_all_devices_and_start_no_driver) {
+    std::vector<std::string> names{"auto"};
+    for (const HeadlessDevice& device : every_device()) {
+        names.push_back(device.name);
+        std::ranges::copy(device.lasting_names, std::back_inserter(names));
+    }
+    std::ranges::copy(mesa_drivers(), std::back_inserter(names));
+    const int before = displays_started;
+    EXPECT_EQ(device_names(), names);
+    EXPECT_EQ(displays_started, before);
+    EXPECT_GT(before, 0);
+}
+
+TEST(HeadlessContext, a_software_driver_is_not_a_gpu) {
     const auto any = HeadlessContext::create();
     if (!any)
         GTEST_SKIP() << any.error().message;
@@ -187,7 +230,7 @@ protected:
         "EGL driver); `tidemark inspect --devices` lists what there is";
 };
 
-TEST_F(HeadlessContextDeathTest, no_driver_is_no_context_and_says_what_was_tried) {
+TEST_F(HeadlessContextDeathTest, without_a_driver_the_error_lists_the_attempts) {
     const auto without_drivers = [](const char* device) {
         setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/dev/null", 1);
         report_and_exit(device);
@@ -203,7 +246,7 @@ TEST_F(HeadlessContextDeathTest, no_driver_is_no_context_and_says_what_was_tried
                             k_advice));
 }
 
-TEST_F(HeadlessContextDeathTest, no_display_is_no_context_and_nothing_is_printed_beside_it) {
+TEST_F(HeadlessContextDeathTest, without_a_display_only_the_error_is_printed) {
     const auto without_display = [] {
         unsetenv("DISPLAY");
         unsetenv("WAYLAND_DISPLAY");
@@ -215,6 +258,19 @@ TEST_F(HeadlessContextDeathTest, no_display_is_no_context_and_nothing_is_printed
                             k_advice));
 }
 
+TEST_F(HeadlessContextDeathTest, a_driver_that_is_too_old_is_not_missing) {
+    const auto with_old_driver = [](const char* device) {
+        setenv("MESA_GL_VERSION_OVERRIDE", "3.3", 1);
+        report_and_exit(device);
+    };
+    for (const char* device : {"surfaceless", "mesa:llvmpipe"})
+        EXPECT_EXIT(with_old_driver(device), testing::ExitedWithCode(77),
+                    testing::AllOf(testing::HasSubstr("the driver has no OpenGL 4.5 core (EGL_BAD_"),
+                                   testing::HasSubstr(", only OpenGL 3.3"),
+                                   testing::EndsWith(". `tidemark inspect --devices` lists what there is")))
+            << device;
+}
+
 TEST_F(HeadlessContextDeathTest, auto_needs_no_display) {
     const auto without_display = [] {
         unsetenv("DISPLAY");
@@ -224,4 +280,92 @@ TEST_F(HeadlessContextDeathTest, auto_needs_no_display) {
     EXPECT_EXIT(without_display(), testing::ExitedWithCode(0), testing::Eq(""));
 }
 
-} // namespace tidemark::platform::headless_context_gl_test
+/// Returns RGBA floats 0, 1, 2, … of so many pixels.
+std::vector<float> counted(size_t pixels) {
+    std::vector<float> values(4 * pixels);
+    std::iota(values.begin(), values.end(), 0.0F);
+    return values;
+}
+
+std::span<const std::byte> bytes_in(const std::vector<float>& values) {
+    return std::as_bytes(std::span(values));
+}
+
+TEST(OpenglEs, is_there_on_request) {
+    auto context = HeadlessContext::create({"es:auto"});
+    ASSERT_TRUE(context) << context.error().message;
+    EXPECT_TRUE(gl::is_es());
+    EXPECT_TRUE(gl::query_capabilities().device().ends_with(" with OpenGL ES"));
+    auto shared = context->create_context();
+    ASSERT_TRUE(shared) << shared.error().message;
+    ASSERT_TRUE(shared->make_current());
+    EXPECT_TRUE(gl::is_es());
+}
+
+TEST(OpenglEs, has_neither_a_timer_nor_mapped_buffers) {
+    const auto context = HeadlessContext::create({"es:auto"});
+    ASSERT_TRUE(context) << context.error().message;
+    gl::ElapsedTime timer;
+    timer.stop();
+    EXPECT_EQ(timer.milliseconds(), std::nullopt);
+    EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR)); // nothing was called that OpenGL ES lacks
+    const auto target = gl::make_render_target(gl::make_texture({3, 2}, GL_RGBA8, 1));
+    ASSERT_TRUE(target);
+    gl::PixelRing ring(2);
+    EXPECT_FALSE(ring.read(*target, {3, 2}, GL_RGBA, GL_UNSIGNED_BYTE, 24));
+    EXPECT_TRUE(ring.empty());
+    EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+TEST(OpenglEs, targets_keep_floats_and_are_read_as_bytes) {
+    const auto context = HeadlessContext::create({"es:auto"});
+    ASSERT_TRUE(context) << context.error().message;
+    const auto target = gl::make_render_target(gl::make_texture({3, 2}, GL_RGBA32F, 1));
+    ASSERT_TRUE(target);
+    std::vector<float> values(4 * 6, 1.0F);
+    gl::read_pixels(*target, GL_RGBA, GL_FLOAT, std::as_writable_bytes(std::span(values)));
+    EXPECT_THAT(values, testing::Each(0.0F)); // cleared
+    std::vector<float> given = counted(6);
+    given[1] = 0.5F;
+    given[2] = -3;
+    given[3] = std::numeric_limits<float>::quiet_NaN();
+    gl::upload(target->texture, 0, GL_RGBA, GL_FLOAT, bytes_in(given));
+    EXPECT_EQ(gl::read_part(target->texture, 0, {1, 1, {2, 1}}),
+              std::vector<float>(given.begin() + 16, given.end()));
+    std::vector<uint8_t> bytes(4 * 6);
+    gl::read_pixels(*target, GL_RGBA, GL_UNSIGNED_BYTE, std::as_writable_bytes(std::span(bytes)));
+    EXPECT_THAT(std::span(bytes).first(8), testing::ElementsAre(0, 128, 0, 0, 255, 255, 255, 255));
+    const auto copy = gl::make_render_target(gl::make_texture({2, 2}, GL_RGBA32F, 1));
+    ASSERT_TRUE(copy);
+    gl::copy_overlap(*target, *copy);
+    EXPECT_THAT(gl::read_part(copy->texture, 0, {0, 1, {2, 1}}),
+                testing::ElementsAre(12, 13, 14, 15, 16, 17, 18, 19));
+    gl::clear(*copy);
+    EXPECT_THAT(gl::read_level(copy->texture, 0), testing::Each(0.0F));
+    EXPECT_EQ(gl::bytes_of(copy->texture), 2 * 2 * 16);
+}
+
+TEST(OpenglEs, textures_of_bytes_are_read_as_floats) {
+    const auto context = HeadlessContext::create({"es:auto"});
+    ASSERT_TRUE(context) << context.error().message;
+    const std::array<uint8_t, 16> bytes{0, 51, 255, 255, 0, 51, 255, 255, 0, 51, 255, 255, 0, 51, 255, 255};
+    for (const bool cube : {false, true}) {
+        const gl::Texture texture =
+            cube ? gl::make_cube_texture(2, GL_RGBA8, 0) : gl::make_texture({2, 2}, GL_RGBA8, 0);
+        EXPECT_TRUE(gl::has_storage(texture));
+        for (int face = 0; face < (cube ? 6 : 1); ++face)
+            gl::upload(texture, face, GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(bytes)));
+        gl::make_mipmaps(texture);
+        const std::vector<float> top = gl::read_level(texture, 1);
+        ASSERT_EQ(top.size(), cube ? 24 : 4);
+        EXPECT_THAT(std::vector(top.end() - 4, top.end()), testing::ElementsAre(0, 51.0F / 255, 1, 1));
+    }
+    const gl::Texture volume = gl::make_volume_texture({1, 1}, 3, GL_RGBA8, 1);
+    for (int slice = 0; slice < 3; ++slice) {
+        const std::array<uint8_t, 4> texel{uint8_t(slice * 51), 0, 0, 255};
+        gl::upload(volume, slice, GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(texel)));
+    }
+    EXPECT_THAT(gl::read_part(volume, 2, {0, 0, {1, 1}}), testing::ElementsAre(0.4F, 0, 0, 1));
+}
+
+} // namespace tidemark::host::headless_context_gl_test

@@ -17,7 +17,7 @@ void mainHit(out vec4 hit, in vec2 p) {
 #endif
 )";
 
-TEST_F(HitTest, comes_back_bit_by_bit) {
+TEST_F(HitTest, is_read_back_bit_by_bit) {
     put("field.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(-0.1 - iTime); }");
     const auto scene = glsl::hit_scene(scene_of(k_scene));
     ASSERT_TRUE(scene);

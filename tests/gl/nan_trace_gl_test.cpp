@@ -26,14 +26,14 @@ std::string name_of(const testing::TestParamInfo<fs::path>& info) {
     return info.param.stem().string();
 }
 
-/// What a fault's file says of itself.
+/// The expectation that a fault's file states in a comment.
 struct Mark {
     int line = 0;
     std::string words; ///< behind `// born `
     int fix = 0;       ///< the line of `// cures`
 
     bool has(const std::string& text) const { return words.find(text) != std::string::npos; }
-    /// The number behind `text`.
+    /// Returns the number after `text`.
     int number(const std::string& text) const {
         return std::stoi(words.substr(words.find(text) + text.size()));
     }
@@ -111,7 +111,7 @@ TEST_P(Faults, AreNamedWithTheirLine) {
 INSTANTIATE_TEST_SUITE_P(Trace, Faults, testing::ValuesIn(cases("faults")), name_of);
 
 /// A buffer that counts frames: the pixel is +Inf in the third alone.
-TEST(Feedback, ThePixelIsLookedAtInItsOwnFrame) {
+TEST(Feedback, ThePixelIsTracedInItsOwnFrame) {
     const TemporaryFolder folder;
     std::ofstream(folder / "buffer_a.glsl")
         << "#iChannel0 \"self\"\n"
@@ -135,14 +135,14 @@ TEST(Feedback, ThePixelIsLookedAtInItsOwnFrame) {
 
 class SoundShaders : public testing::TestWithParam<fs::path> {};
 
-TEST_P(SoundShaders, AreLeftAlone) {
+TEST_P(SoundShaders, AreUnchanged) {
     const auto found = trace(GetParam(), true);
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_FALSE(*found) << (*found)->first->statement;
 }
 
 /// With every operation watched they draw what they drew before, but for what the driver folds differently.
-TEST_P(SoundShaders, DrawTheSameWhenWatched) {
+TEST_P(SoundShaders, DrawTheSameWhenInstrumented) {
     auto scene = scene::load_scene(GetParam());
     ASSERT_TRUE(scene);
     auto renderer = render::Renderer::create(*std::move(scene), {{16, 9}, image::SampleType::f32, ""});

@@ -31,16 +31,16 @@ void expect_the_devices_colours(const scene::Scene& scene, float rounding = k_ro
     const image::Image drawn = renderer.read_floats(0);
     const auto function = PassFunction::create(scene, scene.passes[0]);
     ASSERT_TRUE(function) << function.error().message;
-    const ir::TextureSet textures = textures_of(renderer, 0);
-    ir::FloatEvaluator frame = function->frame(renderer, 0, k_inputs);
-    frame.textures = ir::textures_in<ir::Point<float>>(textures);
+    const proof::TextureSet textures = textures_of(renderer, 0);
+    proof::FloatEvaluator frame = function->frame(renderer, 0, k_inputs);
+    frame.textures = proof::textures_in<proof::Point<float>>(textures);
     for (int y = 0; y < k_extent.height; ++y)
         for (int x = 0; x < k_extent.width; ++x) {
-            ir::FloatEvaluator evaluator = frame;
+            proof::FloatEvaluator evaluator = frame;
             function->move_to(evaluator, {x, y});
-            ir::Decisions none(0);
-            ASSERT_EQ(evaluator.run(none, [](uint32_t) { return true; }), ir::Ended::left);
-            const ir::Variable& color = *function->function().find("tidemark_color");
+            proof::Decisions none(0);
+            ASSERT_EQ(evaluator.run(none, [](uint32_t) { return true; }), proof::Ended::left);
+            const proof::Variable& color = *function->function().find("tidemark_color");
             const auto expected = render::floats_at(drawn, x, y);
             for (uint32_t i = 0; i < 3; ++i)
                 ASSERT_NEAR(evaluator.memory()[color.first + i].real, expected[i],
@@ -105,7 +105,7 @@ TEST(PassFunction, filters_textures_as_the_device) {
     expect_the_devices_colours(scene, 3.0f / 256);
 }
 
-TEST(PassFunction, follows_functions_structs_and_globals) {
+TEST(PassFunction, evaluates_functions_structs_and_globals) {
     expect_the_devices_colours(
         scene_of("struct Hit { float t; vec3 n; };\n"
                  "const vec3 k_up[2] = vec3[2](vec3(0.0, 1.0, 0.0), vec3(1.0, 0.0, 0.0));\n"
@@ -129,7 +129,7 @@ RayCounts counts_of(const std::string& march) {
     const auto function = PassFunction::create(scene, scene.passes[0]);
     EXPECT_TRUE(function);
     RayCounts counts;
-    ir::FloatEvaluator pixel = function->frame(renderer, 0, k_inputs);
+    proof::FloatEvaluator pixel = function->frame(renderer, 0, k_inputs);
     for (int y = 0; y < k_extent.height; ++y)
         for (int x = 0; x < k_extent.width; ++x) {
             function->move_to(pixel, {x, y});
@@ -141,7 +141,7 @@ RayCounts counts_of(const std::string& march) {
     return counts;
 }
 
-TEST(ProvedHits, agree_with_a_march_that_is_right_and_tell_one_that_is_not) {
+TEST(ProvedHits, agree_with_a_correct_march_and_detect_wrong_marches) {
     const RayCounts right = counts_of(
         "for (int i = 0; i < 99; ++i) { float d = map(rd * t); if (d < 1e-3 || t > 9.0) break; t += d; }");
     EXPECT_GT(right.decided(), right.rays * 9 / 10);
@@ -160,7 +160,7 @@ TEST(ProvedHits, agree_with_a_march_that_is_right_and_tell_one_that_is_not) {
     EXPECT_TRUE(leaps.steps_too_long());
 }
 
-TEST(ProvedHits, count_the_way_back_after_a_march_in_fixed_steps) {
+TEST(ProvedHits, include_the_refinement_after_fixed_steps) {
     const std::string march =
         "float before = 0.0; for (; t < 9.0; t += 0.2) { if (map(rd * t) < 1e-3) break; "
         "before = t; }";
@@ -186,8 +186,8 @@ RayCounts counts_over(const std::string& height) {
     renderer.draw(k_inputs);
     const auto function = PassFunction::create(scene, scene.passes[0]);
     EXPECT_TRUE(function);
-    const ir::TextureSet textures = textures_of(renderer, 0);
-    ir::FloatEvaluator pixel = function->frame(renderer, 0, k_inputs);
+    const proof::TextureSet textures = textures_of(renderer, 0);
+    proof::FloatEvaluator pixel = function->frame(renderer, 0, k_inputs);
     RayCounts counts;
     for (int y = 0; y < k_extent.height; ++y)
         for (int x = 0; x < k_extent.width; ++x) {
@@ -201,14 +201,14 @@ RayCounts counts_over(const std::string& height) {
 }
 
 /// Only the texels tell where the surface is.
-TEST(ProvedHits, are_those_of_a_surface_in_a_texture) {
+TEST(ProvedHits, find_a_surface_stored_in_a_texture) {
     const RayCounts counts = counts_over("textureLod(iChannel0, p.xy / 64.0, 0.0).x");
     EXPECT_GT(counts.decided(), counts.rays * 95 / 100);
     EXPECT_EQ(counts.at_base_level, 0u);
 }
 
 /// Low waves are proved whatever mipmap the device chooses, high ones for the base level alone.
-TEST(ProvedHits, are_those_of_any_level_that_a_device_may_choose) {
+TEST(ProvedHits, hold_for_every_mipmap_level) {
     const RayCounts low = counts_over("0.002 * texture(iChannel0, p.xy / 64.0).x");
     EXPECT_GT(low.decided(), low.rays * 95 / 100);
     EXPECT_EQ(low.at_base_level, 0u);

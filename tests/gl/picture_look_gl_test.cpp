@@ -53,7 +53,7 @@ TEST_F(PictureLookTest, exposure_multiplies_by_powers_of_two) {
     EXPECT_EQ(seen({16000.0F, 4000.0F, 0.0F, 1.0F}, {.stops = -14}), (Bytes4{249, 62, 0, 255}));
 }
 
-TEST_F(PictureLookTest, one_channel_is_grey) {
+TEST_F(PictureLookTest, a_single_channel_is_shown_in_grey) {
     const Floats4 pixel{0.2F, 0.4F, 0.6F, 0.8F};
     const int grey[] = {51, 102, 153, 204};
     for (int channel = 0; channel < 4; ++channel) {
@@ -62,7 +62,7 @@ TEST_F(PictureLookTest, one_channel_is_grey) {
     }
 }
 
-TEST_F(PictureLookTest, a_difference_goes_from_blue_over_grey_to_red) {
+TEST_F(PictureLookTest, a_difference_is_coloured_from_blue_over_grey_to_red) {
     const auto difference = [&](float x, float y, double stops = 0) {
         return seen({9, x, 9, y}, {.channel = 1, .less = 3, .stops = stops});
     };
@@ -74,7 +74,7 @@ TEST_F(PictureLookTest, a_difference_goes_from_blue_over_grey_to_red) {
     EXPECT_EQ(difference(0, 0.1F, 1), (Bytes4{189, 192, 215, 255}));
 }
 
-TEST_F(PictureLookTest, what_is_no_number_is_marked_where_it_is_seen) {
+TEST_F(PictureLookTest, non_finite_channels_are_marked) {
     const Bytes4 magenta{255, 0, 255, 255}, green{0, 255, 0, 255};
     EXPECT_EQ(seen({0, k_nan, 0, 1}, {.stops = 1}), magenta);
     EXPECT_EQ(seen({0, -k_infinity, 0, 1}, {.stops = 1}), green);
@@ -82,7 +82,7 @@ TEST_F(PictureLookTest, what_is_no_number_is_marked_where_it_is_seen) {
     EXPECT_EQ(seen({k_infinity, k_infinity, 0, 1}, {.channel = 0, .less = 1}), magenta);
 }
 
-TEST_F(PictureLookTest, automatic_exposure_brings_the_largest_number_to_one) {
+TEST_F(PictureLookTest, automatic_exposure_maps_the_largest_number_to_1) {
     std::vector<Floats4> pixels(1000, {0.5F, 0, 0, 50});
     pixels[777] = {0, -4, 0, 0};
     pixels[778] = {k_nan, k_infinity, 0, 0};
@@ -100,7 +100,7 @@ TEST_F(PictureLookTest, automatic_exposure_brings_the_largest_number_to_one) {
 
 class FlatViewTest : public RenderTest {};
 
-TEST_F(FlatViewTest, the_faces_of_a_cube_are_where_their_directions_are) {
+TEST_F(FlatViewTest, the_faces_of_a_cube_match_their_directions) {
     constexpr int k_side = 4;
     const gl::Texture cube = gl::make_cube_texture(k_side, GL_RGBA16F, 1);
     for (int face = 0; face < 6; ++face) {
@@ -131,7 +131,7 @@ TEST_F(FlatViewTest, the_faces_of_a_cube_are_where_their_directions_are) {
 }
 
 /// Over an edge between neighbours the direction turns by no more than within a face.
-TEST_F(FlatViewTest, neighbours_in_the_cross_touch_along_an_edge) {
+TEST_F(FlatViewTest, neighbouring_faces_in_the_cross_share_an_edge) {
     constexpr int k_side = 16;
     const gl::Texture cube = gl::make_cube_texture(k_side, GL_RGBA16F, 1);
     for (int face = 0; face < 6; ++face) {

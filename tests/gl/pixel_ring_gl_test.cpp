@@ -1,4 +1,4 @@
-// Pixels that come back behind the drawing.
+// Pixels that are read back while later frames are drawn.
 #include "gl_test.hpp"
 #include "render/gl_sync.hpp"
 
@@ -24,7 +24,7 @@ protected:
     RenderTarget target_ = *make_render_target(make_texture({5, 3}, GL_RGBA32F, 1));
 };
 
-TEST_F(PixelRingTest, gives_pictures_in_their_order_as_they_were_when_they_were_read) {
+TEST_F(PixelRingTest, returns_pictures_in_order_as_read) {
     PixelRing ring(3);
     for (int round = 0; round < 4; ++round) {
         for (int i = 0; i < 3; ++i) {
@@ -45,7 +45,7 @@ TEST_F(PixelRingTest, gives_pictures_in_their_order_as_they_were_when_they_were_
     EXPECT_EQ(ring.bytes(), 3U * 5 * 3 * 16);
 }
 
-TEST_F(PixelRingTest, one_goes_while_others_wait) {
+TEST_F(PixelRingTest, reads_while_earlier_pictures_wait) {
     PixelRing ring(2);
     for (int i = 0; i < 20; ++i) {
         if (ring.full()) {
@@ -67,7 +67,7 @@ TEST_F(PixelRingTest, takes_another_size) {
     }
 }
 
-TEST_F(PixelRingTest, says_where_there_is_no_memory) {
+TEST_F(PixelRingTest, reports_missing_memory) {
     PixelRing ring(1);
     EXPECT_FALSE(ring.read(target_, {1, 1}, GL_RGBA, GL_FLOAT, size_t{1} << 62));
     EXPECT_TRUE(ring.empty());

@@ -1,4 +1,4 @@
-// What shaders/lib has for the plane: the noise's gradient, and cells.
+// Functions of shaders/lib for the plane: the noise's gradient, and cells.
 #include "fields/lattice.hpp"
 #include "fields/value_noise.hpp"
 #include "gl_test.hpp"
@@ -22,7 +22,7 @@ protected:
     }
 };
 
-TEST_F(PlaneNoise, gradient_is_that_of_differences) {
+TEST_F(PlaneNoise, gradient_matches_finite_differences) {
     // Places are multiples of 1/16, exact in binary32.
     const image::Image image = drawn("noise.glsl",
                                      R"(vec2 at = p * vec2(0.375, 0.625) - vec2(11.0, 13.0);

@@ -49,7 +49,7 @@ protected:
 };
 
 /// Everything that is smooth: two ways to compute the same picture, apart by what floats lose.
-TEST_F(PrecisionTest, smooth_pictures_are_those_of_floats) {
+TEST_F(PrecisionTest, smooth_pictures_equal_those_in_floats) {
     const std::pair<const char*, double> smooth[] = {
         {"void mainImage(out vec4 c, in vec2 p) { vec2 q = p / iResolution.xy;"
          " c = vec4(0.5 + 0.5 * sin(6.0 * q + iTime), exp(-q.x), pow(q.y, 1.7)); }",
@@ -109,7 +109,7 @@ TEST_F(PrecisionTest, every_uniform_arrives_as_a_double) {
     EXPECT_NEAR(told_in_double("height", {}, "#iUniform float height = 0.1"), 0.1, 1e-15);
 }
 
-TEST_F(PrecisionTest, derivatives_see_more_than_a_float_holds) {
+TEST_F(PrecisionTest, derivatives_are_computed_in_double) {
     const std::string text = "void mainImage(out vec4 c, in vec2 p) { float far = 1e9 + p.x * 1e-3;"
                              " c = vec4(dFdx(far), fwidth(far), dFdy(far), 1); }";
     const Image promoted = picture(text, Precision::promoted, {}, {8, 8});
@@ -133,7 +133,7 @@ void mainImage(out vec4 c, in vec2 p) {
 }
 )";
 
-TEST_F(PrecisionTest, hashes_are_those_of_floats_to_the_bit) {
+TEST_F(PrecisionTest, hashes_equal_those_in_floats_bit_by_bit) {
     const Image single = picture(k_hashes, Precision::single);
     EXPECT_EQ(picture(k_hashes, Precision::promoted), single);
     EXPECT_GT(largest_difference(picture(k_hashes, Precision::promoted_whole), single), 0.1);
@@ -149,7 +149,7 @@ TEST_F(PrecisionTest, hashes_are_reported) {
 }
 
 /// Floats cannot tell the neighbours apart here; doubles draw the whole gradient.
-TEST_F(PrecisionTest, a_deep_zoom_has_its_pixels) {
+TEST_F(PrecisionTest, a_deep_zoom_resolves_every_pixel) {
     const std::string text = "void mainImage(out vec4 c, in vec2 p) {"
                              " vec2 z = vec2(-1.25, 0.125) + p * 1e-12; c = vec4((z.x + 1.25) * 1e11); }";
     const Image promoted = picture(text, Precision::promoted, {}, {8, 1});
@@ -157,7 +157,7 @@ TEST_F(PrecisionTest, a_deep_zoom_has_its_pixels) {
         EXPECT_NEAR(floats_at(promoted, x, 0)[0], (x + 0.5) * 0.1, 1e-4);
 }
 
-TEST_F(PrecisionTest, passes_hand_floats_to_each_other) {
+TEST_F(PrecisionTest, buffers_between_passes_hold_floats) {
     put("buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0 / 3.0, p, 1); }");
     put("image.glsl", "#iChannel0 \"buffer_a.glsl\"\n"
                       "void mainImage(out vec4 c, in vec2 p) {"
@@ -170,7 +170,7 @@ TEST_F(PrecisionTest, passes_hand_floats_to_each_other) {
     EXPECT_NEAR(floats_at(frame(*made), 1, 1)[0], lost * 1e6, 1e-9);
 }
 
-TEST_F(PrecisionTest, hits_are_told_from_doubles) {
+TEST_F(PrecisionTest, hits_are_computed_in_double) {
     const auto hits = glsl::hit_scene(scene_of("void mainImage(out vec4 c, in vec2 p) { c = vec4(0); }\n"
                                                "#ifdef TIDEMARK_HIT\n"
                                                "void mainHit(out vec4 hit, in vec2 p) {"
@@ -181,7 +181,7 @@ TEST_F(PrecisionTest, hits_are_told_from_doubles) {
     EXPECT_EQ(floats_at(frame(*made), 2, 0), (Floats4{2.5f, 3, 0, 1}));
 }
 
-TEST_F(PrecisionTest, what_has_no_double_form_is_named_at_its_place) {
+TEST_F(PrecisionTest, code_without_a_double_form_is_named_at_its_place) {
     auto made = Renderer::create(scene_of("void mainImage(out vec4 c, in vec2 p) {\n    c = vec4(1);\n"
                                           "    gl_FragDepth = 0.5;\n}\n"),
                                  {{2, 2}, SampleType::u8, {}, Precision::promoted});

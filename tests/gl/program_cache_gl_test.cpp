@@ -51,7 +51,7 @@ void expect_good(const gl::Program& program) {
     EXPECT_TRUE(program.reflection().has("s"));
 }
 
-TEST_F(ProgramCacheTest, a_program_is_kept_once_and_recalled) {
+TEST_F(ProgramCacheTest, a_program_is_stored_once_and_reused) {
     expect_good(linked());
     ASSERT_EQ(kept().size(), 1u);
     const auto before = fs::file_time_type::clock::now() - std::chrono::hours(1);
@@ -63,13 +63,13 @@ TEST_F(ProgramCacheTest, a_program_is_kept_once_and_recalled) {
     EXPECT_EQ(bytes_of(kept()[0]), bytes);
 }
 
-TEST_F(ProgramCacheTest, another_text_is_another_program) {
+TEST_F(ProgramCacheTest, each_text_has_its_own_program) {
     expect_good(linked());
     expect_good(linked((std::string(k_fragment) + "\n").c_str()));
     EXPECT_EQ(kept().size(), 2u);
 }
 
-TEST_F(ProgramCacheTest, what_the_driver_refuses_is_compiled_and_kept_anew) {
+TEST_F(ProgramCacheTest, a_refused_program_is_recompiled_and_stored) {
     expect_good(linked());
     const fs::path file = kept().at(0);
     const std::string good = bytes_of(file);
@@ -90,7 +90,7 @@ TEST_F(ProgramCacheTest, what_the_driver_refuses_is_compiled_and_kept_anew) {
     }
 }
 
-TEST_F(ProgramCacheTest, a_damaged_file_is_compiled_and_kept_anew) {
+TEST_F(ProgramCacheTest, a_damaged_file_is_recompiled_and_stored) {
     expect_good(linked());
     const fs::path file = kept().at(0);
     const std::string good = bytes_of(file);
@@ -99,14 +99,14 @@ TEST_F(ProgramCacheTest, a_damaged_file_is_compiled_and_kept_anew) {
     EXPECT_EQ(bytes_of(file), good);
 }
 
-TEST_F(ProgramCacheTest, errors_are_the_drivers_and_nothing_is_kept) {
+TEST_F(ProgramCacheTest, failed_programs_are_not_stored) {
     const auto program = gl::link_or_recall(k_vertex, "#version 330 core\nvoid main() { nothing(); }\n");
     ASSERT_FALSE(program);
     EXPECT_NE(program.error().find("nothing"), std::string::npos);
     EXPECT_TRUE(kept().empty());
 }
 
-TEST_F(ProgramCacheTest, can_be_switched_off_and_does_without_a_folder) {
+TEST_F(ProgramCacheTest, can_be_switched_off_and_works_without_a_folder) {
     ::setenv("TIDEMARK_CACHE", "off", 1);
     expect_good(linked());
     EXPECT_TRUE(kept().empty());
@@ -117,7 +117,7 @@ TEST_F(ProgramCacheTest, can_be_switched_off_and_does_without_a_folder) {
     expect_good(linked());
 }
 
-TEST_F(ProgramCacheTest, pictures_are_the_same) {
+TEST_F(ProgramCacheTest, cached_programs_draw_the_same_pictures) {
     const std::string text = "void mainImage(out vec4 c, in vec2 p) {\n"
                              "    c = vec4(sin(p.x * iTime), texture(iChannel0, p / 99.0).gb, 1.0);\n}\n";
     Renderer compiled = renderer(text, {31, 17});

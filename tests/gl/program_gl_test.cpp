@@ -20,7 +20,7 @@ tl::expected<Program, std::string> linked(const std::string& declarations, const
                                      declarations, expression));
 }
 
-TEST(Program, reflection_has_the_active_uniforms_only) {
+TEST(Program, reflection_lists_active_uniforms_only) {
     const auto program = linked(
         "uniform float used, unused; uniform vec3 list[4]; uniform sampler2D picture; uniform mat4 matrix;",
         "vec4(used) + vec4(list[2], 0.0) + texture(picture, vec2(0.0)) + matrix[1]");
@@ -32,7 +32,7 @@ TEST(Program, reflection_has_the_active_uniforms_only) {
     EXPECT_THAT(names, UnorderedElementsAre("used", "list", "picture", "matrix"));
     EXPECT_EQ(reflection.find("used")->type, GLenum(GL_FLOAT));
     EXPECT_EQ(reflection.find("list")->type, GLenum(GL_FLOAT_VEC3));
-    EXPECT_GE(reflection.find("list")->length, 3); // drivers may cut what is behind the last one used
+    EXPECT_GE(reflection.find("list")->length, 3); // drivers may cut elements after the last one used
     EXPECT_EQ(reflection.find("picture")->type, GLenum(GL_SAMPLER_2D));
     EXPECT_EQ(reflection.find("matrix")->type, GLenum(GL_FLOAT_MAT4));
     EXPECT_EQ(reflection.find("unused"), nullptr);
@@ -144,7 +144,7 @@ TEST_F(SetUniform, floats) {
     EXPECT_EQ(set_and_read<float>("mat4", 16, "u * vec4(1.0)"), counted<float>(16));
 }
 
-TEST_F(SetUniform, whole_numbers) {
+TEST_F(SetUniform, integers) {
     EXPECT_EQ(set_and_read<GLint>("int", 1, "vec4(u)", -7), counted<GLint>(1, -7));
     EXPECT_EQ(set_and_read<GLint>("ivec2", 2, "vec4(u, u)"), counted<GLint>(2));
     EXPECT_EQ(set_and_read<GLint>("ivec3", 3, "vec4(u, 1)"), counted<GLint>(3));
@@ -155,7 +155,7 @@ TEST_F(SetUniform, whole_numbers) {
     EXPECT_EQ(set_and_read<GLuint>("uvec4", 4, "vec4(u)"), counted<GLuint>(4));
 }
 
-TEST_F(SetUniform, truth_values) {
+TEST_F(SetUniform, booleans) {
     EXPECT_EQ(set_and_read<GLint>("bool", 1, "vec4(u)"), std::vector<GLint>({1}));
     EXPECT_EQ(set_and_read<GLint>("bool", 1, "vec4(u)", 0), std::vector<GLint>({0}));
     EXPECT_EQ(set_and_read<GLint>("bvec3", 3, "vec4(u, 1)"), std::vector<GLint>({1, 1, 1}));
@@ -173,7 +173,7 @@ TEST_F(SetUniform, sampler_takes_its_unit) {
     EXPECT_EQ(set_and_read<GLint>("sampler2D", 1, "texture(u, vec2(0.0))", 3), std::vector<GLint>({3}));
 }
 
-TEST_F(SetUniform, array_takes_what_there_is_and_keeps_the_rest) {
+TEST_F(SetUniform, a_shorter_array_sets_its_first_elements_only) {
     auto program = linked("uniform vec3 u[4];", "vec4(u[0] + u[1] + u[2] + u[3], 1.0)");
     ASSERT_TRUE(program) << program.error();
     const Uniform* uniform = program->reflection().find("u");
@@ -186,7 +186,7 @@ TEST_F(SetUniform, array_takes_what_there_is_and_keeps_the_rest) {
     EXPECT_EQ(element(2), (std::vector<float>{7, 8, 9}));
 }
 
-TEST_F(SetUniform, more_values_than_components_are_cut) {
+TEST_F(SetUniform, extra_values_are_ignored) {
     auto program = linked("uniform vec2 u;", "u.xyxy");
     ASSERT_TRUE(program);
     set_uniform(*program, *program->reflection().find("u"), counted<double>(4));
@@ -204,7 +204,7 @@ TEST(Target, is_cleared_and_reads_back_in_its_own_type) {
     EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
 }
 
-TEST(Target, format_that_cannot_be_drawn_into_is_none) {
+TEST(Target, formats_that_cannot_be_rendered_fail) {
     EXPECT_FALSE(make_render_target(make_texture({5, 3}, GL_RGB9_E5, 1)));
     EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
 }

@@ -1,5 +1,5 @@
-// What the first march of a pixel does, recorded on the device: as evaluated from the text, with the picture
-// of the plain text to the bit.
+// The first march of a pixel, recorded on the device, equals the one evaluated from the text, and the picture
+// is that of the plain text to the bit.
 #include "gl_test.hpp"
 #include "lab/hits.hpp"
 #include "lab/march_hits.hpp"
@@ -55,12 +55,12 @@ size_t met(const Hits& hits) {
     return size_t(std::ranges::count_if(hits.distance, [](double distance) { return distance >= 0; }));
 }
 
-/// Where the ray meets the sphere in the middle of the picture.
+/// Returns the distance of the sphere in the middle of the picture.
 double middle(const Hits& hits) {
     return hits.distance[size_t(k_extent.height / 2 * k_extent.width + k_extent.width / 2)];
 }
 
-TEST(RecordedHits, are_those_of_the_text_in_the_forms_that_authors_write) {
+TEST(RecordedHits, are_recorded_for_the_common_forms_of_a_march) {
     for (
         const char* march : {
             "for (int i = 0; i < 99; ++i) { float d = map(rd * t); if (d < 1e-3 || t > 9.0) break; t += d; }",
@@ -92,7 +92,7 @@ TEST(RecordedHits, are_those_of_the_text_in_the_forms_that_authors_write) {
     }
 }
 
-TEST(RecordedHits, tell_steps_that_are_too_long_and_too_few) {
+TEST(RecordedHits, detect_too_long_and_too_few_steps) {
     const char* march =
         "for (int i = 0; i < {}; ++i) {{ float d = map(rd * t); if (d < 1e-3 || t > 9.0) break; "
         "t += {}; }}";
@@ -105,7 +105,7 @@ TEST(RecordedHits, tell_steps_that_are_too_long_and_too_few) {
     EXPECT_EQ(few_steps.check.other_pixels, 0u);
 }
 
-TEST(RecordedHits, are_those_of_the_first_march_alone) {
+TEST(RecordedHits, come_from_the_first_march_only) {
     const std::string trace =
         "float trace(vec3 ro, vec3 rd) { float t = 0.0; for (int i = 0; i < 99; ++i) {\n"
         "float d = map(ro + rd * t); if (d < 1e-3 || t > 9.0) break;\n t += d; } return t; }\n";
@@ -117,7 +117,7 @@ TEST(RecordedHits, are_those_of_the_first_march_alone) {
     EXPECT_NEAR(middle(of.hits), 3.0, 0.01);
 }
 
-TEST(RecordedHits, do_not_see_below_where_the_march_waits_for_it) {
+TEST(RecordedHits, do_not_flag_negative_samples_of_a_sign_test_march) {
     const Recorded of =
         recorded(marcher("for (int i = 0; i < 400; ++i) { t += 0.02; if (map(rd * t) < 0.0) break; }"));
     EXPECT_FALSE(of.sees_below);
@@ -125,7 +125,7 @@ TEST(RecordedHits, do_not_see_below_where_the_march_waits_for_it) {
     EXPECT_EQ(count(of.hits, glsl::k_hit_negative), 0u);
 }
 
-TEST(RecordedHits, are_refused_if_not_certain) {
+TEST(RecordedHits, are_refused_for_ambiguous_marches) {
     const scene::Scene flat = scene_of("void mainImage(out vec4 c, in vec2 f) { c = vec4(1.0); }\n");
     const auto function = PassFunction::create(flat, flat.image());
     ASSERT_TRUE(function);

@@ -38,7 +38,7 @@ TEST_F(RendererTest, draws_computed_pixels) {
             ASSERT_EQ(bytes_at(image, x, y), (Bytes4{x, y, 51, 255})) << x << ',' << y;
 }
 
-TEST_F(RendererTest, row_0_is_the_bottom_and_pixels_are_told_their_centres) {
+TEST_F(RendererTest, row_0_is_the_bottom_and_coordinates_are_pixel_centres) {
     Renderer drawing =
         renderer("void mainImage(out vec4 c, in vec2 p) { c = vec4(p, gl_FragCoord.xy); }", {3, 2});
     const Image image = frame(drawing);
@@ -57,7 +57,7 @@ TEST_F(RendererTest, same_frame_twice_gives_the_same_bytes) {
     }
 }
 
-TEST_F(RendererTest, frame_that_is_stepped_to_equals_frame_that_is_asked_for) {
+TEST_F(RendererTest, frame_after_steps_equals_frame_drawn_directly) {
     Renderer stepping = renderer(k_moving, {64, 48});
     for (int i = 0; i < 9; ++i)
         stepping.draw(inputs_of_frame(i, 24));
@@ -65,7 +65,7 @@ TEST_F(RendererTest, frame_that_is_stepped_to_equals_frame_that_is_asked_for) {
     EXPECT_EQ(frame(stepping, inputs_of_frame(9, 24)), frame(asked, inputs_of_frame(9, 24)));
 }
 
-TEST_F(RendererTest, alpha_is_1_whatever_the_shader_says) {
+TEST_F(RendererTest, alpha_is_always_1) {
     for (const char* alpha : {"0.0", "0.5", "-3.0", "7.0"}) {
         const std::string text =
             fmt::format("void mainImage(out vec4 c, in vec2 p) {{ c = vec4(0.2, 0.4, 0.6, {}); }}", alpha);
@@ -114,7 +114,7 @@ TEST_F(RendererTest, resize_changes_target_and_iResolution) {
     EXPECT_EQ(floats_at(frame(drawing), 0, 0), (Floats4{1.5f, 1.5f, 1.0f, 1.0f}));
 }
 
-TEST_F(RendererTest, resized_equals_made_in_that_size) {
+TEST_F(RendererTest, resized_equals_created_in_that_size) {
     Renderer resized = renderer(k_moving, {16, 16}, SampleType::u8);
     frame(resized, inputs_of_frame(0, 60));
     ASSERT_TRUE(resized.resize({50, 30}));
@@ -122,7 +122,7 @@ TEST_F(RendererTest, resized_equals_made_in_that_size) {
     EXPECT_EQ(frame(resized, inputs_of_frame(3, 60)), frame(made, inputs_of_frame(3, 60)));
 }
 
-TEST_F(RendererTest, target_beyond_the_drivers_limit_is_a_usage_error_that_names_it) {
+TEST_F(RendererTest, target_beyond_the_drivers_limit_is_a_usage_error_with_the_limit) {
     const int limit = gl::query_capabilities().largest_target;
     for (const Extent extent : {Extent{limit + 1, 1}, Extent{1, limit + 1}}) {
         const auto made = create(k_places, extent);
@@ -150,14 +150,14 @@ TEST_F(RendererTest, two_renderers_do_not_disturb_each_other) {
     EXPECT_EQ(frame(first), alone);
 }
 
-TEST_F(RendererTest, one_that_is_replaced_by_another_draws_the_other) {
+TEST_F(RendererTest, move_assignment_draws_the_assigned_scene) {
     Renderer running = renderer(k_moving, {8, 8}, SampleType::u8);
     frame(running);
     running = renderer(k_places, {8, 8}, SampleType::u8);
     EXPECT_EQ(bytes_at(frame(running), 5, 6), (Bytes4{5, 6, 51, 255}));
 }
 
-TEST_F(RendererTest, draw_needs_no_state_from_before) {
+TEST_F(RendererTest, draw_is_independent_of_earlier_gl_state) {
     Renderer drawing =
         diligent_renderer("void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p / 256.0); }",
                           {8, 8}, SampleType::u8);
@@ -202,7 +202,7 @@ std::vector<uint8_t> drawn_by_hand(const scene::Scene& scene, Extent extent) {
     return pixels;
 }
 
-TEST_F(RendererTest, bytes_equal_what_gl_itself_shows) {
+TEST_F(RendererTest, bytes_equal_a_direct_gl_readback) {
     const scene::Scene scene = scene_of(R"(
         void mainImage(out vec4 c, in vec2 p) {
             vec2 uv = p / iResolution.xy;
@@ -233,7 +233,7 @@ TEST_F(RendererTest, compile_error_has_the_authors_file_and_line_through_include
               (std::vector<SourceLocation>{{path_of("inner.glsl"), 3, 24}, {path_of("scene.glsl"), 2, 50}}));
 }
 
-TEST_F(RendererTest, error_that_only_the_linker_sees_is_reported) {
+TEST_F(RendererTest, linker_errors_are_reported) {
     const auto made = create("float missing(float x);\n"
                              "void mainImage(out vec4 c, in vec2 p) { c = vec4(missing(p.x)); }\n",
                              {4, 4});
@@ -243,7 +243,7 @@ TEST_F(RendererTest, error_that_only_the_linker_sees_is_reported) {
     EXPECT_THAT(to_string(made.error()), HasSubstr("missing"));
 }
 
-TEST_F(RendererTest, picture_that_cannot_be_read_is_named_with_its_directive) {
+TEST_F(RendererTest, unreadable_picture_is_named_with_its_directive) {
     put("text.png", "hello");
     constexpr const char* k_reads = "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel2, p); }\n";
     for (const auto& [file, why] :
@@ -256,7 +256,7 @@ TEST_F(RendererTest, picture_that_cannot_be_read_is_named_with_its_directive) {
     }
 }
 
-TEST_F(RendererTest, channel_that_is_not_read_is_not_made) {
+TEST_F(RendererTest, unread_channel_has_no_texture) {
     const Renderer drawing = renderer(
         "#iChannel0 \"none.png\"\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n", {4, 4});
     ASSERT_EQ(drawing.plan().passes.size(), 1u);

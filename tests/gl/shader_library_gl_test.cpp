@@ -42,7 +42,7 @@ glm::dvec3 position(int x, int y) {
     return {px * 0.375 - 11.0, py * 0.625 - 13.0, px * 0.125 + py * 0.25 - 9.0};
 }
 
-TEST_F(ShaderLibrary, NoiseIsThatOfTheReference) {
+TEST_F(ShaderLibrary, NoiseEqualsTheReference) {
     const image::Image image =
         drawn("noise.glsl",
               std::string(k_position) + "c.rgb = vec3(value_noise(at, ivec3(0)), value_noise(at.xy, "
@@ -59,7 +59,7 @@ TEST_F(ShaderLibrary, NoiseIsThatOfTheReference) {
         }
 }
 
-TEST_F(ShaderLibrary, NoiseGradientIsThatOfDifferencesAndWithinItsBound) {
+TEST_F(ShaderLibrary, NoiseGradientMatchesFiniteDifferencesAndItsBound) {
     const image::Image image = drawn(
         "noise.glsl", std::string(k_position) + "c.rgb = value_noise_gradient(at, ivec3(0)).yzw;", k_points);
     const image::Image values = drawn(
@@ -87,7 +87,7 @@ TEST_F(ShaderLibrary, NoiseGradientIsThatOfDifferencesAndWithinItsBound) {
         }
 }
 
-TEST_F(ShaderLibrary, NoiseAlongADirectionIsItsGradientThere) {
+TEST_F(ShaderLibrary, NoiseAlongADirectionMatchesTheGradient) {
     const image::Image image =
         drawn("noise.glsl",
               std::string(k_position) + "vec3 along = vec3(0.6, -0.3, 1.7);\n"
@@ -104,7 +104,7 @@ TEST_F(ShaderLibrary, NoiseAlongADirectionIsItsGradientThere) {
 }
 
 /// Any noise of corners from 0 to 1 bends by no more than one of these 127 does (lib/noise.glsl).
-TEST_F(ShaderLibrary, NoiseBendsWithinItsBound) {
+TEST_F(ShaderLibrary, SecondDerivativeOfNoiseStaysWithinItsBound) {
     constexpr double e = 1e-4;
     constexpr int k_places = 8;
     double most = 0;
@@ -133,7 +133,7 @@ TEST_F(ShaderLibrary, NoiseBendsWithinItsBound) {
     EXPECT_GT(most, 5.9);
 }
 
-TEST_F(ShaderLibrary, IntegerHashIsTheReferencesBitForBit) {
+TEST_F(ShaderLibrary, IntegerHashEqualsTheReferenceBitByBit) {
     const image::Image image =
         drawn("hash.glsl",
               "c.r = scatter(uvec4(lattice_point(vec3(floor(p) - 20.0, 0.0), ivec3(5, -7, 99))))"
@@ -150,7 +150,7 @@ TEST_F(ShaderLibrary, ProductsAreReducedAtAnySize) {
         {0.0F, 5.0F},      {13.0717F, 1.0F},  {0.45F, 1e6F},  {12.9246F, 1e6F},    {-3.3F, 12345.678F},
         {3.3F, -777.125F}, {1e-6F, 86400.5F}, {512.7F, 3e6F}, {0.1F, 16777216.0F}, {7.7e-5F, 1.0e7F},
     };
-    const float low = 0.0212121F; // of a moment that is no float
+    const float low = 0.0212121F; // the rest of a time that is not a float
     std::vector<std::string> fractions;
     for (const auto& [a, b] : factors)
         fractions.push_back(fmt::format("fract_of_product({:.9e}, vec2({:.9e}, {:.9e}))", a, b, low));

@@ -1,5 +1,5 @@
-// What every scene of shaders/ owes its user: knobs that do something and break nothing, no jumps as time
-// goes on, features whose code is gone when they are off.
+// Properties of every scene of shaders/: each knob does something and breaks nothing, the picture does not
+// jump as time goes on, and the code of features that are off is gone.
 #include "base/tokens.hpp"
 #include "media/image.hpp"
 #include "scene/load_scene.hpp"
@@ -52,7 +52,7 @@ bool changes_something(std::vector<Look>& looks, const std::vector<scene::Knob>&
     return changes;
 }
 
-TEST_F(ShippedScenes, EveryKnobChangesThePictureAndNeverBreaksIt) {
+TEST_F(ShippedScenes, EveryKnobChangesThePictureAndKeepsItFinite) {
     const auto files = scene_files();
     ASSERT_GE(files.size(), 4U);
     for (const fs::path& file : files) {
@@ -106,7 +106,7 @@ TEST_F(ShippedScenes, ColoursAreNumbersBeforeTheyAreClamped) {
     }
 }
 
-TEST_F(ShippedScenes, NothingJumpsAsTimeGoesOn) {
+TEST_F(ShippedScenes, MotionIsContinuous) {
     for (const fs::path& file : scene_files()) {
         auto scene = scene::load_scene(file);
         ASSERT_TRUE(scene);
@@ -132,7 +132,7 @@ TEST_F(ShippedScenes, NothingJumpsAsTimeGoesOn) {
     }
 }
 
-TEST_F(ShippedScenes, StraightDownIsALookToo) {
+TEST_F(ShippedScenes, ViewsStraightDownAreFinite) {
     for (const Water& water : k_waters) {
         scene::Scene scene = asked(
             water.scene, "look(p); c.rgb = vec3(length(ray_direction), ray_direction.y, march_field(0.0));");
@@ -146,7 +146,7 @@ TEST_F(ShippedScenes, StraightDownIsALookToo) {
     }
 }
 
-TEST_F(ShippedScenes, ThePseudo3dSeasNearEdgeIsTheSameAtEverySize) {
+TEST_F(ShippedScenes, ThePseudo3dSeasNearEdgeIsIndependentOfTheSize) {
     auto scene = scene::load_scene(k_shaders / "pseudo3d_water.glsl");
     ASSERT_TRUE(scene);
     const auto near_edge = [&](Extent extent) {
@@ -177,7 +177,7 @@ std::set<std::string, std::less<>> names_in(const scene::Scene& scene) {
     return names;
 }
 
-TEST_F(ShippedScenes, WhatIsOffIsGone) {
+TEST_F(ShippedScenes, DisabledFeaturesAreNotInTheProgram) {
     const std::tuple<const char*, const char*, const char*, const char*> features[] = {
         {"gerstner_waves", "FOAM", "foam_picture", "foam_gain"},
         {"gerstner_waves", "REFLECTION", "", "fresnel_exponent"},
@@ -202,7 +202,7 @@ TEST_F(ShippedScenes, WhatIsOffIsGone) {
     }
 }
 
-TEST_F(ShippedScenes, ASceneCarriesItsOwnSolverAlone) {
+TEST_F(ShippedScenes, ASceneContainsOnlyItsOwnSolver) {
     const std::pair<const char*, const char*> marks[] = {
         {"MARCH_SPHERE", "HIT_DISTANCE"},       {"MARCH_ENHANCED", "k_relaxation"},
         {"MARCH_CERTIFIED", "march_clearance"}, {"MARCH_BRACKET", "k_overshoot"},

@@ -1,4 +1,4 @@
-// What Image wrote, in floats, of a renderer that keeps it in bytes.
+// The floats that Image wrote, from a renderer that keeps Image in bytes.
 #include "gl_test.hpp"
 #include "render/buffer_views.hpp"
 
@@ -23,7 +23,7 @@ protected:
     }
 };
 
-TEST_F(ShownFloatsTest, are_those_of_a_picture_of_floats) {
+TEST_F(ShownFloatsTest, equal_those_of_a_float_target) {
     const FrameInputs inputs = inputs_of_frame(7, 60);
     Renderer bytes = renderer(k_text, k_extent, image::SampleType::u8);
     Renderer floats = renderer(k_text, k_extent, image::SampleType::f32);
@@ -37,7 +37,7 @@ TEST_F(ShownFloatsTest, are_those_of_a_picture_of_floats) {
     EXPECT_EQ(bytes.read_back().bytes, before.bytes) << "the frame on show stays as it is";
 }
 
-TEST_F(ShownFloatsTest, of_a_scene_with_feedback) {
+TEST_F(ShownFloatsTest, work_with_feedback) {
     const std::string text = "#iChannel0 \"self\"\nvoid mainImage(out vec4 c, in vec2 p) { "
                              "c = texelFetch(iChannel0, ivec2(p), 0) * 0.7 + p.x; }\n";
     Renderer bytes = renderer(text, k_extent, image::SampleType::u8);
@@ -52,7 +52,7 @@ TEST_F(ShownFloatsTest, of_a_scene_with_feedback) {
               bits_of(gl::read_part(floats.target().texture, 0, k_part)));
 }
 
-TEST_F(ShownFloatsTest, are_its_bytes_where_pixels_are_left_as_they_were) {
+TEST_F(ShownFloatsTest, are_bytes_for_discarded_pixels) {
     Renderer bytes =
         renderer("void mainImage(out vec4 c, in vec2 p) { if (p.x < 3.0) discard; c = vec4(p, 0.0, 1.0); }\n",
                  k_extent, image::SampleType::u8);

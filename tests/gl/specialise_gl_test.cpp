@@ -26,7 +26,7 @@ protected:
         }
         return *std::move(renderer);
     }
-    /// What every pass holds after frames 0 and 1.
+    /// Returns the picture of every pass after frames 0 and 1.
     static std::vector<image::Image> drawn(const scene::Scene& scene, Specialise how) {
         Renderer renderer = made(scene, how);
         return drawn(renderer);
@@ -60,7 +60,7 @@ struct Case {
     std::vector<const char*> defines;
 };
 
-TEST_F(SpecialiseTest, our_scenes_keep_their_bytes_with_features_on_and_off) {
+TEST_F(SpecialiseTest, shipped_scenes_keep_their_bytes_with_features_on_and_off) {
     const std::vector<Case> cases = {
         {"water_surface", {}},    {"pseudo3d_water", {}},
         {"procedural_ocean", {}}, {"procedural_ocean", {"FOAM=0", "FOG=0", "REFLECTION=0", "CLOUDS=0"}},
@@ -131,7 +131,7 @@ TEST_F(SpecialiseTest, buffers_cubes_and_hits_keep_their_bytes) {
     EXPECT_EQ(floats_at(frame(renderer), 5, 0), (Floats4{5.5f, 3, 0, 0}));
 }
 
-TEST_F(SpecialiseTest, unreachable_code_that_does_not_compile_hurts_only_the_plain_program) {
+TEST_F(SpecialiseTest, errors_in_unreachable_code_affect_only_the_plain_program) {
     const scene::Scene scene = scene_of("float broken() { return undeclared; }\n"
                                         "void mainImage(out vec4 c, vec2 p) { c = vec4(0.5); }");
     EXPECT_EQ(left_out(scene, Specialise::unreachable).lines, 1);
@@ -152,7 +152,7 @@ TEST_F(SpecialiseTest, errors_are_those_of_the_plain_text) {
     EXPECT_THAT(to_string(special.error()), testing::HasSubstr("scene.glsl:4"));
 }
 
-TEST_F(SpecialiseTest, what_the_driver_refuses_is_drawn_plain) {
+TEST_F(SpecialiseTest, a_refused_specialisation_is_drawn_plain) {
     // As a constant the knob is beyond the array, which a driver refuses; as a uniform it is clamped.
     const scene::Scene scene = scene_of("#iUniform int place = 7\nfloat unused() { return 1.0; }\n"
                                         "void mainImage(out vec4 c, vec2 p) {\n"
@@ -168,13 +168,13 @@ TEST_F(SpecialiseTest, a_trial_gives_the_plain_bytes_unless_a_difference_is_allo
         scene_of("#iUniform float power = 4.0 in { 1.0, 9.0 }\n"
                  "void mainImage(out vec4 c, vec2 p) {\n"
                  "    for (int i = 0; i < 9; ++i) c += pow(fract(p.x * 0.37 + sin(iTime)), power); }");
-    cli::TrialPlan plan{inputs_of_frame(0, 60), inputs_of_frame(100, 60), 1'000'000};
+    host::TrialPlan plan{inputs_of_frame(0, 60), inputs_of_frame(100, 60), 1'000'000};
     RenderOptions options{.extent = k_extent, .samples = image::SampleType::f32};
     Renderer plain = made(scene, Specialise::nothing);
     const image::Image expected = frame(plain, plan.last);
 
     options.specialise = Specialise::invariant_uniforms;
-    auto trial = cli::choose_program(scene, options, plan);
+    auto trial = host::choose_program(scene, options, plan);
     ASSERT_TRUE(trial);
     EXPECT_EQ(trial->said, "");
     EXPECT_TRUE(frame(trial->renderer, plan.last) == expected);
@@ -182,7 +182,7 @@ TEST_F(SpecialiseTest, a_trial_gives_the_plain_bytes_unless_a_difference_is_allo
     options.specialise = Specialise::constants; // the driver makes products of that power
     ASSERT_FALSE(drawn(scene, Specialise::constants) == drawn(scene, Specialise::nothing));
     plan.allowed = 1e-12;
-    trial = cli::choose_program(scene, options, plan);
+    trial = host::choose_program(scene, options, plan);
     ASSERT_TRUE(trial);
     EXPECT_THAT(trial->said,
                 testing::StartsWith("not specialised: it would differ from the plain program by "));
@@ -197,18 +197,18 @@ auto pairs(std::vector<double> shares) {
 }
 
 TEST(Trial, only_a_clear_gain_counts) {
-    EXPECT_EQ(cli::clear_share(pairs(std::vector(5, 0.5)), 0.97), 0.5);
-    EXPECT_EQ(cli::clear_share(pairs(std::vector(4, 0.5)), 0.97), std::nullopt); // too few for an interval
-    EXPECT_EQ(cli::clear_share(pairs(std::vector(100, 0.97)), 0.97), std::nullopt);
-    EXPECT_EQ(cli::clear_share(pairs({}), 0.97), std::nullopt);
+    EXPECT_EQ(host::clear_share(pairs(std::vector(5, 0.5)), 0.97), 0.5);
+    EXPECT_EQ(host::clear_share(pairs(std::vector(4, 0.5)), 0.97), std::nullopt); // too few for an interval
+    EXPECT_EQ(host::clear_share(pairs(std::vector(100, 0.97)), 0.97), std::nullopt);
+    EXPECT_EQ(host::clear_share(pairs({}), 0.97), std::nullopt);
     // Every third pair was disturbed, the first ones too: a few more make it clear.
     std::vector<double> disturbed;
     for (int i = 0; i < 60; ++i)
         disturbed.push_back(i % 3 == 0 ? 7.0 : 0.5);
-    EXPECT_EQ(cli::clear_share(pairs(disturbed), 0.97), 0.5);
+    EXPECT_EQ(host::clear_share(pairs(disturbed), 0.97), 0.5);
     for (double& share : disturbed)
         share *= 2; // no gain at all
-    EXPECT_EQ(cli::clear_share(pairs(disturbed), 0.97), std::nullopt);
+    EXPECT_EQ(host::clear_share(pairs(disturbed), 0.97), std::nullopt);
 }
 
 /// The saving is a factor beyond what a busy machine makes of a measurement.
@@ -218,8 +218,8 @@ void mainImage(out vec4 c, vec2 p) {
     for (int i = 0; i < 2000; ++i)
         c += p.x * pow(abs(sin(iTime)), 1.7) + pow(abs(cos(iTime)), 2.3) * p.y + pow(abs(sin(iTime * 3.1)), 0.9);
 })");
-    const cli::TrialPlan plan{inputs_of_frame(0, 60), inputs_of_frame(100, 60), 1'000'000};
-    auto trial = cli::choose_program(
+    const host::TrialPlan plan{inputs_of_frame(0, 60), inputs_of_frame(100, 60), 1'000'000};
+    auto trial = host::choose_program(
         scene,
         {.extent = k_extent, .samples = image::SampleType::f32, .specialise = Specialise::invariant_uniforms},
         plan);

@@ -1,4 +1,4 @@
-// What a specimen shows of several views is what it shows of each.
+// A specimen shows in several views at once what it shows in each alone.
 #include "gl_test.hpp"
 #include "lab/specimen.hpp"
 
@@ -26,7 +26,7 @@ protected:
     }
 };
 
-TEST_F(SpecimenTest, views_of_a_run_are_those_that_are_drawn_each_from_the_start) {
+TEST_F(SpecimenTest, views_of_a_run_equal_views_drawn_from_the_start) {
     const scene::Scene scene = counting();
     const auto views = parse_views("0.5;0.2;1.5;0.21;1@0.5,0.5");
     ASSERT_TRUE(views);
@@ -40,7 +40,7 @@ TEST_F(SpecimenTest, views_of_a_run_are_those_that_are_drawn_each_from_the_start
     }
 }
 
-TEST_F(SpecimenTest, a_later_moment_lies_in_the_run_of_the_earlier) {
+TEST_F(SpecimenTest, a_later_moment_continues_the_earlier_run) {
     const View view{"one", render::at_time(0.51)};
     const View later = unseen(view, 0.4242);
     EXPECT_TRUE(later.state.is_in_run_of(view.state));

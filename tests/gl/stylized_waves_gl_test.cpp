@@ -92,7 +92,7 @@ TEST_F(StylizedWaves, no_pixel_is_a_nan_or_infinite_at_the_ends_of_the_ranges) {
     }
 }
 
-TEST_F(StylizedWaves, features_that_are_off_are_not_in_the_program) {
+TEST_F(StylizedWaves, disabled_features_are_not_in_the_program) {
     const std::vector<std::pair<std::string, std::vector<std::string>>> features{
         {"FOAM=0", {"foam_front", "foam_tail", "foam_rollback", "foam_depth", "foam_scale", "foam_color"}},
         {"FOAM=1", {"foam_tail", "foam_rollback"}},
@@ -137,7 +137,7 @@ TEST_F(StylizedWaves, a_wave_follows_the_next_after_the_period_and_time_has_no_j
         EXPECT_NEAR(step(seconds), step(3.9375), 1e-5) << seconds;
 }
 
-TEST_F(StylizedWaves, nothing_jumps_where_something_comes_round) {
+TEST_F(StylizedWaves, motion_is_continuous_at_the_end_of_each_period) {
     // Every movement's period ends at some time of these; a jump would show as another picture.
     Renderer drawing = renderer(waves(), k_small);
     const auto picture = [&](double seconds) { return frame(drawing, at(seconds)); };
@@ -162,8 +162,8 @@ TEST_F(StylizedWaves, waves_run_inwards) {
     EXPECT_LT(inwards, 0.25 * outwards);
 }
 
-// What the lab reads of a hit.
-TEST_F(StylizedWaves, hits_are_on_the_surface_and_say_what_they_cost) {
+// The hit as the lab reads it.
+TEST_F(StylizedWaves, hits_are_on_the_surface_and_report_their_cost) {
     for (const std::string& view : views()) {
         const std::string text =
             "#define TIDEMARK_HIT 1\n#define mainImage picture\n#include \"" +

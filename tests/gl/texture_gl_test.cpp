@@ -17,7 +17,7 @@ using Values = std::vector<float>;
 
 class TextureTest : public RenderTest {
 protected:
-    /// A picture file; `samples` from the top row down, as people look at it.
+    /// Writes a picture file; `samples` are from the top row down.
     void put_picture(const std::string& name, Extent extent, int channels,
                      const std::vector<int>& samples) const {
         Image upright(extent, channels, SampleType::u8);
@@ -32,7 +32,7 @@ protected:
         const auto written = image::write_picture(path_of(name), picture, {image::SampleDepth::f32});
         ASSERT_TRUE(written) << to_string(written.error());
     }
-    /// What the expressions are worth with that sampling of iChannel0.
+    /// Returns the values of the expressions with that sampling of iChannel0.
     Values sampled(const std::string& picture, const std::vector<std::string>& expressions,
                    const scene::Sampling& sampling = {}) const {
         scene::Scene scene = scene_of(telling(expressions, fmt::format("#iChannel0 \"{}\"", picture)));
@@ -63,7 +63,7 @@ TEST_F(TextureTest, vflip_puts_the_bottom_row_at_0) {
     EXPECT_THAT(sampled("rows.png", places, sampling), ElementsAre(10, 11, 30, 30, 11));
 }
 
-TEST_F(TextureTest, one_picture_may_be_read_both_ways) {
+TEST_F(TextureTest, one_picture_may_be_read_with_and_without_vflip) {
     put_picture("rows.png", {1, 2}, 1, {100, 200});
     scene::Scene scene =
         scene_of(telling({"texelFetch(iChannel0, ivec2(0), 0).r", "texelFetch(iChannel1, ivec2(0), 0).r"},
@@ -87,7 +87,7 @@ TEST_F(TextureTest, filters) {
     EXPECT_NEAR(linear[2], 200, 1);
 }
 
-TEST_F(TextureTest, magnify_and_minify_are_told_apart) {
+TEST_F(TextureTest, magnification_and_minification_have_separate_filters) {
     put_picture("step.png", {2, 1}, 1, {0, 200});
     scene::Sampling sampling = k_nearest;
     sampling.magnify =
@@ -235,20 +235,20 @@ TEST_F(NoiseTest, pairs_of_channels_are_shifted_copies) {
     expect_everywhere("n(t).b == n(t + ivec2(37, 17)).a", false);
 }
 
-TEST_F(NoiseTest, texture_at_the_centre_of_a_texel_is_that_texel_and_repeats) {
+TEST_F(NoiseTest, texel_centres_return_their_texel_and_repeat) {
     expect_everywhere("abs(textureLod(iChannel0, p / 256.0, 0.0).g - n(t).g) < 0.002", true);
     expect_everywhere("abs(textureLod(iChannel0, p / 256.0 + vec2(3.0, -2.0), 0.0).g - n(t).g) < 0.002",
                       true);
 }
 
-TEST_F(NoiseTest, is_the_picture_that_bake_writes) {
+TEST_F(NoiseTest, equals_the_picture_of_bake) {
     Renderer drawing =
         renderer("void mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0); }",
                  {256, 256}, SampleType::u8);
     EXPECT_EQ(image::without_alpha(frame(drawing)), image::without_alpha(image::make_noise()));
 }
 
-TEST_F(NoiseTest, has_mipmaps_whose_last_is_the_mean) {
+TEST_F(NoiseTest, the_last_mipmap_is_the_mean) {
     const Values last =
         told({"textureLod(iChannel0, vec2(0.5), 8.0).r", "textureLod(iChannel0, vec2(0.5), 8.0).a"});
     EXPECT_NEAR(last[0], 0.5, 0.02);
@@ -256,7 +256,7 @@ TEST_F(NoiseTest, has_mipmaps_whose_last_is_the_mean) {
 }
 
 /// 128 GiB: more than llvmpipe takes for a texture, and than other drivers have.
-TEST_F(TextureTest, storage_that_the_driver_does_not_have_is_noticed) {
+TEST_F(TextureTest, failed_allocation_of_storage_is_detected) {
     EXPECT_TRUE(gl::has_storage(gl::make_volume_texture({4, 4}, 4, GL_RGBA32F, 1)));
     EXPECT_FALSE(gl::has_storage(gl::make_volume_texture({2048, 2048}, 2048, GL_RGBA32F, 1)));
     EXPECT_EQ(glGetError(), GLenum(GL_OUT_OF_MEMORY));

@@ -74,20 +74,20 @@ void mainImage(out vec4 c, in vec2 p) {
 }
 )";
 
-TEST_F(TilesTest, seams_do_not_show_whatever_the_sizes) {
+TEST_F(TilesTest, tiles_of_any_size_leave_no_seams) {
     const scene::Scene scene = scene_of(k_seams);
     for (const Extent extent : {Extent{1, 1}, {64, 64}, {97, 61}, {130, 33}, {5, 200}})
         for (const Extent tile : {Extent{2, 2}, {6, 10}, {64, 16}, {256, 256}})
             expect_same(scene, extent, tile);
 }
 
-TEST_F(TilesTest, bytes_and_doubles_too) {
+TEST_F(TilesTest, bytes_and_doubles_have_no_seams) {
     expect_same(scene_of(k_seams), {97, 61}, {16, 16}, {SampleType::u8});
     expect_same(scene_of(k_seams), {97, 61}, {16, 16}, {SampleType::f32, glsl::Precision::promoted});
 }
 
-TEST_F(TilesTest, pixels_are_told_where_they_are_far_from_the_corner) {
-    // Floats have one bit left behind the point there, which the centres of pixels need.
+TEST_F(TilesTest, pixels_far_from_the_corner_have_exact_coordinates) {
+    // Floats have one bit after the point there, which the centres of pixels need.
     auto made = Renderer::create(scene_of("void mainImage(out vec4 c, in vec2 p) {\n"
                                           "    vec3 digits = floor(p.x / vec3(65536.0, 256.0, 1.0));\n"
                                           "    if (p == gl_FragCoord.xy && fract(p) == vec2(0.5))\n"
@@ -102,7 +102,7 @@ TEST_F(TilesTest, pixels_are_told_where_they_are_far_from_the_corner) {
     EXPECT_EQ(bytes_at(band, k_largest_tiled_side - 4, 0), (Bytes4{0x7f, 0xff, 0xfc, 255}));
 }
 
-TEST_F(TilesTest, each_scene_that_comes_along) {
+TEST_F(TilesTest, shipped_scenes_have_no_seams) {
     for (const char* name : {"water_surface.glsl", "pseudo3d_water.glsl", "procedural_ocean.glsl",
                              "gerstner_waves.glsl", "stylized_waves.glsl"}) {
         SCOPED_TRACE(name);
@@ -133,7 +133,7 @@ TEST_F(TilesTest, buffers_stay_whole_and_keep_their_frames) {
     expect_same(scene, {75, 41}, {16, 8}, {.frame = 5});
 }
 
-TEST_F(TilesTest, a_pass_that_somebody_reads_is_drawn_whole) {
+TEST_F(TilesTest, a_pass_with_readers_is_drawn_whole) {
     put("buffer_a.glsl", "#iChannel0 \"self\"\nvoid mainImage(out vec4 c, in vec2 p) {"
                          " c = texelFetch(iChannel0, ivec2(p), 0) + 0.1; }\n");
     const scene::Scene scene =
@@ -153,7 +153,7 @@ TEST_F(TilesTest, a_pass_that_somebody_reads_is_drawn_whole) {
             "{} cannot be drawn in tiles, because a pass reads it or it discards pixels", what.pass)));
 }
 
-TEST_F(TilesTest, every_version_knows_the_tile) {
+TEST_F(TilesTest, every_glsl_version_applies_the_tile_offset) {
     const scene::Scene scene = scene_of(k_seams);
     for (const auto version : {glsl::Version::core_330, glsl::Version::core_450, glsl::Version::es_300}) {
         glsl::Dialect dialect;
@@ -166,7 +166,7 @@ TEST_F(TilesTest, every_version_knows_the_tile) {
     }
 }
 
-TEST_F(TilesTest, a_main_of_the_authors_own_and_an_entry_point_that_is_a_macro) {
+TEST_F(TilesTest, the_authors_main_and_a_macro_entry_point_have_no_seams) {
     for (const char* text :
          {"void main() { gl_FragColor = vec4(gl_FragCoord.xy / iResolution.xy, 0.5, 1.0); }",
           "#define entry mainImage\nvoid entry(out vec4 c, in vec2 p) { c = vec4(p, gl_FragCoord.yx); }"})

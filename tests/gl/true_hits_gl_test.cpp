@@ -1,5 +1,5 @@
-// What is proved of rays from a scene's own text, held against the references that were written for the
-// waters: two truths that share nothing but the scene.
+// Compares proofs about rays, made from a scene's own text, with the references that were written for the
+// waters. The two share nothing but the scene.
 #include "fields/certified_march.hpp"
 #include "lab/march_hits.hpp"
 #include "waters.hpp"
@@ -10,7 +10,7 @@ namespace tidemark::render::true_hits_gl_test {
 
 constexpr Extent k_few{24, 14};
 
-TEST_F(Waters, FirstHitsFromTheTextAreThoseOfTheReferences) {
+TEST_F(Waters, ProvedFirstHitsAgreeWithTheReferences) {
     for (const Water& water : k_waters) {
         auto loaded = scene::load_scene(k_shaders / (std::string(water.scene) + ".glsl"));
         ASSERT_TRUE(loaded) << to_string(loaded.error());
@@ -62,7 +62,7 @@ std::string ball(const std::string& start, const std::string& limit) {
            "}\n";
 }
 
-/// Of each ray what is proved of it.
+/// The proof about each ray.
 struct Known {
     size_t hits = 0, misses = 0, unknown = 0;
 };
@@ -97,7 +97,7 @@ TEST_F(BallHits, WithoutALimitNoRayIsProvedToMiss) {
     EXPECT_EQ(infinite.misses, 0u);
 }
 
-TEST_F(BallHits, OfRaysThatBeginNowhereNothingIsProved) {
+TEST_F(BallHits, RaysWithANonFiniteStartAreUndecided) {
     for (const char* start : {"0.0 / iTime", "1.0 / iTime", "-1.0 / iTime"}) {
         const Known nowhere = known(ball(start, "20.0"));
         EXPECT_EQ(nowhere.hits + nowhere.misses, 0u) << start;

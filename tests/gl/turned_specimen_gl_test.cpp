@@ -44,7 +44,7 @@ protected:
     }
 };
 
-TEST_F(TurnedSpecimenTest, numbers_are_turned_in_one_program) {
+TEST_F(TurnedSpecimenTest, numbers_change_without_recompiling) {
     EXPECT_TRUE(check(ocean(),
                       {{{"OCTAVES", "1"}, {"MAX_STEPS", "64"}},
                        {{"OCTAVES", "3"}, {"MAX_STEPS", "512"}},
@@ -53,11 +53,11 @@ TEST_F(TurnedSpecimenTest, numbers_are_turned_in_one_program) {
 }
 
 /// FINE_OCTAVES is the size of arrays.
-TEST_F(TurnedSpecimenTest, what_must_be_a_constant_is_compiled_anew) {
+TEST_F(TurnedSpecimenTest, changed_constants_are_recompiled) {
     EXPECT_FALSE(check(ocean(), {{{"FINE_OCTAVES", "2"}}, {{"FINE_OCTAVES", "5"}}}, Precision::promoted));
 }
 
-TEST_F(TurnedSpecimenTest, another_precision_is_another_program) {
+TEST_F(TurnedSpecimenTest, each_precision_has_its_own_program) {
     const scene::Scene scene = scene_of("#define N 3\n"
                                         "void mainImage(out vec4 c, in vec2 p) {\n"
                                         "    float v = 1.0;\n"

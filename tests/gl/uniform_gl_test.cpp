@@ -44,14 +44,14 @@ TEST_F(UniformTest, iFrame_is_a_whole_number) {
                 ElementsAre(65535.0f, 32767.0f));
 }
 
-TEST_F(UniformTest, iTime_is_frame_over_fps_computed_in_double) {
+TEST_F(UniformTest, iTime_is_computed_in_double) {
     for (const int frame : {1, 7, 1000003, 16777217, 100000000})
         for (const double fps : {24.0, 29.97, 60.0})
             EXPECT_THAT(told({"iTime"}, inputs_of_frame(frame, fps)), ElementsAre(float(double(frame) / fps)))
                 << frame << " at " << fps;
 }
 
-TEST_F(UniformTest, iTimeLow_is_what_a_float_leaves_of_iTime) {
+TEST_F(UniformTest, iTimeLow_is_the_rounding_error_of_iTime) {
     FrameInputs inputs;
     for (const double time : {0.0, 0.1, 59.983333333333334, 1e6 + 1.0 / 3, -5.1}) {
         inputs.time = time;
@@ -76,7 +76,7 @@ TEST_F(UniformTest, untouched_mouse_is_zero_bit_by_bit) {
     EXPECT_THAT(told(bits, clicked), ElementsAre(0.0f, 0.0f)); // no negative zero either
 }
 
-TEST_F(UniformTest, uniforms_that_the_author_declares_otherwise_get_what_fits) {
+TEST_F(UniformTest, redeclared_uniforms_get_converted_values) {
     FrameInputs inputs;
     inputs.frame = 41;
     inputs.time = 2.75;
@@ -113,7 +113,7 @@ TEST_F(UniformTest, iChannelResolution_that_the_author_declares_as_vec2) {
                 ElementsAre(256.0f, 256.0f, 256.0f, 256.0f, 256.0f));
 }
 
-TEST_F(UniformTest, several_in_one_declaration_are_declared_once) {
+TEST_F(UniformTest, a_declaration_of_several_uniforms_is_handled_once) {
     EXPECT_THAT(told({"iTime", "iTimeDelta"}, inputs_of_frame(30, 60), "uniform float iTime, iTimeDelta;"),
                 ElementsAre(0.5f, float(1 / 60.0)));
 }
@@ -141,7 +141,7 @@ TEST_F(UniformTest, knobs_of_every_type) {
                                         0.6f, -9,    10, 32767, 12, 13, 14, 15, 16, 17, -18}));
 }
 
-TEST_F(UniformTest, knob_that_is_set_counts_and_one_that_is_unused_is_harmless) {
+TEST_F(UniformTest, set_knob_has_its_value_and_unused_knob_is_ignored) {
     scene::Scene scene = scene_of("#iUniform float used = 1.0\n#iUniform vec4 unused = vec4(1.0)\n"
                                   "void mainImage(out vec4 c, in vec2 p) { c = vec4(used); }\n");
     ASSERT_TRUE(scene::override_knob(scene, "used=0.75"));
@@ -167,7 +167,7 @@ protected:
         inputs.camera = camera.matrix();
         return told(elements, inputs, "uniform mat4 iCamera;");
     }
-    /// What the matrix does to a vector, in the shader.
+    /// Returns the vector multiplied by the matrix in the shader.
     Values moved(const OrbitCamera& camera, const char* vector) const {
         FrameInputs inputs;
         inputs.camera = camera.matrix();
@@ -191,7 +191,7 @@ TEST_F(CameraTest, its_motion_arrives_number_by_number) {
         ElementsAre(0.25f, -0.5f, 2.0f, 1.0f, 1.0f, -2.0f, 4.0f));
 }
 
-TEST_F(CameraTest, takes_from_camera_to_world) {
+TEST_F(CameraTest, transforms_from_camera_to_world) {
     const OrbitCamera front{0, 0, 5};
     EXPECT_THAT(moved(front, "vec4(0, 0, 0, 1)"), ElementsAre(0.0f, 0.0f, 5.0f));   // stands on +z
     EXPECT_THAT(moved(front, "vec4(0, 0, -1, 0)"), ElementsAre(0.0f, 0.0f, -1.0f)); // looks along -z

@@ -3,22 +3,25 @@
 #include "lab/instrumented_pass.hpp"
 #include "shader/variation.hpp"
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace tidemark::lab::variation_gl_test {
 
 using glsl::Variation;
-using Vary = Variation (*)(const glsl::ParsedText& text, const glsl::TreeFacts& facts);
 
 class VariationTest : public render::RenderTest {
 protected:
     /// The first `count` pixels of a scene that puts each expression into one, in the given mode.
+    template <class Vary>
     std::vector<float> varied(Vary vary, int mode, const std::vector<std::string>& expressions,
                               const std::string& before) const {
         render::Renderer drawing = renderer(telling(expressions, before), {64, 1});
         const auto text = read_text(drawing, 0);
         EXPECT_TRUE(text) << to_string(text.error());
-        const Variation made = vary(**text, glsl::find_facts(**text));
+        const Variation made = vary(**text, glsl::find_facts(**text), {});
         const PassPreview preview(drawing, 0, {});
         auto stand_in = StandIn::link(preview, made.text, "a variation");
         if (!stand_in) {
@@ -35,7 +38,26 @@ protected:
 constexpr const char* k_numbers = "#define A (1.1 + float(iFrame))\n#define B (1.3 + float(iFrame))\n"
                                   "#define C (-1.43 - float(iFrame))\n";
 
-TEST_F(VariationTest, AProductLosesNothingOnItsWayIntoASum) {
+/// The lines of a text that a variation changes, if it may change those above line 3 only.
+TEST_F(VariationTest, OnlyTheChosenPlacesChange) {
+    render::Renderer drawing =
+        renderer(std::string("void mainImage(out vec4 c, in vec2 p) {\nc = vec4(sin(p.x));\n"
+                             "c += vec4(sin(p.y), cos(p.x), 0.0, 0.0);\n}\n"),
+                 {8, 8});
+    const auto text = read_text(drawing, 0);
+    ASSERT_TRUE(text);
+    const auto line_of = [&](glsl::NodeId id) { return (*text)->spelled((*text)->tree()[id].word).line; };
+    const auto lines = [&](const glsl::MayVary& may) {
+        std::vector<int> found;
+        for (const glsl::NodeId id : glsl::vary_sines(**text, glsl::find_facts(**text), may).places)
+            found.push_back(line_of(id));
+        return found;
+    };
+    EXPECT_EQ(lines({}), (std::vector{2, 3, 3}));
+    EXPECT_EQ(lines([&](glsl::NodeId id) { return line_of(id) < 3; }), (std::vector{2}));
+}
+
+TEST_F(VariationTest, AFusedMultiplyAddIsExact) {
     const float a = 1.1f, b = 1.3f, c = -1.43f, ab = a * b;
     const std::vector<std::string> expressions = {
         "A * B + C",
@@ -61,12 +83,74 @@ TEST_F(VariationTest, AProductLosesNothingOnItsWayIntoASum) {
                                          std::fma(-a, b, c), once, ab + c, std::fma(2.0f, a, c)}));
 }
 
-TEST_F(VariationTest, ASumIsAddedUpFromItsOtherEnd) {
+TEST_F(VariationTest, ASumIsAddedInReverseOrder) {
     const float a = 1.1f, b = 1.3f, c = -1.43f;
     const std::vector<float> found =
         varied(glsl::vary_order, 0, {"A + B + C", "A - B - C + A", "(vec2(A) - B + C).y"}, k_numbers);
     ASSERT_NE((a + b) + c, a + (b + c));
     EXPECT_EQ(found, (std::vector<float>{a + (b + c), a - (b + (c - a)), a - (b - c)}));
+}
+
+/// An expression in X, and the bits that Chromium 156 computed of it with SwiftShader for three numbers.
+struct OfSwiftShader {
+    const char* expression;
+    std::array<uint32_t, 3> bits;
+};
+constexpr std::array k_of_swiftshader = {
+    OfSwiftShader{"sin(X * 9.0)", {0x3F314010, 0xBF7EE490, 0x3EC9D407}},
+    OfSwiftShader{"cos(X * 9.0)", {0xBF38BBD8, 0xBDBAC26D, 0xBF6B4060}},
+    OfSwiftShader{"tan(X)", {0xBDAE70DA, 0xBF9BBA5D, 0xBF6B3C4D}},
+    OfSwiftShader{"atan(X)", {0xBFA297C8, 0xBF39261A, 0x3F967FC3}},
+    OfSwiftShader{"atan(X, 1.7)", {0xBF8AFE19, 0xBEF53B76, 0x3F7445F0}},
+    OfSwiftShader{"atan(X, -1.7)", {0xC00390CE, 0xC02A686C, 0x400BFE5F}},
+    OfSwiftShader{"asin(X / 8.0)", {0xBED48D8E, 0xBDE27612, 0x3E9BE5D7}},
+    OfSwiftShader{"acos(X / 8.0)", {0x3FFE34B8, 0x3FD73538, 0x3FA21618}},
+    OfSwiftShader{"exp2(X)", {0x3DDACB94, 0x3F0AD4C7, 0x40A8B6D6}},
+    OfSwiftShader{"exp(X)", {0x3D2295DF, 0x3ED3C5BC, 0x41301872}},
+    OfSwiftShader{"log2(abs(X))", {0x3FD851DA, 0xBE382304, 0x3FA18C52}},
+    OfSwiftShader{"log(abs(X))", {0x3F95F100, 0xBDFF448D, 0x3F5FF409}},
+    OfSwiftShader{"pow(abs(X), 1.7)", {0x40EA6D62, 0x3F4F1E06, 0x408D96AE}},
+    OfSwiftShader{"pow(-abs(X), 1.7)", {0x40EA6D62, 0x3F4F1E06, 0x408D96AE}},
+    OfSwiftShader{"log(-abs(X))", {0x3F95F100, 0xBDFF448D, 0x3F5FF409}},
+    OfSwiftShader{"tanh(X)", {0xBF7F31CF, 0xBF35340C, 0x3F7BCECD}},
+    OfSwiftShader{"sin(X * 12345.0)", {0xBEAAFEF2, 0x3E09CB07, 0x3F37C951}},
+    OfSwiftShader{"X / 1.7", {0xBFF2F0F0, 0xBF04F0F0, 0x3FB49696}},
+    OfSwiftShader{"smoothstep(-3.0, 3.0, X)", {0x00000000, 0x3E924302, 0x3F78CBC4}},
+    OfSwiftShader{"mix(X, 1.3, X * 0.3)", {0xC0F375D5, 0xBFBAFF52, 0x3FCDD57A}},
+    OfSwiftShader{"dot(V, W)", {0x40818EA5, 0x408404A6, 0xBFA6E568}},
+    OfSwiftShader{"(M * V).y", {0xC2F3ED2F, 0xC09E2AAE, 0x422A237D}},
+    OfSwiftShader{"(V * M).y", {0xC2E28C62, 0xC0163BC2, 0x42406A36}},
+    OfSwiftShader{"normalize(V).y", {0x3F63FBD0, 0x3EB3AED5, 0x3F668D6F}},
+    OfSwiftShader{"length(V)", {0x413B0A74, 0x400E20CD, 0x40CC65ED}},
+    OfSwiftShader{"reflect(V, W).y", {0x4097C333, 0xC09FE2CF, 0x40F27E64}},
+};
+
+TEST_F(VariationTest, FunctionsAreSwiftShadersBitForBit) {
+    const auto vary = [](const glsl::ParsedText& text, const glsl::TreeFacts& facts,
+                         const glsl::MayVary& may) {
+        return glsl::vary_like_swiftshader(text, facts, 127, false, may);
+    };
+    const std::array numbers = {"-3.2265625", "-0.8828125", "2.3984375"};
+    std::vector<std::string> expressions;
+    for (const OfSwiftShader& each : k_of_swiftshader)
+        expressions.emplace_back(each.expression);
+    for (size_t i = 0; i < numbers.size(); ++i) {
+        const std::string before =
+            fmt::format("#define X ({} + float(iFrame))\n"
+                        "#define V vec3(X, X * X, 1.0 - X)\n"
+                        "#define W vec3(1.1, 0.7, X + 3.3)\n"
+                        "#define M mat3(X, 1.3, 2.7, abs(X), X * 3.1, 0.3, 1.9, X, 7.7)\n",
+                        numbers[i]);
+        const std::vector<float> found = varied(vary, 31, expressions, before);
+        const std::vector<float> own = varied(vary, 0, expressions, before);
+        size_t unlike = 0;
+        for (size_t k = 0; k < found.size(); ++k) {
+            EXPECT_EQ(std::bit_cast<uint32_t>(found[k]), k_of_swiftshader[k].bits[i])
+                << expressions[k] << ", X = " << numbers[i];
+            unlike += std::bit_cast<uint32_t>(own[k]) != k_of_swiftshader[k].bits[i];
+        }
+        EXPECT_GT(unlike, 12u) << "this driver's functions are other ones";
+    }
 }
 
 } // namespace tidemark::lab::variation_gl_test

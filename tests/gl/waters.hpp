@@ -1,5 +1,5 @@
-// What the tests of the scenes in shaders/ share: questions put to a scene in its own text, and the reference
-// of one that has it.
+// Helpers of the tests of the scenes in shaders/: functions that evaluate expressions in a scene's own text,
+// and the scene's reference, if it has one.
 #pragma once
 
 #include "base/file.hpp"

@@ -12,7 +12,7 @@
 
 namespace tidemark::render::waters_gl_test {
 
-/// What march_field is of the reference's value at this place of the ray.
+/// Returns march_field as a fraction of the reference's value at this place of the ray.
 double scaled(const Water& water, const fields::Reference& reference, const scene::Scene& scene,
               const fields::Ray& ray, double t) {
     if (std::string_view(water.scene) == "gerstner_waves") // over the bound of its slope
@@ -21,7 +21,7 @@ double scaled(const Water& water, const fields::Reference& reference, const scen
     return float(step_scale->value[0]) * reference.field.value(ray.at(t));
 }
 
-TEST_F(Waters, FieldsAreThoseOfTheReferencesAtAnyTime) {
+TEST_F(Waters, FieldsEqualTheReferencesAtAnyTime) {
     for (const Water& water : k_waters) {
         const scene::Scene scene = asked(
             water.scene, "look(p); c = vec4(march_field(1.0), march_field(9.0), march_field(40.0), 1.0);");
@@ -44,7 +44,7 @@ TEST_F(Waters, FieldsAreThoseOfTheReferencesAtAnyTime) {
     }
 }
 
-/// What stylized_waves computes at a place, from what is baked there: its formulas in double.
+/// The wave of stylized_waves at a place, computed from the baked texture with its formulas in double.
 struct StylizedWave {
     double phase = 0, mask = 0, height = 0;
 };
@@ -77,7 +77,7 @@ StylizedWave stylized_wave(const scene::Scene& scene, const image::Image& ramps,
     return wave;
 }
 
-TEST_F(Waters, StylizedWavesAreTheirFormulasInDouble) {
+TEST_F(Waters, StylizedWavesMatchTheirFormulasInDouble) {
     const scene::Scene scene =
         asked("stylized_waves", "vec2 at = 1.25 * (p - vec2(32.0, 18.0));\n"
                                 "vec4 field = vec4(0.375 * p.x, 0.03125 * p.y, 0.125 * p.x, "
@@ -108,7 +108,7 @@ TEST_F(Waters, StylizedWavesAreTheirFormulasInDouble) {
     }
 }
 
-TEST_F(Waters, SineHashIsTheReferencesOnTheDevicesOwnLattice) {
+TEST_F(Waters, SineHashEqualsTheReferenceOnTheDevicesLattice) {
     const Water& water = k_waters[0];
     const std::string hash = (k_shaders / "lib/hash.glsl").string();
     const auto lattice_scene = scene::load_scene(
@@ -170,7 +170,7 @@ Judged judge(const image::Image& image, const fields::Reference& truth) {
     return judged;
 }
 
-TEST_F(Waters, DefaultSolversMeetTheWaterWhereACertifiedMarchDoes) {
+TEST_F(Waters, DefaultSolversHitWhereACertifiedMarchHits) {
     for (const Water& water : k_waters) {
         const scene::Scene scene = asked(water.scene, "mainHit(c, p);");
         Renderer drawing = renderer(scene, k_small);
@@ -233,7 +233,7 @@ constexpr const char* k_proof = R"(
     c = vec4(least, longest, 0.0, 1.0);
 )";
 
-TEST_F(Waters, SolversWithAProofKeepIt) {
+TEST_F(Waters, ProvedSolversKeepTheirBound) {
     const auto proved = [&](const char* solver, const char* bend, const char* asks, const char* line) {
         scene::Scene scene = asked("water_surface", fmt::format(k_proof, asks, line));
         define(scene, std::string("SOLVER=") + solver);
@@ -261,7 +261,7 @@ TEST_F(Waters, SolversWithAProofKeepIt) {
 }
 
 /// A ray that leaves is sampled once more before the document's loop sees that it is too far.
-TEST_F(Waters, TheDocumentsSolverTakesTheDocumentsSamples) {
+TEST_F(Waters, TheDocumentedSolverTakesTheDocumentedSamples) {
     scene::Scene scene = asked("water_surface", R"(
     float own = look(p), samples = march_samples, value, t = 0.1, counted = 0.0;
     for (int i = 0; i < 128; i++) {
@@ -287,7 +287,7 @@ TEST_F(Waters, TheDocumentsSolverTakesTheDocumentsSamples) {
     EXPECT_GT(misses, 100);
 }
 
-TEST_F(Waters, NewtonLeavesNothingOfTheMovement) {
+TEST_F(Waters, NewtonInvertsTheMovement) {
     scene::Scene scene =
         asked("gerstner_waves", "make_waves(); vec2 place = 0.8 * p - 20.0; vec2 rest = unmoved(place);\n"
                                 "vec4 along = train_a * cos(angles(rest));\n"

@@ -19,7 +19,9 @@
 #include <optional>
 #include <thread>
 
-namespace tidemark::platform {
+namespace tidemark::window {
+
+using namespace host;
 
 void PrintTo(const InputEvent& event, std::ostream* out) {
     *out << "event of kind " << event.index();
@@ -69,7 +71,7 @@ TEST(WindowWithoutDisplay, names_the_display_and_capture) {
               "`tidemark capture` draws without one");
 }
 
-TEST(WindowWithoutDisplay, says_what_the_window_system_says) {
+TEST(WindowWithoutDisplay, reports_the_window_systems_error) {
     const Variable nowhere("DISPLAY", ":4711");
     const Variable no_wayland("WAYLAND_DISPLAY", nullptr);
     for (int turn = 0; turn < 2; ++turn) {
@@ -239,7 +241,7 @@ TEST_F(WindowTest, drag_arrives_from_the_bottom_left) {
     EXPECT_THAT(only<PointerMoved>(events), Contains(PointerMoved{{60, 140}}));
 }
 
-TEST_F(WindowTest, drag_goes_on_outside_the_window) {
+TEST_F(WindowTest, drag_continues_outside_the_window) {
     act("mousemove --window {} 5 5 mousedown 1 mousemove 0 0 mouseup 1");
     const ButtonReleased released{Button::left, {-40, 210}};
     EXPECT_THAT(gather_until(released), Contains(InputEvent(released)));
@@ -262,7 +264,7 @@ TEST_F(WindowTest, keys_arrive_pressed_and_released) {
     EXPECT_EQ(only<KeyReleased>(events).size(), 7u);
 }
 
-TEST_F(WindowTest, lost_focus_lets_go_of_what_was_held) {
+TEST_F(WindowTest, lost_focus_releases_held_keys_and_buttons) {
     act("windowfocus --sync {} keydown d");
     const KeyPressed pressed{Key(68)};
     EXPECT_THAT(gather_until(pressed), Contains(InputEvent(pressed)));
@@ -279,7 +281,7 @@ TEST_F(WindowTest, title_changes) {
               title_ + " wäre besser\n");
 }
 
-TEST_F(WindowTest, asks_to_be_drawn_again_when_it_reappears) {
+TEST_F(WindowTest, requests_a_redraw_when_it_reappears) {
     let_events_pass();
     act("windowunmap --sync {} windowmap {}");
     EXPECT_THAT(gather_until(RedrawNeeded{}), Contains(InputEvent(RedrawNeeded{})));
@@ -297,7 +299,7 @@ TEST_F(WindowTest, full_screen_and_back) {
     EXPECT_EQ(cleared_pixel(), k_pixel);
 }
 
-TEST_F(WindowTest, one_at_a_time_and_another_afterwards) {
+TEST_F(WindowTest, a_second_window_opens_only_after_the_first_closes) {
     const auto second = Window::create(k_extent, "second");
     ASSERT_FALSE(second);
     EXPECT_EQ(second.error().message, "cannot open a window: this process has one already; `tidemark "
@@ -318,7 +320,7 @@ TEST_F(WindowTest, events_follow_a_move) {
     EXPECT_EQ(cleared_pixel(), k_pixel);
 }
 
-TEST_F(WindowTest, wait_ends_when_another_thread_wakes_it) {
+TEST_F(WindowTest, another_thread_ends_a_wait) {
     let_events_pass();
     const auto start = Clock::now();
     std::thread waker([] {
@@ -341,5 +343,5 @@ TEST_F(WindowTest, wait_sleeps) {
 }
 
 } // namespace window_gl_test
-} // namespace tidemark::platform
+} // namespace tidemark::window
 #endif

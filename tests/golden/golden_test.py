@@ -28,8 +28,8 @@ SCENES = {
     "stylized_waves": TWO_CAMERAS,
 }
 
-# What made the pictures. It rounds sines and powers in its own way, and in another one on another processor: a crest
-# may then lie a step further, so a few pixels may be quite different as long as the picture is the same.
+# The renderer that made the pictures. It rounds sines and powers in its own way, and differently on another processor:
+# a crest may then lie a step further, so a few pixels may be quite different as long as the picture is the same.
 # At least 40 dB, and at most 1 % of the pixels with a channel that differs by more than 16 of 255.
 RENDERER = "llvmpipe"
 STEP = str(16.5 / 255)
@@ -78,7 +78,7 @@ def add_tests() -> None:
             setattr(Golden, f"test_{scene}_{view}", lambda self, s=scene, v=view: self.check(s, v))
 
 
-class Judgement(Comparison):
+class Threshold(Comparison):
     """The comparison itself: it lets a rounding pass and nothing that one sees."""
 
     LIMITS = LIMITS
@@ -112,18 +112,18 @@ class Judgement(Comparison):
         for golden in GOLDEN.glob("*/t2.png"):
             self.assertEqual(self.judged(lambda rows: [[v * 19 // 20 for v in row] for row in rows], golden), 1, golden)
 
-    def test_some_percent_of_the_pixels_wrong_fail(self):
+    def test_some_percent_of_wrong_pixels_fail(self):
         self.assertEqual(self.judged(self.spoil(25)), 1)
 
 
-class JudgementElsewhere(Judgement):
+class ThresholdOfOtherRenderers(Threshold):
     LIMITS = LIMITS_ELSEWHERE
 
-    def test_the_renderer_decides(self):
+    def test_the_renderer_selects_the_threshold(self):
         self.assertEqual(limits_of("llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6"), LIMITS)
         self.assertEqual(limits_of("NVIDIA H200/PCIe/SSE2, OpenGL 4.6.0 NVIDIA 570.86"), LIMITS_ELSEWHERE)
 
-    def test_pixels_of_another_crest_pass(self):
+    def test_a_few_displaced_pixels_pass(self):
         """As many as another way of rounding moves: 0.6 %, quite different ones."""
         self.assertEqual(self.judged(self.spoil(160)), 0)
 

@@ -29,7 +29,7 @@ class Compile(LiveTest):
         view.wait_until_told(VALUES, lambda told: told["mark"] == 1)
         return view
 
-    def test_on_the_windows_own_thread(self):
+    def test_compiles_on_the_thread_of_the_window(self):
         self.write("a.glsl", marked(1))
         view = self.view("a.glsl", *SIZE, TIDEMARK_ASYNC_COMPILE="off")
         view.wait_until_told(VALUES, lambda told: told["mark"] == 1)
@@ -43,7 +43,7 @@ class Compile(LiveTest):
         self.write("a.glsl", heavy(mark))
         view.wait_for_title(r"\Aa - tidemark - compiling… \d+ s, Esc cancels\Z")
 
-    def test_the_last_good_picture_goes_on_until_the_new_one_is_ready(self):
+    def test_the_last_good_picture_moves_until_the_new_program_is_ready(self):
         view = self.start()
         self.begin_to_compile(view, 2)
         first = view.told(VALUES)
@@ -54,7 +54,7 @@ class Compile(LiveTest):
         view.wait_until_told(VALUES, lambda told: told["mark"] == 2)
         view.wait_for_title(r" fps\Z")
 
-    def test_escape_gives_up(self):
+    def test_escape_cancels_compiling(self):
         view = self.start()
         self.begin_to_compile(view, 2)
         view.key("Escape")
@@ -64,7 +64,7 @@ class Compile(LiveTest):
         view.quit()  # the driver may still be at it
         self.assertEqual(view.wait_for_end(), 0)
 
-    def test_a_new_save_takes_its_place(self):
+    def test_a_new_save_replaces_the_running_compilation(self):
         view = self.start()
         for mark in (2, 3, 4, 5):  # more than are compiled at once
             self.begin_to_compile(view, mark)

@@ -39,14 +39,14 @@ class Edge(LiveTest):
         view.wait_for_words("compiles again")
         view.wait_for_title(" fps$")
 
-    def test_a_crash_and_too_much_memory_are_errors_like_others(self):
+    def test_driver_crash_and_exceeded_memory_are_shown_as_errors(self):
         view = self.start()
         self.expect_refused_and_mended(view, CRASH, r"the driver crashed \(SIG[A-Z]+\) compiling Image of 'wave\.glsl'")
         self.expect_refused_and_mended(view, MAIN % "const int x = (-2147483647 - 1) / -1; c = vec4(x);",
                                        r"the driver crashed \(SIGFPE\) compiling Image of 'wave\.glsl'")
         self.expect_refused_and_mended(view, EATS, r"compiling Image of 'wave\.glsl' takes more than 700 MiB of memory")
 
-    def test_the_sound_too(self):
+    def test_sound_that_exceeds_the_memory_is_an_error(self):
         self.write("folder/image.glsl", GOOD)
         self.write("folder/sound.glsl", "vec2 mainSound(int s, float t) { return vec2(0); }\n")
         view = self.view("folder", "--size", "64x64", "--memory", "700M")
@@ -55,7 +55,7 @@ class Edge(LiveTest):
         view.wait_for_words(r"compiling Sound of 'folder' takes more than 700 MiB of memory")
         view.wait_for_title(r"takes more than 700 MiB")
 
-    def test_saved_once_more_while_it_is_tried(self):
+    def test_a_save_ends_the_trial_compilation(self):
         view = self.start()
         self.write("wave.glsl", "".join(f"float f{i}(float x) {{ return x + {i}.0; }}\n" for i in range(9000))
                    + MAIN % "c = vec4(f8999(p.x));")
@@ -64,7 +64,7 @@ class Edge(LiveTest):
         view.wait_for_title(" fps$")
         wait_for(lambda: len(running_below(view.program.pid)) == 1, "the end of the try")
 
-    def test_nothing_outlives_the_window(self):
+    def test_helpers_end_with_the_window(self):
         view = self.start()
         below = running_below(view.program.pid)
         self.assertEqual(len(below), 1)

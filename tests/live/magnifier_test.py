@@ -46,7 +46,7 @@ class Magnifier(OverlayTest):
         """A pixel as shaders count them."""
         view.point(x, view.place()["HEIGHT"] - 1 - y)
 
-    def test_the_pixel_under_the_pointer_is_large_and_goes_again(self):
+    def test_shows_and_hides_the_pixel_under_the_pointer(self):
         for size, scale in SIZES:
             with self.subTest(size=size, scale=scale):
                 view = self.open_text(ONE, size, scale)
@@ -64,7 +64,7 @@ class Magnifier(OverlayTest):
                 wait_for(lambda: count(view, MARKED) == 1, "the picture with nothing over it")
                 view.close()
 
-    def test_marks_lie_over_what_is_no_number(self):
+    def test_marks_cover_non_finite_pixels(self):
         for size, scale in SIZES:
             with self.subTest(size=size, scale=scale):
                 view = self.open_text(KINDS, size, scale)
@@ -78,7 +78,7 @@ class Magnifier(OverlayTest):
                 wait_for(lambda: count(view, MAGENTA) + count(view, GREEN) + count(view, BLUE) == 0, "the plain picture")
                 view.close()
 
-    def test_enter_finds_the_line_and_a_click_opens_it(self):
+    def test_enter_finds_the_line_and_a_click_opens_the_editor(self):
         script = self.write("edit.sh", "#!/bin/sh\necho \"$@\" > edited.txt\n")
         script.chmod(0o755)
         view = self.open_text(KINDS, VISUAL=f"{script}")
@@ -98,7 +98,7 @@ class Magnifier(OverlayTest):
         view.key("Return")
         wait_for(lambda: not red_rows(), "the panel to go")
 
-    def test_enter_on_a_number(self):
+    def test_enter_on_a_finite_pixel(self):
         view = self.open_text(KINDS)
         self.point_at(view, 200, 200)
         view.key("m")

@@ -32,14 +32,14 @@ class Microphone(LiveTest):
             self.assertEqual((told["low"], told["high"]), (255, 0))
             view.close()
 
-    def test_only_when_asked_for(self):
+    def test_opened_only_with_the_option(self):
         view = self.view("a.glsl", *SIZE, **self.devices)
         told = view.told(VALUES)
         self.assertNotEqual(told["wave"], 192)
         with open(f"/proc/{view.program.pid}/maps", encoding="utf-8") as maps:
             self.assertNotRegex(maps.read(), "libasound|liblo|librtmidi")
 
-    def test_where_there_is_none(self):
+    def test_missing_microphone_is_an_error(self):
         done = self.run_program("view", "a.glsl", "--microphone", "none",
                                 env=environment(DISPLAY=self.screen.display, **self.devices))
         self.assertEqual((done.returncode, done.stderr.splitlines()[-1]),

@@ -60,7 +60,7 @@ class Midi(OverlayTest):
         view.wait_until_told(VALUES, lambda told: list(told.values()) == [2, 0.25, 0, 0.75])
         return view
 
-    def test_learned_and_remembered(self):
+    def test_assignments_are_learned_and_stored(self):
         view = self.learned()
         self.move(7, 0, 8, 127)
         view.wait_until_told(VALUES, lambda told: list(told.values()) == [0, 0.25, 1, 0.75])
@@ -88,13 +88,13 @@ class Midi(OverlayTest):
         self.succeed("capture", "a.glsl", *SIZE, "--input", "take.txt", "--frame", str(frame), "-o", "b.png")
         self.assertEqual(png.read(self.folder / "b.png").rows, png.read(picture).rows)
 
-    def test_a_recording_of_bytes_is_a_device_that_ends(self):
+    def test_a_file_of_bytes_is_a_device_that_ends(self):
         (self.folder / "bytes").write_bytes(bytes([0xB0, 3, 1]))
         view = self.open("a.glsl", *SIZE, "--midi", "./bytes")
         view.wait_for_words("^MIDI: controller 3 controls nothing")
         view.save()
 
-    def test_where_there_is_none(self):
+    def test_missing_device_is_an_error(self):
         for name, words in (("./missing", "cannot listen to MIDI from './missing': No such file or directory"),
                             ("no such port", "cannot listen to MIDI: ")):
             done = self.run_program("view", "a.glsl", "--midi", name, env=environment(DISPLAY=self.screen.display))

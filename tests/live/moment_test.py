@@ -60,7 +60,7 @@ class Moments(OverlayTest):
         self.succeed(*shlex.split(command)[1:], "-o", "again.png")
         self.assertEqual(probe.read(png.read(self.folder / "again.png"), VALUES), probe.read(saved, VALUES))
 
-    def test_the_command_of_a_scene_without_a_camera_has_none(self):
+    def test_the_command_omits_a_camera_that_the_scene_does_not_read(self):
         self.write("flat.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(iMouse.xy / iResolution.xy, 0.0, 1.0); }\n")
         view = self.open("flat.glsl", "--size", "640x360")
         view.drag((450, 150), (420, 170))

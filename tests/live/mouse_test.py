@@ -39,7 +39,7 @@ class Mouse(LiveTest):
         view.button(1, False)
         view.wait_until_told(MOUSE, lambda told: list(told.values()) == [50, 60, -50, -60])
 
-    def test_other_buttons_are_not_the_mouse(self):
+    def test_other_buttons_do_not_change_iMouse(self):
         self.write("mouse.glsl", probe.shader(MOUSE))
         view = self.view("mouse.glsl", *SIZE)
         view.drag((50, 40), (60, 50), number=3)
@@ -47,6 +47,39 @@ class Mouse(LiveTest):
         view.drag((20, 30), (21, 31))
         view.wait_until_told(MOUSE, lambda told: told["iMouse.x"] == 21)
         self.assertEqual(list(view.told(MOUSE).values()), [21, 69, -20, -70])
+
+
+class OtherHosts(LiveTest):
+    """With a `main` of its own a text expects the mouse that other hosts have: the pointer, without a button."""
+
+    OWN = "uniform vec2 u_mouse;\nout vec4 told_color;\n" + probe.shader(
+        {"x": "u_mouse.x", "y": "u_mouse.y"}).replace("void mainImage(out vec4 color, in vec2 at) {",
+                                                     "void main() {\n    vec4 color; vec2 at = gl_FragCoord.xy;").rstrip()[:-1] \
+        + "    told_color = color;\n}\n"
+    TOLD = {"x": "u_mouse.x", "y": "u_mouse.y"}
+
+    def test_the_mouse_follows_the_pointer(self):
+        self.write("own.glsl", self.OWN)
+        view = self.view("own.glsl", *SIZE)
+        view.point(80, 30)
+        view.wait_until_told(self.TOLD, lambda told: list(told.values()) == [80, 70])
+        view.drag((50, 40), (60, 50))
+        view.wait_until_told(self.TOLD, lambda told: list(told.values()) == [60, 50])
+        view.point(20, 90)
+        view.wait_until_told(self.TOLD, lambda told: list(told.values()) == [20, 10])
+
+    def test_a_recording_contains_pointer_moves(self):
+        self.write("own.glsl", self.OWN)
+        view = self.view("own.glsl", *SIZE, "--record", "take.txt")
+        view.point(80, 30)
+        view.wait_until_told(self.TOLD, lambda told: list(told.values()) == [80, 70])
+        view.quit()
+        self.assertEqual(view.wait_for_end(), 0)
+        script = (self.folder / "take.txt").read_text()
+        self.assertRegex(script, r"(?m)^\d+ point 80 70$")
+        last = script.splitlines()[-1].split()[0]
+        self.succeed("capture", "own.glsl", *SIZE, "--input", "take.txt", "--frame", str(int(last) + 1), "-o", "x.png")
+        self.assertEqual(list(probe.read(png.read(self.folder / "x.png"), self.TOLD).values()), [80, 70])
 
 
 class Camera(LiveTest):
@@ -62,7 +95,7 @@ class Camera(LiveTest):
         wanted = self.captured(camera)
         view.wait_until_told(MATRIX, lambda told: all(abs(told[k] - wanted[k]) < 1e-4 for k in wanted))
 
-    def test_drag_turns_half_a_circle_across_the_height(self):
+    def test_drag_across_the_height_rotates_by_half_a_circle(self):
         view = self.start()
         self.assertEqual(view.told(MATRIX), self.captured("0,0,5"))
         view.drag((100, 50), (50, 50))

@@ -67,7 +67,7 @@ class Orbit(LiveTest):
         self.wait_until_shown(view, first, "the first picture after wheel, pan and R")
         view.close()
 
-    def test_the_knob_chooses_the_documents_mouse(self):
+    def test_a_knob_selects_the_documented_mouse(self):
         view = self.start("gerstner_waves", "--set", "document_mouse=1")
         view.drag(MIDDLE, ASIDE)
         command = self.wait_for_command(view, "--mouse 100,60,80,45( |$)")

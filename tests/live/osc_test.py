@@ -32,7 +32,7 @@ class Osc(LiveTest):
                                       osc.message("/knob/height", 2), osc.message("/knob/count", "default")))
         view.wait_until_told(VALUES, lambda told: list(told.values()) == [2, 2, 0, 0.25, 0.75])
 
-    def test_a_flood_does_not_hold_up_what_comes_after(self):
+    def test_messages_after_a_flood_arrive(self):
         self.write("a.glsl", SCENE)
         view, client = self.osc_view("a.glsl")
         for i in range(5000):
@@ -68,7 +68,7 @@ class Osc(LiveTest):
         client.send("/play", False)
         view.wait_for_title(" - paused at ")
 
-    def test_what_is_wrong_is_said_once(self):
+    def test_errors_are_reported_once(self):
         self.write("a.glsl", SCENE)
         view, client = self.osc_view("a.glsl")
         for _ in range(3):
@@ -114,7 +114,7 @@ class Osc(LiveTest):
             self.succeed("capture", "a.glsl", *SIZE, "--input", "take.txt", "--frames", frames, "-o", "b-%05d.png")
             self.assertEqual(png.read(self.folder / f"b-{frame:05}.png").rows, png.read(picture).rows)
 
-    def test_where_it_cannot_listen(self):
+    def test_a_taken_port_is_an_error(self):
         self.write("a.glsl", SCENE)
         view, client = self.osc_view("a.glsl")
         port = client.socket.getpeername()[1]

@@ -32,7 +32,7 @@ class Output(LiveTest):
     def wait_for_picture(self, view: View, window: int, wanted: list[bytes]) -> None:
         wait_for(lambda: view.running() and self.rows(view, window) == wanted, "the picture in that window")
 
-    def test_it_has_the_picture_and_nothing_else(self):
+    def test_shows_the_picture_without_panels(self):
         self.write("a.glsl", PATTERN)
         for width, height in SIZES:
             with self.subTest(width=width):
@@ -45,7 +45,7 @@ class Output(LiveTest):
                 self.wait_for_picture(view, view.output, picture)
                 view.close()
 
-    def test_it_keeps_the_proportions(self):
+    def test_keeps_the_aspect_ratio(self):
         self.write("a.glsl", PATTERN)
         view = self.open("--size", "300x160", "--output-window")
         picture = png.read(view.save()).rows
@@ -55,13 +55,13 @@ class Output(LiveTest):
         black = [bytes(900)] * 20
         self.wait_for_picture(view, view.output, black + picture + black)
 
-    def test_it_follows_the_scale(self):
+    def test_follows_the_scale(self):
         self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(mod(floor(p.x), 2.0), fract(iTime), 0, 1); }")
         view = self.open("--size", "300x160", "--output-window")
         view.key("equal")
         wait_for(lambda: all(abs(red - 127.5) < 2 for red in self.rows(view, view.output)[9][0::3]), "the mean")
 
-    def test_closed_it_leaves_the_first_one(self):
+    def test_closing_keeps_the_main_window(self):
         self.write("a.glsl", PATTERN)
         view = self.open("--size", "300x160", "--output-window")
         self.screen.ask_to_close(view.output)
@@ -84,7 +84,7 @@ class Output(LiveTest):
         view.quit()  # keys are the first window's
         self.assertEqual(view.wait_for_end(), 0)
 
-    def test_there_is_no_such_monitor(self):
+    def test_unknown_monitor(self):
         self.write("a.glsl", PATTERN)
         self.expect_failure(["view", "a.glsl", "--output-monitor", "2"], 2,
                             "tidemark: error: --output-monitor 2: there is no such monitor: monitor 1 is 1280x800 at 0,0",
@@ -96,7 +96,7 @@ class Freeze(LiveTest):
         place = view.place()
         return self.screen.rows(place["X"], place["Y"], place["WIDTH"], place["HEIGHT"])
 
-    def test_the_picture_stays_and_time_goes_on(self):
+    def test_the_picture_freezes_and_time_advances(self):
         for width, height in SIZES:
             with self.subTest(width=width):
                 self.write("a.glsl", PATTERN)
@@ -119,7 +119,7 @@ class Freeze(LiveTest):
                 wait_for(lambda: self.rows(view) != saved.rows, "the next picture")
                 view.close()
 
-    def test_it_stays_while_the_scale_changes(self):
+    def test_the_picture_stays_when_the_scale_changes(self):
         self.write("a.glsl", PATTERN)
         view = self.view("a.glsl", "--size", "300x160")
         view.key("z")

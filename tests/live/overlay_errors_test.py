@@ -22,7 +22,7 @@ class Errors(OverlayTest):
         wait_for(lambda: has_errors(view), "the panel of errors")
         return view
 
-    def test_the_panel_comes_and_goes_with_the_error(self):
+    def test_the_panel_is_shown_while_there_is_an_error(self):
         for size, scale in SIZES:
             with self.subTest(size=size, scale=scale):
                 view = self.open_bad(size, scale)
@@ -33,13 +33,13 @@ class Errors(OverlayTest):
                 wait_for(lambda: has_errors(view), "the panel over the last good picture")
                 view.close()
 
-    def test_a_file_that_is_not_there_yet(self):
+    def test_a_missing_file(self):
         view = self.open("later.glsl", "--size", "640x360", first_title="waiting: ")
         wait_for(lambda: has_errors(view), "the panel of errors")
         self.write("later.glsl", GOOD)
         wait_for(lambda: not has_errors(view), "the picture")
 
-    def test_it_is_there_in_full_screen(self):
+    def test_the_panel_is_shown_in_full_screen(self):
         view = self.open_bad()
         view.key("f")
         wait_for(lambda: view.place()["WIDTH"] == 1280, "the full screen")
@@ -70,7 +70,7 @@ class Errors(OverlayTest):
         wait_for(lambda: edited.exists() and edited.read_text(), "the editor")
         self.assertEqual(edited.read_text(), "--wait +2 a.glsl\n")
 
-    def test_an_editor_that_does_not_start_is_said(self):
+    def test_an_editor_that_does_not_start_is_reported(self):
         view = self.open_bad(VISUAL="", EDITOR="no-such-editor")
         self.click_the_place(view)
         view.wait_for_words("^tidemark: error: cannot start the editor 'no-such-editor': No such file or directory$")

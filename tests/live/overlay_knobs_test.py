@@ -31,7 +31,7 @@ class Knobs(OverlayTest):
                 view.wait_until_told(VALUES, lambda told: told["height"] == 2)
                 view.close()
 
-    def test_each_kind_has_its_widget(self):
+    def test_each_type_of_knob_has_a_widget(self):
         view = self.open_controls(SCENE)
         view.click_row(ON, 0.03)
         view.wait_until_told(VALUES, lambda told: told["on"] == 0)
@@ -42,7 +42,7 @@ class Knobs(OverlayTest):
         view.drag_row(DEEP, 0.05, 0.15)
         view.wait_until_told(VALUES, lambda told: told["red"] > 0.25)
 
-    def test_events_elsewhere_are_the_scenes(self):
+    def test_events_outside_of_panels_reach_the_scene(self):
         view = self.open_controls(SCENE)
         view.drag((500, 300), (450, 280))
         view.wait_until_told(VALUES, lambda told: told["mouse"] == 450)
@@ -59,7 +59,7 @@ class Knobs(OverlayTest):
         self.assertNotIn("paused", view.title())
 
     @not_sanitized  # whose first frame is slow, and a slow frame's clock needs it
-    def test_nothing_is_loaded_before_it_is_shown(self):
+    def test_the_overlay_is_loaded_when_first_shown(self):
         self.write("a.glsl", KNOBS[0] + "\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(height); }\n")
         view = self.open("a.glsl", "--size", "640x360")
         self.assertNotRegex(view.loaded(), "tidemark_overlay|imgui")
@@ -88,7 +88,7 @@ class Knobs(OverlayTest):
         view.click_row(0, 0.1)
         view.wait_until_told(VALUES, lambda told: told["height"] == 0.5)
 
-    def test_an_edited_default_moves_what_nobody_turned(self):
+    def test_an_edited_default_changes_knobs_that_were_not_set(self):
         view = self.open_controls(SCENE, "--set", "free=3")
         view.drag_row(HEIGHT, 0.3, 0.9)
         view.wait_until_told(VALUES, lambda told: told["height"] == 2 and told["free"] == 3)

@@ -46,7 +46,7 @@ class Layout(OverlayTest):
         view.click(PAUSE, view.bar_y() - ROW)  # the slider has a row of its own
         view.wait_for_title(" - paused at ")
 
-    def test_help_hides_what_is_below(self):
+    def test_help_is_opaque(self):
         self.write("a.glsl", WHITE)
         view = self.open("a.glsl", "--size", "640x360")
         before = view.picture()

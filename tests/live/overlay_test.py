@@ -37,7 +37,7 @@ class Overlay(OverlayTest):
         self.assertEqual(told["level"], 0.75)
         self.assertGreater(told["time"], 0)
 
-    def test_a_changed_definition_may_go_from_the_file(self):
+    def test_a_changed_definition_may_be_removed_from_the_file(self):
         view = self.open_controls(SCENE)
         view.click_row(HEADER, 0.3)
         view.drag_row(STEPS, 0.1, 0.3)
@@ -46,7 +46,7 @@ class Overlay(OverlayTest):
         view.wait_for_words("^a\\.glsl: warning: the scene has no #define or const 'STEPS': ")
         view.wait_until_told(TOLD, lambda told: told["steps"] == 7)
 
-    def test_a_number_shows_a_pass(self):
+    def test_a_number_key_shows_a_pass(self):
         self.write("red.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0, 0.0, 0.0, 0.0); }\n")
         for size, scale in SIZES:
             with self.subTest(size=size, scale=scale):
@@ -69,7 +69,7 @@ class Overlay(OverlayTest):
                          "the buffer's small picture")
                 view.close()
 
-    def test_help_is_there_and_goes(self):
+    def test_help_opens_and_closes(self):
         scene = "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.0, 1.0, 0.0, 1.0); }\n"
         keyboard = '#iChannel0 "keyboard"\nvoid mainImage(out vec4 c, in vec2 p) ' \
                    "{ c = vec4(0.0, 1.0, texelFetch(iChannel0, ivec2(0), 0).r, 1.0); }\n"
@@ -84,7 +84,7 @@ class Overlay(OverlayTest):
                 wait_for(lambda: view.picture() == plain, "the picture without the help")
                 view.close()
 
-    def test_a_scene_that_reads_the_keyboard_has_tab_to_itself(self):
+    def test_a_scene_that_reads_the_keyboard_receives_tab(self):
         self.write("a.glsl", '#iChannel0 "keyboard"\nvoid mainImage(out vec4 c, in vec2 p) '
                              "{ c = vec4(texelFetch(iChannel0, ivec2(9, 2), 0).r); }\n")
         view = self.open("a.glsl", "--size", "200x100")

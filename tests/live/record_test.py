@@ -11,7 +11,7 @@ SCENE = probe.shader(VALUES, 'uniform mat4 iCamera;\n#iChannel1 "keyboard"')
 
 
 class Record(LiveTest):
-    def test_capture_replays_what_was_recorded(self):
+    def test_capture_replays_a_recording(self):
         self.write("a.glsl", SCENE)
         view = self.view("a.glsl", *SIZE, "--record", "take.txt")
         view.save_key = "ctrl+s"
@@ -59,7 +59,7 @@ class Record(LiveTest):
     def test_keys_of_the_window_are_not_recorded(self):
         for name, scene, keys, wanted in (
                 ("plain", probe.shader({"time": "iTime"}), ["h", "r", "space", "s", "Right", "a"], ["camera reset"]),
-                ("keyboard", SCENE, ["ctrl+h", "ctrl+r", "r"],
+                ("keyboard", SCENE, ["ctrl+h", "ctrl+shift+r", "r"],
                  ["keydown 17", "keyup 17", "keydown 17", "camera reset", "keyup 17", "keydown 82", "keyup 82"])):
             with self.subTest(name):
                 self.write(f"{name}.glsl", scene)
@@ -82,7 +82,7 @@ class Record(LiveTest):
         self.assertNotEqual(told[0], told[1])
         self.assertEqual(told[1], still["camera"])
 
-    def test_going_back_forgets_what_came_after(self):
+    def test_a_restart_discards_later_events(self):
         self.write("a.glsl", SCENE)
         view = self.view("a.glsl", *SIZE, "--record", "take.txt")
         view.save_key = "ctrl+s"
@@ -104,7 +104,7 @@ class Record(LiveTest):
         view.wait_until_told(VALUES, lambda told: told["iMouse.x"] == 30 and told["iMouse.w"] == -20 and
                              told["iMouse.z"] == -10 and told["toggled"] == 1)
 
-    def test_interrupted_window_keeps_what_was_recorded(self):
+    def test_interrupt_keeps_the_recording(self):
         self.write("a.glsl", SCENE)
         for stop in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with self.subTest(stop=stop.name):
@@ -127,7 +127,7 @@ class Record(LiveTest):
         view.drag((100, 50), (60, 70))
         view.wait_until_told(VALUES, lambda told: told["iMouse.x"] == 60)
 
-    def test_a_display_that_dies_leaves_what_was_recorded(self):
+    def test_loss_of_the_display_keeps_the_recording(self):
         self.write("a.glsl", SCENE)
         for paused in (False, True):
             with self.subTest(paused=paused):
@@ -141,7 +141,7 @@ class Record(LiveTest):
                 self.assertTrue(view.stderr().endswith("tidemark: error: the connection to the display is lost\n"), view.stderr())
                 self.assertRegex((self.folder / f"{paused}.txt").read_text(), r"(?m)^\d+ press left 100 50$")
 
-    def test_a_window_that_another_program_destroys_leaves_what_was_recorded(self):
+    def test_destruction_of_the_window_keeps_the_recording(self):
         self.write("a.glsl", SCENE)
         for paused in (False, True):
             with self.subTest(paused=paused):
@@ -152,7 +152,7 @@ class Record(LiveTest):
                 self.assertTrue(view.stderr().endswith("tidemark: error: another program has destroyed the window\n"), view.stderr())
                 self.assertRegex((self.folder / f"{paused}.txt").read_text(), r"(?m)^\d+ press left 100 50$")
 
-    def test_recording_over_what_the_scene_reads(self):
+    def test_recording_over_a_file_of_the_scene(self):
         for text in (SCENE, "not yet a scene"):
             with self.subTest(text):
                 scene = self.write("a.glsl", text)
@@ -175,7 +175,7 @@ class Record(LiveTest):
         self.assertEqual(png.read(self.folder / name).width, int(SIZE[1].split("x")[0]))
         self.assertEqual((self.folder / "victim").read_text(), "before")
 
-    def test_recording_that_cannot_be_written_is_an_error_at_the_start(self):
+    def test_unwritable_recording_is_an_error_at_the_start(self):
         self.write("a.glsl", "not GLSL")
         self.expect_failure(["view", "a.glsl", "--record", "no/such/take.txt"], 4,
                             "tidemark: error: cannot write 'no/such/take.txt': No such file or directory")

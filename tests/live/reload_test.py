@@ -40,21 +40,21 @@ class Ways(ReloadTest):
             self.expect_mark(view, mark)
         self.assertNotIn("error", view.stderr())
 
-    def test_written_anew_and_renamed(self):
+    def test_replaced_by_rename(self):
         view = self.start()
         for mark in (2, 3, 4):
             self.replace("a.glsl", marked(mark))
             self.expect_mark(view, mark)
         self.assertNotIn("error", view.stderr())
 
-    def test_moved_away_and_written_anew(self):
+    def test_moved_away_and_rewritten(self):
         view = self.start()
         for mark in (2, 3):  # as vim does with a backup
             os.replace(self.folder / "a.glsl", self.folder / "a.glsl~")
             self.write("a.glsl", marked(mark))
             self.expect_mark(view, mark)
 
-    def test_says_how_long_it_took(self):
+    def test_reports_the_time_to_reload(self):
         view = self.start()
         self.write("a.glsl", marked(2))
         view.wait_for_words(r"^reloaded in \d+ ms: ")
@@ -68,7 +68,7 @@ class Ways(ReloadTest):
         self.replace("lib/mark.glsl", "float mark() { return 3.0; }\n")
         view.wait_until_told(values, lambda told: told["mark"] == 3)
 
-    def test_include_that_is_new_is_watched_too(self):
+    def test_new_include_is_watched(self):
         view = self.start()
         self.write("lib/mark.glsl", "#define MARK 2.0\n")
         self.write("a.glsl", probe.shader(MARK, '#include "lib/mark.glsl"'))
@@ -76,7 +76,7 @@ class Ways(ReloadTest):
         self.write("lib/mark.glsl", "#define MARK 3.0\n")
         self.expect_mark(view, 3)
 
-    def test_include_under_an_if_that_comes_later(self):
+    def test_missing_include_under_an_if_is_created_later(self):
         view = self.start(scene=probe.shader(MARK, '#define MARK 1.0\n#ifdef NOT_DEFINED\n#include "later.glsl"\n'
                                                    "#endif"))
         self.expect_mark(view, 1)
@@ -95,7 +95,7 @@ class Ways(ReloadTest):
 
 
 class Broken(ReloadTest):
-    def test_keeps_the_picture_says_where_and_is_mended(self):
+    def test_error_keeps_the_picture_until_it_is_fixed(self):
         view = self.start()
         self.expect_mark(view, 1)
         self.write("a.glsl", BROKEN)
@@ -108,7 +108,7 @@ class Broken(ReloadTest):
         view.wait_for_title(r"\Aa - tidemark - (\d+ fps|still)\Z")
         self.expect_mark(view, 2)
 
-    def test_broken_otherwise_is_reported_again(self):
+    def test_another_error_is_reported(self):
         view = self.start()
         self.write("a.glsl", BROKEN)
         view.wait_for_title(r"\Aa\.glsl:4(:9)?: error: ")
@@ -117,7 +117,7 @@ class Broken(ReloadTest):
         self.write("a.glsl", "float x;\n")
         view.wait_for_title(r"\A'a\.glsl' has no mainImage")
 
-    def test_in_an_include(self):
+    def test_error_in_an_include(self):
         self.write("lib/b.glsl", "#define MARK 1.0\n")
         view = self.start(scene=probe.shader(MARK, '#include "lib/b.glsl"'))
         self.write("lib/b.glsl", "#define MARK 2.0\n\nfloat f() { return nothing; }\n")
@@ -127,14 +127,14 @@ class Broken(ReloadTest):
         view.wait_for_words(r"^a\.glsl: compiles again$")
         self.expect_mark(view, 2)
 
-    def test_include_that_is_missing_may_come_later(self):
+    def test_missing_include_may_be_created_later(self):
         view = self.start()
         self.write("a.glsl", probe.shader(MARK, '#include "later.glsl"'))
         view.wait_for_title(r"\Aa\.glsl:1: error: cannot read 'later\.glsl': no such file")
         self.write("later.glsl", "#define MARK 5.0\n")
         self.expect_mark(view, 5)
 
-    def test_include_of_what_is_no_file(self):
+    def test_include_that_names_no_file(self):
         view = self.start()
         self.write("a.glsl", probe.shader(MARK, '#include ""'))
         view.wait_for_title(r'\Aa\.glsl:1: error: #include "" names no file')
@@ -144,7 +144,7 @@ class Broken(ReloadTest):
         self.write("a.glsl", marked(2))
         self.expect_mark(view, 2)
 
-    def test_new_include_that_is_broken_may_be_mended(self):
+    def test_broken_new_include_may_be_fixed(self):
         view = self.start()
         self.write("new.glsl", "#define MARK 6.0\n#iUniform flaot x = 1.0\n")
         self.write("a.glsl", probe.shader(MARK, '#include "new.glsl"'))
@@ -152,7 +152,7 @@ class Broken(ReloadTest):
         self.write("new.glsl", "#define MARK 6.0\n")
         self.expect_mark(view, 6)
 
-    def test_picture_that_is_damaged_may_be_mended(self):
+    def test_damaged_picture_may_be_fixed(self):
         self.write("dot.png", png.encode(1, 1, 1, [b"\x33"]))
         values = {"dot": "texelFetch(iChannel0, ivec2(0), 0).r * 255.0"}
         view = self.start(scene=probe.shader(values, '#iChannel0 "dot.png"'))
@@ -200,7 +200,7 @@ class MiddleOfASave(ReloadTest):
 
         self.in_a_blink(view, in_two_halves, 0.045)
 
-    def test_file_that_is_removed_and_made_again_is_not_reported(self):
+    def test_briefly_missing_file_is_not_reported(self):
         view = self.start()
 
         def removed_and_made(mark: int) -> None:
@@ -210,7 +210,7 @@ class MiddleOfASave(ReloadTest):
 
         self.in_a_blink(view, removed_and_made, 0.3)
 
-    def test_file_that_stays_away_is_reported_and_its_return_too(self):
+    def test_missing_file_and_its_return_are_reported(self):
         view = self.start()
         os.replace(self.folder / "a.glsl", self.folder / "away")
         view.wait_for_title(r"\Acannot read 'a\.glsl': no such file\Z")
@@ -268,7 +268,7 @@ class Survives(ReloadTest):
         self.assertEqual(said, ["level is now 0.7, from the file; --set level=0.5 no longer applies",
                                 "STEPS stays 7.0 because of --define; the file's definition is now 4.0"])
 
-    def test_a_set_waits_for_a_knob_that_is_gone(self):
+    def test_a_set_survives_the_removal_of_its_knob(self):
         view = self.start("--set", "level=0.5", "--define", "STEPS=7.0", scene=self.held_scene(1, "0.2", "3.0"))
         self.write("a.glsl", self.held_scene(6, "0.2", "4.0", knob="other"))
         view.wait_for_words("^a\\.glsl: warning: the scene has no knob 'level': it has other$")
@@ -306,7 +306,7 @@ class Folder(ReloadTest):
         view.wait_until_told(self.TOLD, lambda told: told["frames"] == 5)
         return view
 
-    def test_buffers_keep_what_they_hold(self):
+    def test_buffers_keep_their_pixels(self):
         view = self.open()
         self.write_image("2.0")
         view.wait_until_told(self.TOLD, lambda told: told["mark"] == 2 and told["frames"] == 6)
@@ -315,7 +315,7 @@ class Folder(ReloadTest):
         view.key("Home")
         view.wait_until_told(self.TOLD, lambda told: told["frames"] == 10)
 
-    def test_a_file_that_the_folder_gets(self):
+    def test_a_file_added_to_the_folder(self):
         self.write("s/image.glsl", probe.shader(MARK, "#ifndef MARK\n#define MARK 1.0\n#endif\n"))
         view = self.view("s", *SIZE)
         self.expect_mark(view, 1)
@@ -330,7 +330,7 @@ class Folder(ReloadTest):
         (self.folder / "s/Common.frag").unlink()
         self.expect_mark(view, 4)
 
-    def test_a_folder_in_place_of_another_was_saved_when_it_came(self):
+    def test_a_folder_moved_into_place_is_reloaded(self):
         for name, mark in (("s", 1), ("t", 2)):
             self.write(f"{name}/image.glsl", marked(mark))
             os.utime(self.folder / name / "image.glsl", (1e9, 1e9))
@@ -342,7 +342,7 @@ class Folder(ReloadTest):
         words = view.wait_for_words(r"^reloaded in (\d+) ms: notice (\d+), ")
         self.assertLess(int(words[1]), 2 * PATIENCE * 1000)
 
-    def test_other_files_are_none_of_its_business(self):
+    def test_unrelated_files_are_ignored(self):
         self.write("s/image.glsl", marked(1))
         view = self.view("s", *SIZE)
         self.expect_mark(view, 1)

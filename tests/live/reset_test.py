@@ -23,7 +23,7 @@ class Reset(LiveTest):
                          **arguments)
 
     @not_sanitized
-    def test_the_window_is_opened_again_as_it_was(self):
+    def test_the_window_reopens_with_its_state(self):
         """Some eight seconds after the start, at 60 frames a second."""
         view = self.struck(500, "--set", "height=1.5")
         view.wait_for_words(f"^{RESET}opening the window again$")
@@ -36,14 +36,14 @@ class Reset(LiveTest):
         self.assertEqual(view.wait_for_end(), 0)
 
     @not_sanitized
-    def test_one_that_is_reset_at_once_is_not_opened_for_ever(self):
+    def test_an_early_reset_is_not_retried(self):
         view = self.struck(3, first_title=None)
         self.assertEqual(view.wait_for_end(), 5)
         self.assertEqual(view.stderr(), f"{RESET}it happened soon after the start, so the window is not opened again; "
                                         f"`tidemark capture --tile 64` draws this scene in small parts\n")
 
     @not_sanitized
-    def test_a_recording_ends_there_and_is_whole(self):
+    def test_a_reset_completes_the_recording(self):
         view = self.struck(100, "--record", "clicks.txt", first_title=None)
         self.assertEqual(view.wait_for_end(), 5)
         self.assertEqual(view.stderr(), f"{RESET}the recording is in clicks.txt\n")

@@ -18,7 +18,7 @@ class Scale(LiveTest):
         place = view.place()
         return self.screen.rows(place["X"], place["Y"] + row, place["WIDTH"], 1)[0]
 
-    def test_the_scene_is_told_the_size_of_what_is_drawn(self):
+    def test_iResolution_is_the_drawn_size(self):
         self.write("size.glsl", probe.shader(SIZE))
         for size in SIZES:
             for name, halvings in LAST.items():
@@ -33,7 +33,7 @@ class Scale(LiveTest):
                     view.wait_for_title(f", scale {name}$" if name != "1" else r"(still|fps)$")
                     view.close()
 
-    def test_keys_halve_and_double_as_far_as_there_are_scales(self):
+    def test_keys_halve_and_double_within_the_limits(self):
         self.write("size.glsl", STRIPES)
         view = self.view("size.glsl", "--size", "320x160")
         for key, names in (("minus", ("1/2", "1/4", "1/8", "1/8")), ("equal", ("1/4", "1/2", None, "2", "2"))):
@@ -61,7 +61,7 @@ class Scale(LiveTest):
         falls = greens == sorted(greens, reverse=True) and (greens[0], greens[-1]) == (255, 0)
         return falls and sum(0 < green < 255 for green in greens) >= 3
 
-    def test_the_mouse_is_where_it_is_in_the_picture(self):
+    def test_iMouse_is_in_drawn_pixels(self):
         self.write("mouse.glsl", probe.shader(MOUSE))
         for size in SIZES:
             with self.subTest(size=size):
@@ -88,7 +88,7 @@ class Scale(LiveTest):
         self.write("mouse.glsl", probe.shader(MOUSE | SIZE))
         view = self.view("mouse.glsl", "--size", "500x260", "--scale", "1/2", "--record", "take.txt")
         view.key("equal")
-        view.wait_for_words("^the scale cannot change during a replay: mouse positions are recorded in pixels$")
+        view.wait_for_words("^the scale cannot change while recording or replaying: ")
         view.drag((50, 40), (120, 90))
         view.wait_until_told(MOUSE, lambda told: told["iMouse.x"] == 60 and told["iMouse.z"] < 0)
         saved = view.save()
@@ -99,7 +99,7 @@ class Scale(LiveTest):
                      "-o", "again.png")
         self.assertEqual(png.read(self.folder / "again.png").rows, png.read(saved).rows)
 
-    def test_the_next_window_has_it_unless_another_is_typed(self):
+    def test_the_scale_is_stored_for_the_next_window(self):
         self.write("size.glsl", probe.shader(SIZE))
         state = {"XDG_STATE_HOME": str(self.folder / "state")}
         view = self.view("size.glsl", "--size", "400x200", **state)
@@ -131,7 +131,7 @@ class Scale(LiveTest):
         view.wait_for_words("^adaptive scale is off: the scale stays at 2$")
         view.wait_for_title(" fps$")
 
-    def test_there_are_five(self):
+    def test_invalid_scale_lists_the_valid_values(self):
         self.write("size.glsl", STRIPES)
         self.expect_failure(["view", "size.glsl", "--scale", "3"], 2,
                             "tidemark: error: --scale: give 1/8 or 1/4 or 1/2 or 1 or 2, not '3'")

@@ -6,7 +6,7 @@ from support.live import LiveTest, View, main, wait_for
 from support.slow import rounds_that_take, slow_function, slow_shader
 
 SIZE = ("--size", "320x160")
-FRAME_SECONDS = 5
+FRAME_SECONDS = 4
 SMALL = {"size": "iResolution.x"}
 COUNTED = {"count": "texelFetch(iChannel0, ivec2(0), 0).r", "frame": "float(iFrame)"}
 COUNT = '#iChannel0 "self"\nvoid mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0) + 1.0; }\n'
@@ -49,7 +49,7 @@ class SlowFrame(LiveTest):
         self.assertEqual(picture.rows, png.read(self.folder / "again.png").rows)
         return picture
 
-    def test_keys_are_answered_while_the_first_frame_is_drawn(self):
+    def test_keys_respond_while_the_first_frame_is_drawn(self):
         view = self.start()
         view.key("h")
         view.wait_for_words("full screen; help")
@@ -64,13 +64,13 @@ class SlowFrame(LiveTest):
         view.wait_for_words(r"^saving a-\d+\.png$")
         self.assertEqual(self.expect_picture_of_capture(view).width, 160)
 
-    def test_the_clock_goes_on_in_the_title(self):
+    def test_the_title_shows_the_running_time(self):
         view = self.start()
         earlier = view.wait_for_title(r"\Aa - tidemark - drawing (\d+\.\d) s, \d+ %")
         later = view.wait_for_title(r"\Aa - tidemark - drawing (\d+\.\d) s, \d+ %, Esc cancels\Z")
         self.assertGreater(float(later[1]), float(earlier[1]))
 
-    def test_escape_gives_up_and_the_window_stays(self):
+    def test_escape_cancels_the_frame_and_keeps_the_window(self):
         view = self.start()
         view.wait_for_title(", Esc cancels")
         self.screen.xdotool("key", "Escape", "Escape", "Escape")
@@ -82,14 +82,14 @@ class SlowFrame(LiveTest):
         self.wait_for_a_frame(view)
         self.assertEqual(self.expect_picture_of_capture(view).width, 160)
 
-    def test_marks_would_hold_the_window_and_rest(self):
+    def test_marks_are_off_for_slow_frames(self):
         view = self.start()
         view.key("space")
         self.wait_for_the_paused_frame(view)
         view.key("n")
         view.wait_for_words("^marks are off while a frame takes more than a second$")
 
-    def test_another_size_begins_the_frame_anew(self):
+    def test_resizing_restarts_the_frame(self):
         view = self.start()
         self.screen.xdotool("windowsize", str(view.window), "200", "100")
         view.key("space")
@@ -105,7 +105,7 @@ class SlowFrame(LiveTest):
         self.addCleanup(view.close)
         return view
 
-    def test_a_frame_that_is_given_up_is_none(self):
+    def test_a_cancelled_frame_leaves_buffers_unchanged(self):
         view = self.start_counting()
         self.wait_for_a_frame(view)
         view.wait_for_title(", Esc cancels")
@@ -116,7 +116,7 @@ class SlowFrame(LiveTest):
         self.wait_for_a_frame(view)
         self.assertEqual(view.told(COUNTED), {"count": 2, "frame": 1})
 
-    def test_frames_that_lead_to_a_moment(self):
+    def test_frames_before_a_seek_target_are_drawn_in_parts(self):
         view = self.start_counting("--osc", "0")
         client = osc.Client(int(view.wait_for_words(r"^OSC: listening at \S+:(\d+)$")[1]))
         self.addCleanup(client.close)
@@ -130,7 +130,7 @@ class SlowFrame(LiveTest):
         told = view.told(COUNTED)
         self.assertEqual(told["count"], told["frame"] + 1)
 
-    def test_a_mended_text_waits_behind_a_loop_that_never_ends(self):
+    def test_a_reload_waits_for_an_endless_loop(self):
         self.write("a.glsl", slow_function(65000, 300) + "void mainImage(out vec4 c, in vec2 p) {\n"
                              "    c = vec4(p.y > 80.0 ? slow(p.x) : 0.0);\n}\n")
         view = View(self.screen, self.folder, "a.glsl", *SIZE, "--plain", first_title=" - drawing ")
@@ -145,7 +145,7 @@ class SlowFrame(LiveTest):
             view.key("Escape")
         self.assertEqual(view.wait_for_end(), 0)
 
-    def test_a_loop_that_never_ends(self):
+    def test_endless_loop(self):
         """Or as good as never: not in the small picture that is tried out in another process first. It is come upon
         when the frame's clock is on show already."""
         self.write("a.glsl", slow_function(self.measured()) + slow_function(65000, 300, "endless")

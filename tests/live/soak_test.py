@@ -82,7 +82,7 @@ class Soak(LiveTest):
         print(f"after {edit} edits: {footprint.kibibytes(view.program.pid) / 1024:.1f} MiB, {len(handles)} handles, "
               f"{len(threads)} threads, " + ", ".join(f"{count} {kind}" for kind, count in objects.items()), flush=True)
 
-    def test_whatever_is_saved(self):
+    def test_random_saves_leak_nothing(self):
         self.restore()
         self.counts = self.folder / "counts"
         counted = not is_sanitized()
@@ -107,7 +107,7 @@ class Soak(LiveTest):
         view.quit()
         self.assertEqual(view.wait_for_end(), 0)
 
-    def test_a_window_that_begins_with_nothing(self):
+    def test_random_saves_after_a_start_without_a_scene(self):
         view = View(self.screen, self.folder, "s/a.glsl", *SIZE, first_title=r"\Awaiting: ")
         self.addCleanup(view.close)
         for edit in range(EDITS // 4):

@@ -40,7 +40,7 @@ class Stall(LiveTest):
         view.wait_until_told(VALUES, lambda told: told["mark"] == 1)
         return view
 
-    def test_escape_gives_the_frames_up_and_then_quits(self):
+    def test_escape_cancels_the_frames_and_then_quits(self):
         rounds = self.rounds()
         view = self.start()
         self.hold(view, 2, rounds)
@@ -61,7 +61,7 @@ class Stall(LiveTest):
         view.wait_for_title(r" - cancelled, ")
         self.quit(view)
 
-    def test_a_mended_text_is_taken_at_once_and_other_keys_are_meant(self):
+    def test_a_fixed_text_loads_at_once_and_other_keys_work(self):
         rounds = self.rounds()
         view = self.start()
         self.hold(view, 2, rounds)
@@ -70,7 +70,7 @@ class Stall(LiveTest):
         view.wait_until_told(VALUES, lambda told: told["mark"] == 3)
         self.assertIn("full screen", view.stderr())
 
-    def test_escape_and_a_mended_text_in_one_hold(self):
+    def test_escape_and_a_fixed_text_during_one_stall(self):
         rounds = self.rounds()
         view = self.start()
         self.hold(view, 2, rounds)
@@ -79,7 +79,7 @@ class Stall(LiveTest):
         view.wait_until_told(VALUES, lambda told: told["mark"] == 3)
         self.quit(view)
 
-    def test_the_windows_own_button_closes_it(self):
+    def test_the_close_button_closes_the_window(self):
         rounds = self.rounds()
         view = self.start()
         self.hold(view, 2, rounds)

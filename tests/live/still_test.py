@@ -26,19 +26,19 @@ class Still(LiveTest):
         # A frame drawn wakes the driver's threads, too: 60 frames a second are some hundred in each second.
         self.assertLess(self.wakes(view) - before, 20 * REST_SECONDS)
 
-    def test_a_still_scene_rests(self):
+    def test_a_still_scene_is_not_redrawn(self):
         self.write("a.glsl", STILL)
         view = self.view("a.glsl", *SIZE)
         view.wait_for_title(r"\Aa - tidemark - still\Z")
         self.expect_rest(view)
 
-    def test_a_paused_scene_rests(self):
+    def test_a_paused_scene_is_not_redrawn(self):
         self.write("a.glsl", MOVING)
         view = self.view("a.glsl", *SIZE)
         view.pause()
         self.expect_rest(view)
 
-    def test_wakes_for_the_mouse_and_rests_again(self):
+    def test_redraws_for_the_mouse_only(self):
         self.write("a.glsl", probe.shader(MOUSE))
         view = self.view("a.glsl", *SIZE)
         view.wait_for_title(r" still\Z")
@@ -48,7 +48,7 @@ class Still(LiveTest):
         view.wait_for_title(r" still\Z")
         self.expect_rest(view)
 
-    def test_wakes_for_a_scene_that_moves(self):
+    def test_redraws_after_a_reload_with_movement(self):
         self.write("a.glsl", STILL)
         view = self.view("a.glsl", *SIZE)
         view.wait_for_title(r" still\Z")

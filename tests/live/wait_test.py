@@ -38,25 +38,25 @@ class Wait(LiveTest):
         view.wait_for_title(r"\Aa - tidemark - (\d+ fps|still)\Z")
         self.assertEqual(view.stderr().count("waiting for"), 1)
 
-    def test_a_text_that_does_not_even_load(self):
+    def test_a_text_that_does_not_load(self):
         self.write("a.glsl", "#iUniform flaot x = 1.0\n")
         view = self.wait("a.glsl", r"\Awaiting: a\.glsl:1(:\d+)?: error: expected a type")
         self.write("a.glsl", marked(2))
         self.expect_mark(view, 2)
 
-    def test_a_file_that_is_not_there_yet(self):
+    def test_a_missing_file(self):
         view = self.wait("a.glsl", r"\Awaiting: cannot read 'a\.glsl': no such file\Z")
         self.write("a.glsl", marked(1))
         self.expect_mark(view, 1)
         self.write("a.glsl", marked(2))
         self.expect_mark(view, 2)
 
-    def test_a_file_in_a_folder_that_is_not_there_yet(self):
+    def test_a_file_in_a_missing_folder(self):
         view = self.wait("x/y/a.glsl", r"\Awaiting: cannot read 'x/y/a\.glsl': no such file\Z")
         self.write("x/y/a.glsl", marked(1))
         self.expect_mark(view, 1)
 
-    def test_an_include_and_a_picture_that_are_not_there_yet(self):
+    def test_a_missing_include_and_a_missing_picture(self):
         self.write("a.glsl", probe.shader(MARK, '#include "lib/mark.glsl"'))
         view = self.wait("a.glsl", r"\Awaiting: a\.glsl:1(:\d+)?: error: cannot read 'lib/mark\.glsl': no such file\Z")
         self.write("lib/mark.glsl", "#define MARK x\n")
@@ -64,7 +64,7 @@ class Wait(LiveTest):
         self.write("lib/mark.glsl", "#define MARK 3.0\n")
         self.expect_mark(view, 3)
 
-    def test_a_folder_that_is_not_there_is_empty_or_is_broken(self):
+    def test_a_missing_empty_or_broken_folder(self):
         view = self.wait("s", r"\Awaiting: cannot read 's': no such file\Z")
         (self.folder / "s").mkdir()
         view.wait_for_title(r"\Awaiting: 's' has no image\.glsl")
@@ -80,7 +80,7 @@ class Wait(LiveTest):
         self.write("s/image.glsl", marked(2))
         self.expect_mark(view, 2)
 
-    def test_a_project_that_is_not_there_or_is_broken(self):
+    def test_a_missing_or_broken_project(self):
         view = self.wait("p.json", r"\Awaiting: cannot read 'p\.json': no such file\Z")
         self.write("p.json", "{")
         view.wait_for_title(r"\Awaiting: p\.json:")
@@ -89,7 +89,7 @@ class Wait(LiveTest):
              "code": marked(1)}]}))
         self.expect_mark(view, 1)
 
-    def test_what_is_saved_while_it_starts_is_not_missed(self):
+    def test_a_save_during_the_start_is_loaded(self):
         for mark in (1, 2, 3):
             with self.subTest(mark):
                 (self.folder / "a.glsl").unlink(missing_ok=True)
@@ -100,12 +100,12 @@ class Wait(LiveTest):
                 self.expect_mark(view, mark)
                 view.close()
 
-    def test_it_can_be_closed(self):
+    def test_a_waiting_window_can_be_closed(self):
         view = self.wait("a.glsl", r"\Awaiting: ")
         view.quit()
         self.assertEqual(view.wait_for_end(), 0)
 
-    def test_options_that_are_wrong_end_it(self):
+    def test_invalid_options_end_the_command(self):
         self.write("a.glsl", marked(1))
         for options, words in ((["--set", "x=1"], "the scene has no knob 'x': it declares none with #iUniform"),
                                (["--define", "X=1"], "the scene has no #define or const 'X'"),

@@ -14,7 +14,7 @@ SIZE = probe.vector("iResolution", "xy")
 
 
 class Wayland(WaylandTest):
-    def test_the_picture_equals_the_captured_one(self):
+    def test_the_picture_equals_capture(self):
         self.write("wave.glsl", PATTERN)
         view = self.view("wave.glsl", "--size", "200x100", "--fps", "10")
         view.restart_paused()
@@ -26,7 +26,7 @@ class Wayland(WaylandTest):
         wait_for(lambda: self.screen.find(saved.rows), "the picture on the screen")
         self.assertEqual(view.stderr(), "saving wave-00001.png\n")
 
-    def test_a_save_reloads_it(self):
+    def test_a_save_reloads_the_scene(self):
         self.write("a.glsl", probe.shader({"it": "1.0"}))
         view = self.view("a.glsl", "--size", "200x100")
         self.assertEqual(view.told({"it": ""}), {"it": 1})
@@ -35,7 +35,7 @@ class Wayland(WaylandTest):
         self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(nothing); }")
         view.wait_for_words(r"^a\.glsl:1:\d+: error: ")
 
-    def test_f_fills_the_screen_and_gives_it_back(self):
+    def test_f_toggles_full_screen(self):
         self.write("size.glsl", probe.shader(SIZE))
         view = self.view("size.glsl", "--size", "200x100")
         view.key("f")
@@ -43,7 +43,7 @@ class Wayland(WaylandTest):
         view.key("f")
         view.wait_until_told(SIZE, lambda told: list(told.values()) == [200, 100])
 
-    def test_escape_ends_it(self):
+    def test_escape_closes_the_window(self):
         self.write("a.glsl", PATTERN)
         view = self.view("a.glsl", "--size", "200x100")
         view.quit()
@@ -55,7 +55,7 @@ class Hidden(WaylandTest):
     """On another workspace, where a compositor asks for no frames."""
     CONFIG = "[shell]\nnum-workspaces=2\n"
 
-    def test_the_program_goes_on_and_can_be_ended(self):
+    def test_a_hidden_window_continues_and_can_be_closed(self):
         self.write("a.glsl", PATTERN)
         view = self.view("a.glsl", "--size", "200x100")
         view.key("super+F2")

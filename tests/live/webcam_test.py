@@ -33,7 +33,7 @@ class Webcam(LiveTest):
         subprocess.run(["ffmpeg", "-v", "error", "-filter_complex", PICTURE, "-c:v", "ffv1", "-pix_fmt", "bgr0",
                         self.folder / "camera.mkv"], check=True)
 
-    def test_what_is_seen(self):
+    def test_frames_of_the_webcam_are_drawn(self):
         view = self.view("a.glsl", *SIZE, "--webcam", "camera.mkv")
         view.wait_until_told(VALUES, lambda told: told == SEEN)
 
@@ -44,13 +44,13 @@ class Webcam(LiveTest):
         view = self.view("a.json", *SIZE, "--webcam", "camera.mkv")
         view.wait_until_told(VALUES, lambda told: told == SEEN)
 
-    def test_without_it_there_is_what_capture_has(self):
+    def test_without_a_webcam_the_placeholder_of_capture_is_drawn(self):
         view = self.view("a.glsl", *SIZE, "--record", "take.txt")
         told = view.told(VALUES)
         self.assertNotEqual(told["top"], SEEN["top"])
         self.assertEqual((told["width"], told["height"]), (640, 480))
 
-    def test_a_recording_says_that_it_has_nothing_of_it(self):
+    def test_a_recording_warns_that_the_webcam_is_not_recorded(self):
         view = self.view("a.glsl", *SIZE, "--webcam", "camera.mkv", "--record", "take.txt")
         view.wait_for_words("^the webcam is not recorded: a replay has a placeholder picture$")
 
@@ -63,7 +63,7 @@ class Webcam(LiveTest):
             program.send_signal(signal.SIGINT)
             self.assertEqual(program.wait(TIME_LIMIT), 130)
 
-    def test_where_there_is_none(self):
+    def test_missing_webcam_is_an_error(self):
         for name, why in (("/dev/video9", "No such file or directory"), ("a.glsl", "Invalid data found")):
             done = self.run_program("view", "a.glsl", "--webcam", name, env=environment(DISPLAY=self.screen.display))
             self.assertEqual(done.returncode, 3, done.stderr)

@@ -42,7 +42,7 @@ class Place(LiveTest):
         place = view.place()
         return place["X"], place["Y"]
 
-    def test_where_it_is_asked_to_be(self):
+    def test_window_opens_at_position_and_monitor(self):
         for options, corner in ((["--position", "300,120"], (300, 120)), (["--position", "-20,-10"], (-20, -10)),
                                 (["--monitor", "1"], (540, 350)), (["--monitor", "1", "--position", "7,9"], (7, 9))):
             with self.subTest(options):
@@ -50,7 +50,7 @@ class Place(LiveTest):
                 self.assertEqual(self.corner(view), corner)
                 view.close()
 
-    def test_what_is_typed_wins_over_what_is_remembered(self):
+    def test_options_override_the_stored_place(self):
         state = {"XDG_STATE_HOME": str(self.folder / "state")}
         view = self.view("a.glsl", *SIZE, "--position", "300,120", **state)
         view.quit()
@@ -61,7 +61,7 @@ class Place(LiveTest):
         view = self.view("a.glsl", "--position", "50,60", **state)
         self.assertEqual(self.corner(view), (50, 60))
 
-    def test_what_no_monitor_shows(self):
+    def test_places_outside_all_monitors_are_refused(self):
         for options, words in (
                 (["--position", "5000,10"], "--position 5000,10: no monitor shows that place: monitor 1 is 1280x800 at 0,0"),
                 (["--monitor", "2"], "--monitor 2: there is no such monitor: monitor 1 is 1280x800 at 0,0"),

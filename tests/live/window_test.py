@@ -1,4 +1,6 @@
 """The window: what it shows, its keys, its size, its end."""
+import tempfile
+
 from support import png, probe
 from support.live import LiveTest, View, main, wait_for
 
@@ -19,7 +21,7 @@ class Picture(LiveTest):
         self.assertRegex(view.title(), r"\Awave - tidemark - paused at \d+\.\d{3} s\Z")
         self.assertEqual(view.stderr(), "")
 
-    def test_screen_saved_picture_and_capture_are_the_same(self):
+    def test_screen_saved_picture_and_capture_are_equal(self):
         self.write("wave.glsl", PATTERN)
         view = self.view("wave.glsl", "--size", "200x100")
         view.restart_paused()
@@ -32,7 +34,24 @@ class Picture(LiveTest):
         place = view.place()
         wait_for(lambda: self.screen.rows(place["X"], place["Y"], 200, 100) == saved.rows, "the picture on the screen")
 
-    def test_a_later_frame_equals_the_captured_one(self):
+    def test_opengl_es_shows_the_same(self):
+        """The overlay draws with OpenGL ES, too: the help covers a part of the picture."""
+        self.write("wave.glsl", PATTERN)
+        self.write("next.glsl", '#iChannel0 "wave.glsl"\nvoid mainImage(out vec4 c, in vec2 p) {'
+                                " c = texelFetch(iChannel0, ivec2(p), 0).bgra; }\n")
+        view = self.view("next.glsl", "--size", "200x100", "--es")
+        view.restart_paused()
+        saved = png.read(view.save())
+        self.succeed("capture", "next.glsl", "--size", "200x100", "--frame", "0", "-o", "headless.png")
+        self.assertEqual(png.read(self.folder / "headless.png").sha256(), saved.sha256())
+        place = view.place()
+        shown = lambda: self.screen.rows(place["X"], place["Y"], 200, 100)
+        wait_for(lambda: shown() == saved.rows, "the picture on the screen")
+        self.assertNotIn("error", view.stderr())
+        view.key("F1")
+        wait_for(lambda: shown() != saved.rows, "the help over the picture")
+
+    def test_a_later_frame_equals_capture(self):
         self.write("wave.glsl", PATTERN.replace("iTime * 0.3 + ", ""))
         view = self.view("wave.glsl", "--size", "200x100", "--fps", "10")
         view.restart_paused()
@@ -61,7 +80,7 @@ class Picture(LiveTest):
         self.write("size.glsl", probe.shader(SIZE))
         self.assertEqual(list(self.view("size.glsl").told(SIZE).values()), [640, 360, 1])
 
-    def test_a_file_says_its_size(self):
+    def test_a_file_states_its_size(self):
         text = probe.shader(SIZE, "#iSize 300x120")
         self.write("said.glsl", text)
         view = self.view("said.glsl")
@@ -94,7 +113,7 @@ class Keys(LiveTest):
         self.write("clock.glsl", probe.shader(CLOCK))
         return self.view("clock.glsl", "--size", "200x100", *options)
 
-    def test_space_pauses_and_goes_on(self):
+    def test_space_pauses_and_resumes(self):
         view = self.start()
         view.pause()
         first = view.told(CLOCK)
@@ -123,14 +142,14 @@ class Keys(LiveTest):
         view.key("Left")  # there is nothing before the first frame
         self.assertEqual(view.told(CLOCK)["iTime"], 0)
 
-    def test_s_says_which_file_it_saves(self):
+    def test_s_names_the_saved_file(self):
         view = self.start()
         view.restart_paused()
         path = view.save()
         self.assertEqual(path.name, "clock-00000.png")
         view.wait_for_words(r"\Asaving clock-00000\.png\n\Z")
 
-    def test_s_where_nothing_can_be_written_says_so_and_goes_on(self):
+    def test_s_reports_an_unwritable_folder_and_continues(self):
         self.write("clock.glsl", probe.shader(CLOCK))
         gone = self.folder / "gone"
         gone.mkdir()
@@ -155,13 +174,31 @@ class Keys(LiveTest):
         self.assertEqual(png.read(self.folder / "clock-00000-2.png").width, 200)
         self.assertEqual((self.folder / "clock-00000.png").read_text(), "another program's")
 
+    def test_a_scene_from_standard_input(self):
+        text = probe.shader({"time": "iTime"})
+        with tempfile.TemporaryFile() as scene:
+            scene.write(text.encode())
+            scene.seek(0)
+            view = View(self.screen, self.folder, "-", "--size", "200x100", text=scene)
+            self.addCleanup(view.close)
+            view.wait_for_title(r"^- - tidemark - |^stdin - tidemark - ")
+            for _ in range(2):
+                view.key("s")
+            pictures = lambda: sorted(self.folder.glob("stdin-*.png"))
+            wait_for(lambda: len(pictures()) == 2, "two pictures")
+            view.key("k")
+            view.wait_for_words("^kept view 1: ")
+            view.quit()
+            self.assertEqual(view.wait_for_end(), 0)
+            self.assertEqual(self.files(), {picture.name for picture in pictures()})
+
     def test_h_prints_the_keys(self):
         view = self.start()
         view.key("h")
         for words in ("drag ", "wheel, ", "space; left, right ", "Home; V ", "S  ", "Tab; ", "H, F1 ", "Esc "):
             view.wait_for_words(words)
 
-    def test_f_fills_the_screen_and_gives_it_back(self):
+    def test_f_toggles_full_screen(self):
         view = self.start()
         view.key("f")
         view.wait_until_told(CLOCK, lambda told: view.place()["WIDTH"] == 1280 and view.place()["HEIGHT"] == 800)
@@ -169,13 +206,13 @@ class Keys(LiveTest):
         view.key("f")
         wait_for(lambda: png.read(view.save()).width == 200, "the window to be as before")
 
-    def test_escape_ends_it(self):
+    def test_escape_closes_the_window(self):
         view = self.start()
         view.quit()
         self.assertEqual(view.wait_for_end(), 0)
         self.assertEqual(view.stderr(), "")
 
-    def test_the_button_of_the_title_bar_ends_it(self):
+    def test_the_close_button_closes_the_window(self):
         view = self.start()
         self.screen.ask_to_close(view.window)
         self.assertEqual(view.wait_for_end(), 0)

@@ -1,6 +1,6 @@
-// What happens to a project before a driver sees it: read, rewritten in every way that the program has, and
-// compiled by glslang. A project's path a line on standard input, a line of JSON about it on standard output;
-// load_projects.py looks after it.
+// Does with projects what the program does before a driver sees them: reads them, rewrites them in every way
+// that it has, and compiles them with glslang. Reads one path a line from standard input and prints a line of
+// JSON for each; load_projects.py runs it.
 #include "scene/load_scene.hpp"
 #include "shader/pass_reading.hpp"
 #include "shader/specialise.hpp"

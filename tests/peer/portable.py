@@ -33,7 +33,7 @@ COMPILE = """(text => {
     gl.compileShader(shader);
     return [gl.getShaderParameter(shader, gl.COMPILE_STATUS), gl.getShaderInfoLog(shader) ?? ""];
 })(%s)"""
-# What is said to the host, or belongs to a text that the site has no place for.
+# Lines for the host, or of texts that the site cannot hold.
 OF_ANOTHER_HOST = re.compile(r"^\s*#\s*(iChannel|include|version|iUniform|iKeyboard|iSize)|void\s+main\s*\(|^\s*uniform\s", re.MULTILINE)
 
 

@@ -7,8 +7,8 @@
 
 namespace tidemark {
 
-/// Of two samples; NaN, which passes no comparison, where the pictures differ in size or where only one of
-/// two samples is finite.
+/// Returns the largest difference of two samples; NaN, which passes no comparison, if the pictures differ in
+/// size or if only one of two samples is finite.
 inline double largest_difference(const image::Image& left, const image::Image& right) {
     const auto difference = image::compare(left, right);
     return difference && difference->one_non_finite == 0 ? difference->largest

@@ -12,7 +12,7 @@ import sys
 import tempfile
 import time
 import unittest
-from typing import Callable, TypeVar
+from typing import Any, Callable, TypeVar
 
 from support import png, probe
 from support.program import PROGRAM, SKIPPED, ProgramTest, environment, is_sanitized
@@ -112,14 +112,16 @@ class Screen:
 
     def rows(self, left: int, top: int, width: int, height: int) -> list[bytes]:
         """RGB of a part of the screen, from the top row down."""
-        file = (self.folder / "Xvfb_screen0").read_bytes()
-        header = struct.unpack_from(">25I", file)
-        header_size, bits, stride, colours = header[0], header[11], header[12], header[19]
-        assert bits == 32
+        with open(self.folder / "Xvfb_screen0", "rb") as file:
+            header = struct.unpack(">25I", file.read(100))
+            header_size, bits, stride, colours = header[0], header[11], header[12], header[19]
+            assert bits == 32
+            file.seek(header_size + 12 * colours + top * stride)
+            read = file.read(height * stride)
         rows = []
-        for y in range(top, top + height):
-            start = header_size + 12 * colours + y * stride + left * 4
-            bgrx = file[start:start + width * 4]
+        for y in range(height):
+            start = y * stride + left * 4
+            bgrx = read[start:start + width * 4]
             row = bytearray(3 * width)
             row[0::3], row[1::3], row[2::3] = bgrx[2::4], bgrx[1::4], bgrx[0::4]
             rows.append(bytes(row))
@@ -143,21 +145,60 @@ class Screen:
                             ctypes.c_ulong(string), 8, 0, text, len(text))
         x11.XCloseDisplay(display)
 
-    def ask_to_close(self, window: int) -> None:
-        """As the button in a title bar does: WM_DELETE_WINDOW. xdotool has no word for that."""
+    def drop(self, window: int, *files: pathlib.Path) -> None:
+        """Drops files on a window, as a file manager does: the source's part of XDND, version 5."""
         x11, display = self.open_display()
+        atom = lambda name: x11.XInternAtom(display, name, 0)
+        x11.XCreateSimpleWindow.restype = ctypes.c_ulong
+        source = x11.XCreateSimpleWindow(display, ctypes.c_ulong(x11.XDefaultRootWindow(display)), 0, 0, 1, 1, 0, 0, 0)
+        selection, uris = atom(b"XdndSelection"), atom(b"text/uri-list")
+        x11.XSetSelectionOwner(display, ctypes.c_ulong(selection), ctypes.c_ulong(source), ctypes.c_ulong(0))
+        text = "".join(f"{file.as_uri()}\r\n" for file in files).encode()
+        copy = atom(b"XdndActionCopy")
+        for name, data in ((b"XdndEnter", (source, 5 << 24, uris)), (b"XdndPosition", (source, 0, 0, 0, copy)),
+                           (b"XdndDrop", (source, 0, 0))):
+            self.send(x11, display, window, atom(name), data)
 
+        class Request(ctypes.Structure):
+            _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
+                        ("display", ctypes.c_void_p), ("owner", ctypes.c_ulong), ("requestor", ctypes.c_ulong),
+                        ("selection", ctypes.c_ulong), ("target", ctypes.c_ulong), ("property", ctypes.c_ulong),
+                        ("time", ctypes.c_ulong), ("padding", ctypes.c_long * 24)]
+
+        class Notify(ctypes.Structure):
+            _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
+                        ("display", ctypes.c_void_p), ("requestor", ctypes.c_ulong), ("selection", ctypes.c_ulong),
+                        ("target", ctypes.c_ulong), ("property", ctypes.c_ulong), ("time", ctypes.c_ulong),
+                        ("padding", ctypes.c_long * 24)]
+
+        request, selection_request, selection_notify = Request(), 30, 31
+        wait_for(lambda: x11.XCheckTypedEvent(display, selection_request, ctypes.byref(request)), "the request for the files")
+        x11.XChangeProperty(display, ctypes.c_ulong(request.requestor), ctypes.c_ulong(request.property), ctypes.c_ulong(uris),
+                            8, 0, text, len(text))
+        answer = Notify(type=selection_notify, requestor=request.requestor, selection=request.selection,
+                        target=request.target, property=request.property, time=request.time)
+        x11.XSendEvent(display, ctypes.c_ulong(request.requestor), 0, ctypes.c_long(0), ctypes.byref(answer))
+        x11.XSync(display, 0)
+        x11.XCloseDisplay(display)
+
+    @staticmethod
+    def send(x11: ctypes.CDLL, display: ctypes.c_void_p, window: int, kind: int, data: tuple[int, ...]) -> None:
+        """Sends a ClientMessage of 32-bit numbers to a window."""
         class ClientMessage(ctypes.Structure):
             _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
                         ("display", ctypes.c_void_p), ("window", ctypes.c_ulong), ("message_type", ctypes.c_ulong),
                         ("format", ctypes.c_int), ("data", ctypes.c_long * 5), ("padding", ctypes.c_long * 24)]
 
-        def atom(name: bytes) -> int:
-            return x11.XInternAtom(display, name, 0)
-
-        event = ClientMessage(type=33, window=window, message_type=atom(b"WM_PROTOCOLS"), format=32)
-        event.data[0] = atom(b"WM_DELETE_WINDOW")
+        event = ClientMessage(type=33, window=window, message_type=kind, format=32)
+        event.data[:len(data)] = data
         x11.XSendEvent(display, ctypes.c_ulong(window), 0, ctypes.c_long(0), ctypes.byref(event))
+        x11.XSync(display, 0)
+
+    def ask_to_close(self, window: int) -> None:
+        """As the button in a title bar does: WM_DELETE_WINDOW. xdotool has no word for that."""
+        x11, display = self.open_display()
+        atom = lambda name: x11.XInternAtom(display, name, 0)
+        self.send(x11, display, window, atom(b"WM_PROTOCOLS"), (atom(b"WM_DELETE_WINDOW"),))
         x11.XCloseDisplay(display)
 
 
@@ -167,21 +208,23 @@ class View:
     save_key = "s"
 
     def __init__(self, screen: Screen, folder: pathlib.Path, scene: str, *options: str,
-                 first_title: str | None = " (fps|still)(, .*)?$", **variables: str) -> None:
-        """Waits for the window and its title, unless that is None."""
+                 first_title: str | None = " (fps|still)(, .*)?$", text: Any = subprocess.DEVNULL,
+                 **variables: str) -> None:
+        """Waits for the window and its title, unless that is None. `text`: the file that is standard input."""
         self.screen, self.folder, self.scene = screen, folder, pathlib.Path(scene)
         self.words = tempfile.NamedTemporaryFile(prefix="tidemark-words-")
         self.state = tempfile.TemporaryDirectory(prefix="tidemark-state-")  # each window starts anew
         variables.setdefault("XDG_STATE_HOME", self.state.name)
         variables.setdefault("TIDEMARK_MESSAGES", "off")  # tests compare pictures
-        self.program = subprocess.Popen([PROGRAM, "view", scene, *options], cwd=folder, stdin=subprocess.DEVNULL,
+        self.program = subprocess.Popen([PROGRAM, "view", scene, *options], cwd=folder, stdin=text,
                                         env=environment(**screen.variables(), **variables), stderr=self.words)
         if first_title is not None:
             self.wait_for_window(first_title)
 
     def wait_for_window(self, first_title: str) -> None:
+        # Its own: the window of a view that was killed is there for a moment yet.
         self.window = int(wait_for(lambda: self.running() and self.screen.xdotool(
-            "search", "--onlyvisible", "--class", "tidemark"), "the window"))
+            "search", "--all", "--onlyvisible", "--pid", str(self.program.pid), "--class", "tidemark"), "the window"))
         wait_for(lambda: self.running() and re.search(first_title, self.title()), "the first frame")
         self.point(5, 5)  # keys go to the window under the pointer
 

@@ -17,9 +17,10 @@ def frame(text: bytes) -> bytes:
 class Client:
     """Of one process. Answers and notifications come in through a thread, so that no wait is for a time."""
 
-    def __init__(self, *arguments: str, capabilities: dict | None = None) -> None:
+    def __init__(self, *arguments: str, capabilities: dict | None = None,
+                 variables: dict | None = None) -> None:
         self.process = subprocess.Popen([PROGRAM, "lsp", *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, env=environment())
+                                        stderr=subprocess.PIPE, env=environment(**(variables or {})))
         self.incoming: queue.Queue = queue.Queue()
         self.kept: list[dict] = []
         self.number = 0

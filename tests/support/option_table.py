@@ -39,7 +39,7 @@ def options_of(command: str) -> list[tuple[str, str]]:
     """(`--size WxH=640x360`, what it means), as help lists them."""
     lines = printed_help(command).splitlines()
     found = []
-    for line, following in zip(lines, lines[1:]):
+    for line, following in zip(lines, [*lines[1:], ""]):
         if not line.startswith("  -") or line.startswith("  -h,"):
             continue
         if following.startswith(" " * WIDTH):

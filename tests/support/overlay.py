@@ -10,6 +10,7 @@ TITLE = 19
 ROW = 23
 FRAME = 19
 PANEL_WIDTH = 320
+VIEW = 49  # the height of a kept view, with the gap after it
 
 
 # The bar of time: its upper row's middle above the window's lower edge, and what stands in it from the left.
@@ -44,6 +45,11 @@ class OverlayView(View):
 
     def click_row(self, row: int, share: float) -> None:
         self.click(MARGIN + PADDING + share * (PANEL_WIDTH - 2 * PADDING), row_centre(row))
+
+    def click_view(self, row: int, index: int, share: float) -> None:
+        """In the upper half of a view, below the row of the button that keeps one."""
+        y = row_centre(row) - FRAME // 2 + ROW + index * VIEW + FRAME // 2
+        self.click(MARGIN + PADDING + share * (PANEL_WIDTH - 2 * PADDING), y)
 
     def bar_y(self) -> float:
         return self.place()["HEIGHT"] / self.scale - BAR_ROW

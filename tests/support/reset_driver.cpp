@@ -1,7 +1,7 @@
 // Preloaded into the program under test: a graphics driver that is reset, or that has no memory, at a draw of
 // one's choosing. TIDEMARK_TEST_RESET and TIDEMARK_TEST_OUT_OF_MEMORY say at which, counted from 1; it is
 // told once, so that a context made afterwards is a good one. With
-// TIDEMARK_TEST_NO_TARGET there is no memory for any picture to draw into.
+// TIDEMARK_TEST_NO_TARGET no picture to draw into gets memory.
 #include <dlfcn.h>
 
 #include <atomic>
@@ -15,7 +15,7 @@ constexpr unsigned k_guilty = 0x8253;
 std::atomic<int> draws = 0;
 std::atomic<bool> target_failed = false; ///< and nobody asked yet
 
-/// Whether that draw was made, and nobody was told yet.
+/// Returns whether that draw was made and was not reported yet.
 bool is_due(const char* variable, std::atomic<bool>& told) {
     const char* const number = std::getenv(variable);
     return number && draws >= std::atoi(number) && !told.exchange(true);
@@ -36,7 +36,7 @@ void glDrawArrays(unsigned mode, int first, int count) {
     draw(mode, first, count);
 }
 
-/// Of new targets: that is when drivers take their memory.
+/// Makes new targets fail: drivers take their memory here.
 void glClearTexImage(unsigned texture, int level, unsigned format, unsigned type, const void* data) {
     static const auto clear =
         next<void (*)(unsigned, int, unsigned, unsigned, const void*)>("glClearTexImage");

@@ -1,6 +1,7 @@
-// Compares two pictures of the page with a divider between them.
+// Compares two pictures of the page with a divider between them, on every page that has the form for it.
 const compared = document.querySelector(".compare");
 if (compared) {
+    const all = (selector, root = document) => [...root.querySelectorAll(selector)];
     const pictures = [...all(".reference img"), ...all(".card img")], slider = compared.querySelector(".slider");
     const [before, after] = all("img", slider), [left, right] = all(".choices select"), cut = compared.querySelector("input");
     for (const choice of [left, right])
@@ -41,4 +42,5 @@ if (compared) {
     right.value = Math.min(1, pictures.length - 1);
     showPair();
     document.querySelector(".reference").hidden = true;
+    compared.hidden = false;
 }

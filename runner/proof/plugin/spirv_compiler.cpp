@@ -8,7 +8,7 @@
 #include <exception>
 #include <mutex>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 namespace {
 
 /// Larger modules take too long: the passes below take more than linear time.
@@ -97,8 +97,8 @@ SpirvResult compile(const std::string& text, Names names) noexcept {
 const SpirvCompiler k_compiler{k_spirv_compiler_version, compile};
 
 } // namespace
-} // namespace tidemark::ir
+} // namespace tidemark::proof
 
 extern "C" __attribute__((visibility("default"))) const void* tidemark_spirv_compiler() {
-    return &tidemark::ir::k_compiler;
+    return &tidemark::proof::k_compiler;
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 /// The words of a module whose entry point has no calls and has its variables in SSA form as far as their
 /// types allow. The error is the compiler's log, or the reason why the text was not compiled.
@@ -28,4 +28,4 @@ struct SpirvCompiler {
 inline constexpr unsigned k_spirv_compiler_version = 2;
 inline constexpr const char* k_spirv_compiler_entry = "tidemark_spirv_compiler";
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

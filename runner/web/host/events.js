@@ -18,9 +18,11 @@ class Drag {
     }
 
     move(event) {
+        const {canvas, mouse, camera, scene: {followsPointer}} = this.figure, here = placeIn(canvas, event);
+        if (followsPointer && !mouse.down)
+            mouse.follow(...here);
         if (!this.last)
             return;
-        const {canvas, mouse, camera} = this.figure, here = placeIn(canvas, event);
         const by = [here[0] - this.last[0], here[1] - this.last[1]];
         mouse.move(...here);
         if (this.turnsCamera && event.buttons & 4)
@@ -48,7 +50,7 @@ function listenToPointer(figure) {
     }, options);
     on("pointerdown", event => drag.begin(event));
     canvas.addEventListener("pointermove", event => {
-        figure.needsFrame ||= drag.last !== null;
+        figure.needsFrame ||= drag.last !== null || figure.scene.followsPointer;
         drag.move(event);
     });
     on("pointerup", event => drag.end(event));

@@ -2,7 +2,7 @@
 // ---- iMouse
 
 // iMouse during press, drag and release. Pixels from the bottom left. xy changes only while the button is
-// down; zw is the press position: z is positive while the button is down, w only in the first frame after the
+// down, or follows the pointer for texts of other hosts; zw is the press position: z is positive while the button is down, w only in the first frame after the
 // press.
 class Mouse {
     position = [0, 0];
@@ -19,8 +19,10 @@ class Mouse {
 
     move(x, y) {
         if (this.down)
-            this.position = [Math.floor(x) + 0, Math.floor(y) + 0]; // -0 + 0 is 0
+            this.follow(x, y);
     }
+
+    follow(x, y) { this.position = [Math.floor(x) + 0, Math.floor(y) + 0]; } // -0 + 0 is 0
 
     release() { this.down = false; }
 

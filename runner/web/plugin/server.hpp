@@ -12,8 +12,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
-namespace tidemark::serve {
+namespace tidemark::web {
 
 struct Message {
     std::string bytes;
@@ -40,7 +41,9 @@ struct ServerSettings {
     std::string host;  ///< a name or an address of this machine
     uint16_t port = 0; ///< 0: any free port
     std::string token;
-    std::string page; ///< HTML
+    std::string page;                     ///< HTML
+    std::vector<std::string> ancestors{}; ///< pages that may frame it, by check_ancestor; empty: none
+    std::vector<std::string> origins{};   ///< of forwarded addresses, by check_origin
 };
 
 /// Listens while it lives, or until it is stopped.
@@ -70,7 +73,7 @@ struct ServePlugIn {
     std::string (*encode)(Extent extent, std::span<const std::byte> rgba, int quality);
 };
 
-inline constexpr unsigned k_serve_version = 3;
+inline constexpr unsigned k_serve_version = 4;
 inline constexpr const char* k_serve_entry = "tidemark_serve";
 
-} // namespace tidemark::serve
+} // namespace tidemark::web

@@ -12,6 +12,7 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <turbojpeg.h>
 
 #include <chrono>
@@ -26,7 +27,7 @@
 #include <thread>
 #include <utility>
 
-namespace tidemark::serve {
+namespace tidemark::web {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
@@ -51,13 +52,16 @@ std::string_view view_of(beast::string_view text) {
     return {text.data(), text.size()};
 }
 
-/// Keeps the page private: its address contains the token, and other sites must not embed or read it.
-void shut_in(http::response<http::string_body>& response) {
+/// Keeps the page private: its address contains the token, and only named pages may embed it.
+void shut_in(http::response<http::string_body>& response, const ServerSettings& settings) {
     response.set(http::field::cache_control, "no-store");
+    const std::string ancestors =
+        settings.ancestors.empty() ? "'none'" : fmt::format("{}", fmt::join(settings.ancestors, " "));
     response.set("Content-Security-Policy",
-                 "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; "
-                 "img-src blob: data:; connect-src 'self'; frame-ancestors 'none'; base-uri 'none'; "
-                 "form-action 'none'");
+                 fmt::format("default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; "
+                             "img-src blob: data:; connect-src 'self'; frame-ancestors {}; base-uri 'none'; "
+                             "form-action 'none'",
+                             ancestors));
     response.set("Referrer-Policy", "no-referrer");
     response.set("X-Content-Type-Options", "nosniff");
 }
@@ -134,7 +138,7 @@ private:
                           .origin = view_of(request[http::field::origin]),
                           .upgrade = websocket::is_upgrade(request),
                           .through_loopback = house_.is_loopback};
-        switch (answer_to(knock, house_.settings.token)) {
+        switch (answer_to(knock, house_.settings.token, house_.settings.origins)) {
         case Answer::page: return respond(http::status::ok, house_.settings.page, "text/html; charset=utf-8");
         case Answer::socket: return accept();
         case Answer::not_found: return respond(http::status::not_found, "not found\n");
@@ -149,7 +153,7 @@ private:
         auto response =
             std::make_shared<http::response<http::string_body>>(status, request_->get().version());
         response->set(http::field::content_type, type);
-        shut_in(*response);
+        shut_in(*response, house_.settings);
         response->keep_alive(false);
         response->body() = std::move(text);
         response->prepare_payload();
@@ -388,8 +392,8 @@ const ServePlugIn k_plug_in{k_serve_version, open_server, encode_jpeg};
 
 } // namespace
 
-} // namespace tidemark::serve
+} // namespace tidemark::web
 
 extern "C" __attribute__((visibility("default"))) const void* tidemark_serve() {
-    return &tidemark::serve::k_plug_in;
+    return &tidemark::web::k_plug_in;
 }

@@ -2,8 +2,9 @@
 
 const BUTTONS = ["left", "middle", "right"];
 
-// Moves are sent only while a button is down, as in the window.
-function sendPointer(canvas, link, size) {
+// Moves are sent while a button is down, and always if the mouse follows the pointer, as in the window, or a lens shows the
+// value under it.
+function sendPointer(canvas, link, size, sendsEveryMove) {
     const at = event => {
         const [x, y] = placeIn(canvas, event, size());
         return {x, y};
@@ -21,7 +22,7 @@ function sendPointer(canvas, link, size) {
         // If a second button goes down or up while the first is held, browsers report a move.
         if (event.button in BUTTONS)
             link.send(event.buttons & [1, 4, 2][event.button] ? "press" : "release", button(event));
-        else if (event.buttons)
+        else if (event.buttons || sendsEveryMove())
             link.send("move", at(event));
     });
     canvas.addEventListener("pointerup", event => event.button in BUTTONS && link.send("release", button(event)));

@@ -78,3 +78,76 @@ class Definitions {
     #text({value}, whole) { return whole || /[.e]/.test(value) ? value : `${value}.0`; }
 }
 
+
+// The list of lenses, the fields for a line and a variable, and the legend of the lens on show.
+class Lenses {
+    constructor(link) {
+        this.link = link;
+        this.choices = [];
+        this.list = choice("Lens", () => this.#ask());
+        this.place = element("input", {type: "text", className: "tidemark-number", ariaLabel: "Line of the lens", placeholder: "line",
+                                       title: "LINE or FILE:LINE", onchange: () => this.#ask()});
+        this.variable = element("input", {type: "text", className: "tidemark-number", ariaLabel: "Variable of the lens",
+                                          placeholder: "variable", onchange: () => this.#ask()});
+        this.element = element("span", {className: "tidemark-lenses"}, this.list.element, this.place, this.variable);
+        this.legend = element("div", {className: "tidemark-legend", hidden: true, role: "status"});
+    }
+
+    // Asks for the lens once it has the line that it needs.
+    #ask() {
+        const name = this.list.select.value, {takesLine, needsLine, second} = this.#fields(name);
+        const line = takesLine ? this.place.value.trim() : "", rest = line && second ? this.variable.value.trim() : "";
+        if (line || !needsLine)
+            this.link.send("lens", {lens: [name, line, rest].filter(Boolean).join(":")});
+        else
+            this.place.focus();
+    }
+
+    // Shows the fields of the lens, and returns its choice.
+    #fields(name) {
+        const choice = this.choices.find(each => each.name === name) ?? {};
+        this.place.hidden = !choice.takesLine;
+        this.variable.hidden = !choice.second;
+        this.variable.placeholder = choice.second ?? "";
+        return choice;
+    }
+
+    show({choices, chosen, place, variable}, lens) {
+        this.element.hidden = choices.length === 0;
+        const waits = this.element.contains(document.activeElement) && !this.place.hidden; // the user is typing
+        if (!waits) {
+            this.choices = choices;
+            offer(this.list, [["", "off"], ...choices.map(({name}) => [name, name])], chosen === null ? "" : choices[chosen].name);
+            for (const [i, {says, refusal}] of choices.entries())
+                this.list.select.options[i + 1].title = refusal || says;
+            this.#fields(this.list.select.value);
+            [this.place.value, this.variable.value] = [place, variable];
+        }
+        this.#showLegend(lens);
+    }
+
+    #showLegend(lens) {
+        this.legend.hidden = !lens;
+        if (!lens)
+            return;
+        const {title, basis, bar, low, high, mark, pointer, entries, refusal, progress} = lens;
+        const scale = element("div", {className: "tidemark-scale"});
+        scale.style.background = `linear-gradient(to right, ${bar.join(", ")})`;
+        if (mark !== null) {
+            const at = element("span", {className: "tidemark-mark"});
+            at.style.left = `${100 * mark}%`;
+            scale.append(at);
+        }
+        const box = colour => {
+            const made = element("span", {className: "tidemark-box"});
+            made.style.background = colour;
+            return made;
+        };
+        const row = ({box: colour, words}) => element("span", {}, ...colour ? [box(colour)] : [], words);
+        this.legend.replaceChildren(...refusal ? [element("strong", {textContent: refusal})] : [
+            element("strong", {textContent: title}), element("span", {textContent: basis}),
+            ...bar.length > 1 ? [element("div", {className: "tidemark-ends"}, low, scale, high)] : [],
+            ...entries.map(row), element("output", {className: "tidemark-value", textContent: pointer})],
+            ...progress ? [element("em", {textContent: progress})] : []);
+    }
+}

@@ -4,7 +4,7 @@ const SPEEDS = [-1, 0.1, 0.25, 0.5, 1, 2, 4];
 
 class Remote {
     number = 0; // of the picture shown
-    state = {size: [16, 9], keyboard: false, pictures: [], large: null};
+    state = {size: [16, 9], keyboard: false, everyMove: false, camera: false, pictures: [], large: null, lens: null};
     arrivals = []; // times of pictures in the last second
 
     constructor(div) {
@@ -14,11 +14,14 @@ class Remote {
                               onEnd: reason => this.#end(reason)});
         this.#build();
         const {canvas, link} = this;
-        sendPointer(canvas, link, () => this.state.size);
+        this.around = new Surroundings(canvas, link, () => this.state.size, () => this.state.keyboard); // before the scene's mouse
+        this.around.onCommand = () => this.#press(67);
+        sendPointer(canvas, link, () => this.state.size, () => this.state.everyMove || this.state.lens !== null);
         sendKeys(canvas, link, () => this.state.keyboard, () => this.toggleFullScreen());
         document.addEventListener("visibilitychange", () => this.#tellSeen());
         setInterval(() => this.#showCosts(), 1000); // once a second, so that the numbers can be read
-        canvas.focus();
+        if (!this.around.inside) // an editor keeps the focus
+            canvas.focus();
     }
 
     #build() {
@@ -31,23 +34,25 @@ class Remote {
         this.pass = choice("Show", value => link.send("show", {picture: value === "" ? null : Number(value)}));
         this.speed = choice("Speed", value => link.send("speed", {speed: Number(value)}));
         this.copy = wordButton("Copy command", () => this.#press(67));
-        this.camera = wordButton("Reset camera", () => this.#press(82));
+        this.camera = wordButton("Reset camera", () => this.#press(82, [16])); // Ctrl+R records
         this.loop = {from: wordButton("A", () => this.#loop("from")), to: wordButton("B", () => this.#loop("to"))};
         this.stay = wordButton("Stop here", ask("give up seek"));
         this.knobs = new Knobs(link);
         this.definitions = new Definitions(link);
+        this.lenses = new Lenses(link);
         this.steer = wordButton("Take control", ask("steer"));
         this.status = element("output", {className: "tidemark-status"});
         this.notice = element("pre", {className: "tidemark-message", hidden: true});
-        const more = element("div", {className: "tidemark-bar"}, this.pass.element, this.loop.from, this.loop.to, this.speed.element,
+        const more = element("div", {className: "tidemark-bar"}, this.pass.element, this.lenses.element, this.loop.from, this.loop.to, this.speed.element,
                              this.stay, this.copy, this.camera);
         this.fields = element("fieldset", {disabled: true}, this.bar.element, more, this.knobs.element, this.definitions.element);
-        this.div.append(this.picture, element("div", {className: "tidemark-bar"}, this.steer, this.status), this.notice, this.fields);
+        this.div.append(this.picture, this.lenses.legend, element("div", {className: "tidemark-bar"}, this.steer, this.status),
+                        this.notice, this.fields);
     }
 
     // Sends a key of the window, whether or not the scene reads the keyboard.
-    #press(code) {
-        const held = this.state.keyboard ? [17, code] : [code]; // with Ctrl the window gets it
+    #press(code, others = []) {
+        const held = this.state.keyboard ? [17, ...others, code] : [code]; // with Ctrl the window gets it
         held.forEach(each => this.link.send("keydown", {code: each}));
         held.reverse().forEach(each => this.link.send("keyup", {code: each}));
     }
@@ -58,22 +63,26 @@ class Remote {
             this.#show(state);
         if (title !== undefined)
             document.title = this.title = title;
+        if (title !== undefined && this.head)
+            this.around.tellPicture(this.head, title);
         if (steering)
             this.steering = steering;
-        if (clipboard !== undefined)
+        if (clipboard !== undefined && !this.around.takeCommand(clipboard))
             this.#copied(clipboard);
         this.#showStatus();
     }
 
     #show(state) {
         this.state = state;
-        const {pictures, large, time, errors, knobs, definitions} = state;
+        const {pictures, large, time, errors, knobs, definitions, lenses, lens} = state;
         showErrors(this.errors, errors);
         this.#offerPasses();
         this.#showTime(time);
+        this.camera.hidden = !state.camera;
         this.pass.element.hidden = pictures.length < 2 && large === null;
         this.knobs.show(knobs);
         this.definitions.show(definitions);
+        this.lenses.show(lenses, lens);
     }
 
     // Sets or clears an end of the time loop between A and B.
@@ -129,6 +138,7 @@ class Remote {
         const now = performance.now();
         this.arrivals = [...this.arrivals.filter(then => now - then < 1000), now];
         this.bar.show(this.#moment(), this.state.time?.paused, false);
+        this.around.tellPicture(this.head, this.title);
     }
 
     // A hidden page acknowledges nothing, so no pictures are drawn for it.
@@ -160,7 +170,8 @@ class Remote {
         this.steer.hidden = true;
         this.status.textContent = "";
         this.notice.hidden = false;
-        this.notice.textContent = `The connection was lost${reason ? `: ${reason}` : ""}. Reload the page once the program runs again.`;
+        this.notice.textContent = !Link.query ? "Access denied: open the full address, including its token." :
+            `The connection was lost${reason ? `: ${reason}` : ""}. Reload the page once the program runs again.`;
     }
 
     toggleFullScreen() {

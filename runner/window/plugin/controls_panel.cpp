@@ -13,10 +13,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
-namespace tidemark::live {
+namespace tidemark::overlay {
 namespace {
 
 /// The widgets' share of a row's width; the name gets the rest.
@@ -172,10 +173,14 @@ void stay_in_row(const char* button) {
         ImGui::SameLine();
 }
 
-void draw_knobs(std::vector<KnobField>& fields, Commands& commands) {
-    if (fields.empty())
-        return draw_wrapped("The scene has no knobs: it declares one with a line like\n"
-                            "#iUniform float height = 0.5 in { 0.0, 2.0 }");
+/// Draws the knobs. Returns the upper end of the row of the knob of that name; nothing: there is none.
+std::optional<float> draw_knobs(std::vector<KnobField>& fields, const std::string& name, Commands& commands) {
+    std::optional<float> found;
+    if (fields.empty()) {
+        draw_wrapped("The scene has no knobs: it declares one with a line like\n"
+                     "#iUniform float height = 0.5 in { 0, 2 }");
+        return found;
+    }
     if (ImGui::Button("Reset all"))
         commands.emplace_back(ResetKnobs{});
     stay_in_row("Copy as --set");
@@ -185,27 +190,80 @@ void draw_knobs(std::vector<KnobField>& fields, Commands& commands) {
     if (ImGui::Button("Write to file"))
         commands.emplace_back(WriteKnobs{});
     ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * k_widget_share);
-    for (KnobField& field : fields)
+    for (KnobField& field : fields) {
+        if (field.knob.name == name)
+            found = ImGui::GetCursorScreenPos().y;
         draw_row(field, commands);
+    }
     ImGui::PopItemWidth();
+    return found;
 }
 
 // The list of views that the user kept.
 
-void draw_views(const std::vector<std::string>& views, Commands& commands) {
+/// Draws a view's name as a field. A new name counts when the field is left.
+void draw_view_name(ViewField& view, size_t i, Commands& commands) {
+    constexpr size_t k_longest = 200;
+    std::array<char, k_longest + 1> text{};
+    view.name.copy(text.data(), k_longest);
+    const float button = ImGui::CalcTextSize("x").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::SetNextItemWidth(
+        std::max(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x, 1.0F));
+    ImGui::InputText("##name", text.data(), text.size());
+    if (ImGui::IsItemEdited())
+        view.name = text.data();
+    if (ImGui::IsItemDeactivatedAfterEdit())
+        commands.emplace_back(RenameView{i, text.data()});
+    ImGui::SameLine();
+    if (ImGui::Button("x"))
+        commands.emplace_back(ForgetView{i});
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("Forget this view");
+}
+
+/// Draws a view: its thumbnail, which goes to it, and beside it its name and what it holds.
+void draw_view(ViewField& view, size_t i, const Surface& surface, Commands& commands) {
+    constexpr double k_width = 80, k_height = 45;
+    const ImVec2 size(float(k_width * surface.scale), float(k_height * surface.scale));
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    ImGui::PushID(int(i));
+    const bool chosen = view.texture == 0 ? ImGui::Button("go", size) : ImGui::InvisibleButton("go", size);
+    if (chosen)
+        commands.emplace_back(GoToView{i});
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip(i < 9 ? "Go to this view (Alt+%zu)" : "Go to this view", i + 1);
+    if (view.texture != 0) {
+        const float share = std::min(size.x / float(std::max(view.extent.width, 1)),
+                                     size.y / float(std::max(view.extent.height, 1)));
+        const ImVec2 drawn(float(view.extent.width) * share, float(view.extent.height) * share);
+        const ImVec2 corner(from.x + (size.x - drawn.x) / 2, from.y + (size.y - drawn.y) / 2);
+        draw_opaque(*ImGui::GetWindowDrawList(), view.texture, corner,
+                    {corner.x + drawn.x, corner.y + drawn.y});
+    }
+    ImGui::SameLine();
+    ImGui::BeginGroup();
+    draw_view_name(view, i, commands);
+    draw_name_within(view.label, name_room(""));
+    ImGui::EndGroup();
+    ImGui::PopID();
+}
+
+void draw_views(Model& model, const Surface& surface, Commands& commands) {
+    constexpr double k_begin = 0, k_longest = 60;
     if (!ImGui::CollapsingHeader("Views"))
         return;
     if (ImGui::Button("Keep this moment"))
         commands.emplace_back(KeepView{});
-    for (size_t i = 0; i < views.size(); ++i) {
-        ImGui::PushID(int(i));
-        if (ImGui::Button("x"))
-            commands.emplace_back(ForgetView{i});
-        ImGui::SameLine();
-        if (ImGui::Button(shown(views[i]).c_str()))
-            commands.emplace_back(GoToView{i});
-        ImGui::PopID();
-    }
+    stay_in_row("over 00.0 s");
+    ImGui::SetNextItemWidth(ImGui::CalcTextSize("over 00.0 s").x + 2 * ImGui::GetStyle().FramePadding.x);
+    if (ImGui::DragScalar("##morph", ImGuiDataType_Double, &model.morph_seconds, 0.05F, &k_begin, &k_longest,
+                          model.morph_seconds > 0 ? "over %.1f s" : "at once"))
+        commands.emplace_back(SetMorph{std::clamp(model.morph_seconds, k_begin, k_longest)});
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("How long going to a view takes; drag, or Ctrl-click to type seconds.\n"
+                          "Over some time, iTime runs on.");
+    for (size_t i = 0; i < model.views.size(); ++i)
+        draw_view(model.views[i], i, surface, commands);
 }
 
 // Fields below the thumbnails: how the large picture is viewed.
@@ -262,16 +320,20 @@ void draw_look(const Model& model, Commands& commands) {
         commands.emplace_back(LookAtPicture{look});
 }
 
-ImTextureID texture_of(const PictureField& picture) {
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): Dear ImGui has names travel as pointers.
-    return reinterpret_cast<ImTextureID>(uintptr_t(picture.texture));
-}
-
-/// Draws without blending, since a buffer's alpha is not transparency.
-void draw_opaque(ImDrawList& list, const PictureField& picture, ImVec2 from, ImVec2 to) {
-    list.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
-    list.AddImage(texture_of(picture), from, to, {0, 1}, {1, 0}); // OpenGL's rows begin at the bottom
-    list.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
+/// Draws nothing for a scene without sound.
+void draw_sound(std::optional<SoundField>& sound, Commands& commands) {
+    constexpr float k_percent = 100;
+    if (!sound)
+        return;
+    auto volume = float(sound->volume) * k_percent;
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * k_widget_share);
+    bool changed = ImGui::SliderFloat("##volume", &volume, 0, k_percent, "volume %.0f %%");
+    if (changed)
+        *sound = {std::clamp(double(volume / k_percent), 0.0, 1.0), false};
+    ImGui::SameLine();
+    changed = ImGui::Checkbox("mute", &sound->muted) || changed;
+    if (changed)
+        commands.emplace_back(SetVolume{*sound});
 }
 
 float shape_of(const PictureField& picture) {
@@ -286,7 +348,7 @@ void draw_thumbnail(const Model& model, size_t i, float width, Commands& command
     if (ImGui::InvisibleButton("picture", size))
         commands.emplace_back(ShowPicture{model.large == i ? std::nullopt : std::optional(i)});
     ImGui::PopID();
-    draw_opaque(*ImGui::GetWindowDrawList(), picture, from, {from.x + size.x, from.y + size.y});
+    draw_opaque(*ImGui::GetWindowDrawList(), picture.texture, from, {from.x + size.x, from.y + size.y});
     ImGui::SameLine();
     draw_text(fmt::format("{} {}\n{}", i + 1, picture.name, picture.size));
 }
@@ -411,6 +473,15 @@ void draw_status(const Model& model) {
 
 } // namespace
 
+/// Draws without blending, since a buffer's alpha is not transparency.
+void draw_opaque(ImDrawList& list, unsigned texture, ImVec2 from, ImVec2 to) {
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): Dear ImGui has names travel as pointers.
+    const auto id = reinterpret_cast<ImTextureID>(uintptr_t(texture));
+    list.AddCallback([](const ImDrawList*, const ImDrawCmd*) { glDisable(GL_BLEND); }, nullptr);
+    list.AddImage(id, from, to, {0, 1}, {1, 0}); // OpenGL's rows begin at the bottom
+    list.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
+}
+
 void draw_large(const PictureField& picture, const Surface& surface) {
     const ImVec2 all(float(surface.extent.width), float(surface.extent.height));
     const float width = std::min(all.x, all.y * shape_of(picture));
@@ -418,7 +489,7 @@ void draw_large(const PictureField& picture, const Surface& surface) {
     const ImVec2 from((all.x - size.x) / 2, (all.y - size.y) / 2);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.AddRectFilled({0, 0}, all, IM_COL32_BLACK);
-    draw_opaque(list, picture, from, {from.x + size.x, from.y + size.y});
+    draw_opaque(list, picture.texture, from, {from.x + size.x, from.y + size.y});
 }
 
 void draw_controls(Model& model, const Surface& surface, float bottom, Commands& commands) {
@@ -443,13 +514,20 @@ void draw_controls(Model& model, const Surface& surface, float bottom, Commands&
                         std::clamp(at.y, 0.0F, std::max(0.0F, all.y - size.y)));
     if (within.x != at.x || within.y != at.y)
         ImGui::SetWindowPos(within);
+    std::optional<float> row; // of the knob whose front is shown
     if (open) {
-        draw_knobs(model.knobs, commands);
+        row = draw_knobs(model.knobs, model.front ? model.front->knob : "", commands);
         draw_definitions(model.definitions, commands);
         draw_thumbnails(model, surface, commands);
-        draw_views(model.views, commands);
+        draw_views(model, surface, commands);
+        draw_sound(model.sound, commands);
+        draw_lenses(model, commands);
     }
+    if (!ImGui::IsWindowHovered() && !ImGui::IsAnyItemActive())
+        row.reset();
     ImGui::End();
+    if (row)
+        draw_front(*model.front, surface, {at.x + size.x + margin, *row});
 }
 
 float draw_time_bar(Model& model, const Surface& surface, Commands& commands) {
@@ -467,4 +545,4 @@ float draw_time_bar(Model& model, const Surface& surface, Commands& commands) {
     return height;
 }
 
-} // namespace tidemark::live
+} // namespace tidemark::overlay

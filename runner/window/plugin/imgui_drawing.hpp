@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace tidemark::live {
+namespace tidemark::overlay {
 
 /// The flags of a panel without title and border, as large as its contents.
 inline constexpr auto k_bare_panel =
@@ -44,7 +44,7 @@ inline void draw_name_within(std::string_view name, float room) {
         do { // a whole character
             last = part.back();
             part.pop_back();
-        } while (part.size() > 1 && (static_cast<unsigned char>(last) & 0xC0) == 0x80);
+        } while (part.size() > 1 && continues_character(last));
     ImGui::TextUnformatted((fits ? all : part + "…").c_str());
     if (!fits && ImGui::IsItemHovered())
         ImGui::SetTooltip("%s", all.c_str());
@@ -90,6 +90,12 @@ void draw_errors(const Model& model, const Surface& surface, const ErrorLayout& 
 
 void draw_help(const Model& model, const Surface& surface, float bottom);
 
+// Scenes to choose from, in the whole window.
+
+void draw_gallery(const Model& model, const Surface& surface, Commands& commands);
+/// Draws a picture without blending, from its upper left to its lower right corner on the screen.
+void draw_opaque(ImDrawList& list, unsigned texture, ImVec2 from, ImVec2 to);
+
 // The panel next to the pointer: the surrounding pixels, enlarged, and the values that passes wrote into the
 // one under it.
 
@@ -100,8 +106,20 @@ void draw_magnifier(const MagnifierField& magnifier, const Surface& surface);
 
 void draw_clock(const std::string& text, const Surface& surface);
 
+// Lenses: the legend at the lower right, which takes no events, and the fields in the controls.
+
+/// `bottom`: pixels at the bottom edge that other panels take.
+void draw_legend(const LensField& lens, const Surface& surface, float bottom);
+/// Draws the list of lenses and the hot lines.
+void draw_lenses(Model& model, Commands& commands);
+/// Draws the front of a knob in a panel at that corner, as far as it is in the window. It takes no events.
+void draw_front(const FrontField& front, const Surface& surface, ImVec2 corner);
+
+/// Draws the status line above `bottom` and returns its height in pixels. It takes no events.
+float draw_status_line(const std::string& text, const Surface& surface, float bottom);
+
 // Short messages at the upper right, below the clock. Take no events.
 
 void draw_messages(const Model& model, const Surface& surface);
 
-} // namespace tidemark::live
+} // namespace tidemark::overlay

@@ -6,6 +6,7 @@
 #include "window/plugin/imgui_drawing.hpp"
 #include "window/plugin/panels.hpp"
 
+#include <GL/gl.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -14,12 +15,13 @@
 #include <cfloat>
 #include <chrono>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
-namespace tidemark::live {
+namespace tidemark::overlay {
 namespace {
 
-using platform::Key;
+using host::Key;
 
 // Dear ImGui 1.87 replaced the state that a program fills (KeyMap, KeysDown) by a queue of events. Debian 12
 // has 1.86, Debian 13 has 1.90; the functions below hide the difference.
@@ -99,7 +101,7 @@ void set_key(ImGuiIO& io, Key key, bool down) {
 void set_up_input(ImGuiIO& io) {
 #if IMGUI_VERSION_NUM < 18700
     for (const auto& [name, key] : k_keys)
-        io.KeyMap[name] = platform::js_key_code(key);
+        io.KeyMap[name] = host::js_key_code(key);
 #else
     // Handle all events of a frame in that frame: an idle window does not draw a second one for the
     // remainder.
@@ -109,24 +111,22 @@ void set_up_input(ImGuiIO& io) {
 
 /// Passes one event on. `height` of the framebuffer: Tidemark counts pixels from the bottom, Dear ImGui from
 /// the top.
-void feed(ImGuiIO& io, const platform::InputEvent& event, int height) {
-    const auto point = [&](const platform::PointerPosition& at) {
+void feed(ImGuiIO& io, const host::InputEvent& event, int height) {
+    const auto point = [&](const host::PointerPosition& at) {
         set_pointer(io, float(at.x), float(height - at.y));
     };
     std::visit(
         Overloaded{
-            [&](const platform::PointerMoved& moved) { point(moved.at); },
-            [&](const platform::ButtonPressed& pressed) {
+            [&](const host::PointerMoved& moved) { point(moved.at); },
+            [&](const host::ButtonPressed& pressed) {
                 point(pressed.at);
                 set_button(io, int(pressed.button), true);
             },
-            [&](const platform::ButtonReleased& released) { set_button(io, int(released.button), false); },
-            [&](const platform::WheelTurned& turned) {
-                add_wheel(io, float(turned.right), float(turned.up));
-            },
-            [&](const platform::KeyPressed& pressed) { set_key(io, pressed.key, true); },
-            [&](const platform::KeyReleased& released) { set_key(io, released.key, false); },
-            [&](const platform::TextTyped& typed) {
+            [&](const host::ButtonReleased& released) { set_button(io, int(released.button), false); },
+            [&](const host::WheelTurned& turned) { add_wheel(io, float(turned.right), float(turned.up)); },
+            [&](const host::KeyPressed& pressed) { set_key(io, pressed.key, true); },
+            [&](const host::KeyReleased& released) { set_key(io, released.key, false); },
+            [&](const host::TextTyped& typed) {
                 if (io.WantTextInput)
                     io.AddInputCharacter(typed.character);
             },
@@ -145,8 +145,8 @@ void release_all(ImGuiIO& io) {
     set_pointer(io, -FLT_MAX, -FLT_MAX);
 }
 
-bool is_escape(const platform::InputEvent& event) {
-    const auto* pressed = std::get_if<platform::KeyPressed>(&event);
+bool is_escape(const host::InputEvent& event) {
+    const auto* pressed = std::get_if<host::KeyPressed>(&event);
     return pressed && pressed->key == Key::escape;
 }
 
@@ -178,7 +178,12 @@ ImFont* add_font(double scale) {
     return ImGui::GetIO().Fonts->AddFontDefault(&font);
 }
 
-constexpr const char* k_glsl_version = "#version 450 core";
+/// Returns the version line of Dear ImGui's shaders in the current context.
+const char* glsl_version() {
+    const auto* const version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
+    const bool es = version && std::string_view(version).starts_with("OpenGL ES");
+    return es ? "#version 300 es" : "#version 450 core";
+}
 
 // The panels, drawn by Dear ImGui through its OpenGL 3 back end. Only one object may exist at a time.
 
@@ -189,7 +194,7 @@ public:
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr; // no settings file
         set_up_input(io);
-        ImGui_ImplOpenGL3_Init(k_glsl_version);
+        ImGui_ImplOpenGL3_Init(glsl_version());
     }
 
     ~ImGuiPanels() override {
@@ -210,7 +215,7 @@ public:
 
     /// Runs Dear ImGui after each event, so that a press and its release within one frame are both seen, and
     /// hit tests use the current layout.
-    bool take(const platform::InputEvent& event) override {
+    bool take(const host::InputEvent& event) override {
         ImGuiIO& io = ImGui::GetIO();
         const bool typing = io.WantTextInput; // the key that ends typing still belongs to the field
         const bool closes = !typing && is_escape(event) && close_popup();
@@ -222,13 +227,15 @@ public:
 
     void draw() override {
         run();
+        if (model_.lens || !model_.status.empty())
+            run(); // their height follows their text
         ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     }
 
     Commands take_commands() override { return std::exchange(commands_, {}); }
 
     void release_all() override {
-        live::release_all(ImGui::GetIO());
+        overlay::release_all(ImGui::GetIO());
         owner_.release_all();
     }
 
@@ -247,14 +254,21 @@ private:
             if (model_.large)
                 draw_large(model_.pictures[*model_.large], surface_);
             bottom = draw_time_bar(model_, surface_, commands_);
-            draw_controls(model_, surface_, bottom, commands_);
         }
+        if (!model_.status.empty())
+            bottom += draw_status_line(model_.status, surface_, bottom);
+        if (model_.controls)
+            draw_controls(model_, surface_, bottom, commands_);
+        if (model_.lens)
+            draw_legend(*model_.lens, surface_, bottom);
         if (!model_.errors.empty())
             draw_errors(model_, surface_, {large_, bottom}, commands_);
         if (!model_.help.empty())
             draw_help(model_, surface_, bottom);
         if (model_.magnifier)
             draw_magnifier(*model_.magnifier, surface_);
+        if (!model_.gallery.empty())
+            draw_gallery(model_, surface_, commands_);
         if (!model_.clock.empty())
             draw_clock(model_.clock, surface_);
         draw_messages(model_, surface_);
@@ -292,8 +306,8 @@ const PanelsPlugIn k_plug_in{k_panels_version,
                              []() -> std::unique_ptr<Panels> { return std::make_unique<ImGuiPanels>(); }};
 
 } // namespace
-} // namespace tidemark::live
+} // namespace tidemark::overlay
 
 extern "C" __attribute__((visibility("default"))) const void* tidemark_panels() {
-    return &tidemark::live::k_plug_in;
+    return &tidemark::overlay::k_plug_in;
 }

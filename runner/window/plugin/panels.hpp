@@ -8,7 +8,7 @@
 
 #include <memory>
 
-namespace tidemark::live {
+namespace tidemark::overlay {
 
 /// The framebuffer that panels are drawn on.
 struct Surface {
@@ -22,7 +22,7 @@ public:
 
     virtual void show(Model model, const Surface& surface) = 0;
     /// Returns whether the event belongs to a panel.
-    virtual bool take(const platform::InputEvent& event) = 0;
+    virtual bool take(const host::InputEvent& event) = 0;
     virtual void draw() = 0;
     virtual Commands take_commands() = 0;
     /// Releases all keys and buttons.
@@ -34,7 +34,7 @@ struct PanelsPlugIn {
     std::unique_ptr<Panels> (*create)();
 };
 
-inline constexpr unsigned k_panels_version = 4;
+inline constexpr unsigned k_panels_version = 6;
 inline constexpr const char* k_panels_entry = "tidemark_panels";
 
-} // namespace tidemark::live
+} // namespace tidemark::overlay

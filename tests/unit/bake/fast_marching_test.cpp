@@ -47,7 +47,7 @@ std::vector<double> known_at(const HeightMap& map, int x, int y) {
     return known;
 }
 
-TEST(FastMarch, falls_with_the_second_order_where_ways_are_smooth) {
+TEST(FastMarch, error_has_second_order_where_distances_are_smooth) {
     for (const KnownCase& known : known_cases()) {
         const Orders orders = orders_of(known.name, Stencil::second_order);
         EXPECT_GT(orders.smooth_rms, 1.8) << known.name;
@@ -55,7 +55,7 @@ TEST(FastMarch, falls_with_the_second_order_where_ways_are_smooth) {
     }
 }
 
-TEST(FastMarch, falls_with_the_first_order_behind_land_and_where_the_circle_closes) {
+TEST(FastMarch, error_has_first_order_after_land_and_where_fronts_meet) {
     for (const KnownCase& known : known_cases()) {
         const Orders orders = orders_of(known.name, Stencil::second_order);
         EXPECT_GT(orders.rest_largest, 0.9) << known.name;
@@ -63,14 +63,14 @@ TEST(FastMarch, falls_with_the_first_order_behind_land_and_where_the_circle_clos
     }
 }
 
-TEST(FastMarch, of_the_first_order_is_of_the_first_order) {
+TEST(FastMarch, first_order_stencil_has_first_order) {
     const Orders orders = orders_of("open", Stencil::first_order);
     EXPECT_NEAR(orders.smooth_rms, 0.95, 0.1);
 }
 
 // Measured 2.7e-5, 1.4e-4 and 5.8e-4 of the radius; with a staircase in the shore polygons' place the last
 // two are 1.8e-3 and 4.7e-3.
-TEST(FastMarch, is_as_near_as_measured_at_256_nodes_a_side) {
+TEST(FastMarch, error_at_256_nodes_per_side_is_bounded) {
     for (const auto& [name, smooth, rest] :
          {std::tuple{"open", 3.5e-5, 4.5e-4}, {"disc", 3.5e-5, 1.7e-4}, {"gap", 1.5e-5, 7e-4}}) {
         const MarchSample sample = study_march(case_named(name), 256, Stencil::second_order);
@@ -80,7 +80,7 @@ TEST(FastMarch, is_as_near_as_measured_at_256_nodes_a_side) {
     }
 }
 
-TEST(FastMarch, work_grows_with_the_nodes_alone) {
+TEST(FastMarch, work_is_proportional_to_the_nodes) {
     for (const KnownCase& known : known_cases())
         for (const int side : {64, 512}) {
             const MarchSample sample = study_march(known, side, Stencil::second_order);
@@ -89,7 +89,7 @@ TEST(FastMarch, work_grows_with_the_nodes_alone) {
         }
 }
 
-TEST(FastMarch, slope_is_1_where_ways_are_smooth) {
+TEST(FastMarch, slope_is_1_where_distances_are_smooth) {
     const KnownCase& known = case_named("disc");
     const HeightMap map = map_of(known, 256);
     const auto distances = fast_march(map, known_from_circle(map, 1.0)).of_node;
@@ -128,7 +128,7 @@ TEST(FastMarch, exact_along_axes_and_for_a_plane_front) {
     }
 }
 
-TEST(FastMarch, mirrored_and_turned_maps_have_mirrored_and_turned_ways) {
+TEST(FastMarch, mirrored_and_rotated_maps_have_mirrored_and_rotated_distances) {
     // A spacing of 1/32: coordinates are exact, so that symmetric nodes get the same arithmetic.
     HeightMap map(64, 2.0), turned(64, 2.0);
     for (int y = 0; y < 64; ++y)
@@ -159,7 +159,7 @@ TEST(FastMarch, land_and_lakes_are_not_reached) {
     EXPECT_TRUE(std::isfinite(distances[size_t(map.node(31, 31))]));
 }
 
-TEST(FastMarch, goes_round_the_walls_of_a_channel) {
+TEST(FastMarch, follows_the_walls_of_a_channel) {
     // Walls one node thick with gaps at alternate ends: 3 turns. Heights of 1 and -1 put the shore half-way
     // between nodes, so that a wall's end is cut off by a quarter of a spacing at each corner.
     const HeightMap map = map_with(
@@ -173,7 +173,7 @@ TEST(FastMarch, goes_round_the_walls_of_a_channel) {
     EXPECT_GT(distances[size_t(map.node(0, 15))], std::hypot(37.5, 4.5) + std::hypot(37.5, 4.5));
 }
 
-TEST(FastMarch, two_corners_of_land_that_touch_let_nothing_through) {
+TEST(FastMarch, touching_corners_of_land_block_the_front) {
     // Land along a diagonal, one node a row.
     const HeightMap map = map_with(32, [](int x, int y) { return x == y; });
     const auto distances = fast_march(map, known_at(map, 31, 0)).of_node;
@@ -204,7 +204,7 @@ TEST(FastMarch, along_a_slanting_shore_is_as_long_as_the_shore) {
     EXPECT_LT(way, 1.005 * straight);
 }
 
-TEST(FastMarch, more_land_never_makes_a_way_shorter) {
+TEST(FastMarch, more_land_never_shortens_a_distance) {
     const auto less = [](int x, int y) { return (x - 20) * (x - 20) + (y - 20) * (y - 20) < 50; };
     const auto more = [&](int x, int y) { return less(x, y) || (x == 30 && y > 8); };
     const HeightMap open = map_with(48, less), walled = map_with(48, more);

@@ -55,7 +55,7 @@ double shore_area(const HeightMap& map) {
     return area;
 }
 
-TEST(ShoreCells, polygons_are_convex_and_turn_left) {
+TEST(ShoreCells, polygons_are_convex_and_counterclockwise) {
     const HeightMap map = disc_map(64);
     const ShoreCells shore(map);
     for (const int index : polygons_of(shore)) {
@@ -67,7 +67,7 @@ TEST(ShoreCells, polygons_are_convex_and_turn_left) {
     }
 }
 
-TEST(ShoreCells, crossings_lie_on_the_shore_but_for_the_square_of_the_spacing) {
+TEST(ShoreCells, crossings_have_an_error_of_second_order) {
     for (const int side : {64, 256}) {
         const HeightMap map = disc_map(side);
         const ShoreCells shore(map);
@@ -76,7 +76,7 @@ TEST(ShoreCells, crossings_lie_on_the_shore_but_for_the_square_of_the_spacing) {
     }
 }
 
-TEST(ShoreCells, water_has_its_area_but_for_the_square_of_the_spacing) {
+TEST(ShoreCells, area_of_water_has_an_error_of_second_order) {
     for (const int side : {64, 128, 256}) {
         const double between = 2.0 - 2.0 / side; // from the first node to the last
         const double exact = between * between - std::numbers::pi * 0.61 * 0.61;
@@ -84,7 +84,7 @@ TEST(ShoreCells, water_has_its_area_but_for_the_square_of_the_spacing) {
     }
 }
 
-TEST(ShoreCells, open_water_has_none) {
+TEST(ShoreCells, open_water_has_no_shore) {
     HeightMap map(8, 8.0);
     for (double& height : map.heights)
         height = -1.0;
@@ -93,7 +93,7 @@ TEST(ShoreCells, open_water_has_none) {
     EXPECT_TRUE(polygons_of(shore).empty());
 }
 
-TEST(ShoreCells, opposite_corners_of_water_stay_apart) {
+TEST(ShoreCells, opposite_corners_of_water_stay_separate) {
     HeightMap map(2, 2.0);
     map.heights = {-1.0, 1.0, 1.0, -1.0};
     const ShoreCells shore(map);

@@ -95,11 +95,11 @@ TEST(WaveMap, has_no_seam) {
     EXPECT_GT(at_shore, 300);
 }
 
-TEST(WaveMap, goes_on_inland_from_the_nearest_shore) {
+TEST(WaveMap, continues_inland_from_the_nearest_shore) {
     const HeightMap map = round_island(256, {10.0, 0.0}, 5.0);
     const Image baked = bake_wave_map(map).value();
     const auto path = [&](double x) { return texel(baked, int((x + 32.0) * 4.0), 128).path; };
-    // 2 m inland on either side: as far behind the shore there, not over land from the other side.
+    // 2 m inland on either side: as far inland from the shore there, not over land from the other side.
     EXPECT_NEAR(path(13.0), 30.0 - 13.0, 0.3);
     EXPECT_NEAR(path(7.0) - path(4.9), 2.1, 0.3);
     EXPECT_GT(path(7.0), 30.0 - 7.0 + 2.0);
@@ -115,7 +115,7 @@ TEST(WaveMap, lakes_get_values_like_land) {
     EXPECT_NEAR(texel(baked, 64, 64).path, 29.65, 0.5);
 }
 
-TEST(WaveMap, refuses_what_has_no_water_or_no_open_circle) {
+TEST(WaveMap, refuses_maps_without_water_or_open_circle) {
     HeightMap dry(64, 64.0);
     for (double& height : dry.heights)
         height = 0.25;
@@ -153,7 +153,7 @@ TEST(HeightsFrom, refuses_other_shapes_and_values) {
     EXPECT_EQ(why(picture), "the height at column 3, row 3 is -2e+04 m, beyond 10000; see --metres");
 }
 
-TEST(Island, is_one_terrain_at_every_size) {
+TEST(Island, is_the_same_terrain_at_every_size) {
     const HeightMap coarse = make_island(64), fine = make_island(192); // every third node is the same place
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x)
@@ -184,7 +184,7 @@ TEST(Island, has_the_same_bits_on_every_machine) {
 }
 
 // The file that `tidemark_bake` writes is read back: it may be compressed differently elsewhere.
-TEST(Island, is_the_file_in_textures) {
+TEST(Island, equals_the_file_in_textures) {
     namespace fs = std::filesystem;
     const fs::path file = fs::temp_directory_path() / fmt::format("tidemark-island-{}.exr", ::getpid());
     const Image baked = bake_wave_map(make_island(512)).value();

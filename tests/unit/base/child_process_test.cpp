@@ -21,7 +21,7 @@ OutputLimits within(std::chrono::milliseconds time) {
     return {1000, ChildProcess::Clock::now() + time};
 }
 
-TEST(ChildProcess, output_and_words_are_kept_apart_and_no_shell_is_between) {
+TEST(ChildProcess, output_and_errors_are_separate_and_no_shell_is_used) {
     const Result<std::string> output = output_of({"printf", "%s|", "a b", "$HOME", "*"}, {1000}, "");
     ASSERT_TRUE(output) << output.error().message;
     EXPECT_EQ(*output, "a b|$HOME|*|");
@@ -56,7 +56,7 @@ TEST(ChildProcess, too_much_output_and_failure_are_errors) {
               "there is no program './none': get it");
 }
 
-TEST(ChildProcess, has_a_time_limit_for_all_that_it_prints) {
+TEST(ChildProcess, has_a_time_limit_for_its_whole_output) {
     EXPECT_EQ(*output_of({"echo", "in time"}, within(60s), ""), "in time\n");
     // Silent; printing on and on; with its output closed.
     for (const char* script : {"sleep 600", "yes >&2", "exec >&- 2>&-; sleep 600"}) {
@@ -67,7 +67,7 @@ TEST(ChildProcess, has_a_time_limit_for_all_that_it_prints) {
     }
 }
 
-TEST(ChildProcess, what_it_started_ends_with_it) {
+TEST(ChildProcess, grandchildren_end_with_the_child) {
     ChildProcess shell =
         *ChildProcess::start({"sh", "-c", "sleep 600 & echo $!; wait"}, ChildProcess::Input::none, "");
     std::string words;

@@ -14,7 +14,7 @@ protected:
     DoingPage* page_ = DoingPage::make();
 };
 
-TEST_F(DoingTest, WhatIsAroundGoesOn) {
+TEST_F(DoingTest, OuterActivityContinues) {
     EXPECT_EQ(page_->seen().what, "");
     {
         const Doing compiling("compiling Image");
@@ -41,7 +41,7 @@ TEST_F(DoingTest, OutlivesTheProcessThatCrashes) {
     EXPECT_EQ(page_->seen().what, "compiling Buffer A");
 }
 
-TEST_F(DoingTest, LeftBehindOnce) {
+TEST_F(DoingTest, ActivityOfADeadProcessIsReportedOnce) {
     if (const pid_t child = ::fork(); child == 0) {
         const Doing compiling("compiling Buffer A");
         ::_exit(0);
@@ -53,20 +53,20 @@ TEST_F(DoingTest, LeftBehindOnce) {
     EXPECT_EQ(page_->seen().what, "");
 }
 
-TEST_F(DoingTest, WordsWithoutEndAreCut) {
+TEST_F(DoingTest, LongTextsAreCut) {
     const Doing compiling(std::string(100000, 'x'));
     EXPECT_EQ(page_->seen().what.find_first_not_of('x'), std::string::npos);
     EXPECT_GT(page_->seen().what.size(), 100U);
 }
 
-TEST_F(DoingTest, ADriverThatWasStartedStays) {
+TEST_F(DoingTest, StartOfTheDriverIsKept) {
     { const Doing compiling("compiling"); }
     EXPECT_FALSE(page_->has_driver());
     { const Doing starting("starting", Doing::Kind::start); }
     EXPECT_TRUE(page_->has_driver());
 }
 
-TEST_F(DoingTest, TheFrameInHand) {
+TEST_F(DoingTest, CurrentFrame) {
     EXPECT_FALSE(page_->frame());
     EXPECT_FALSE(page_->resumable());
     if (const pid_t child = ::fork(); child == 0) {
@@ -84,7 +84,7 @@ TEST_F(DoingTest, TheFrameInHand) {
     EXPECT_FALSE(page_->frame());
 }
 
-TEST_F(DoingTest, NowhereToNote) {
+TEST_F(DoingTest, WithoutAPageNothingIsNoted) {
     Doing::note_on(nullptr);
     const Doing compiling("compiling");
     EXPECT_EQ(page_->seen().what, "");

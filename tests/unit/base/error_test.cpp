@@ -4,7 +4,7 @@
 
 namespace tidemark::error_test {
 
-TEST(Diagnostic, prints_as_editors_open_it) {
+TEST(Diagnostic, prints_in_the_form_that_editors_parse) {
     EXPECT_EQ(to_string(Diagnostic{{"a.glsl", 12, 5}, Severity::error, "no"}), "a.glsl:12:5: error: no");
     EXPECT_EQ(to_string(Diagnostic{{"a.glsl", 12, 0}, Severity::warning, "no"}), "a.glsl:12: warning: no");
     EXPECT_EQ(to_string(Diagnostic{{"a.glsl", 0, 0}, Severity::note, "no"}), "a.glsl: note: no");
@@ -15,7 +15,7 @@ TEST(Diagnostic, a_column_without_a_line_is_left_out) {
     EXPECT_EQ(to_string(Diagnostic{{"a.glsl", 0, 5}, Severity::error, "no"}), "a.glsl: error: no");
 }
 
-TEST(Error, message_comes_before_its_diagnostics) {
+TEST(Error, message_precedes_its_diagnostics) {
     const Error error{
         ErrorCode::load,
         "it does not compile",
@@ -25,13 +25,13 @@ TEST(Error, message_comes_before_its_diagnostics) {
                                 "b.glsl:4: note: why");
 }
 
-TEST(Error, without_a_message_is_its_diagnostics_alone) {
+TEST(Error, without_a_message_prints_only_diagnostics) {
     EXPECT_EQ(to_string(error_at({"a.glsl", 3, 0}, "what")), "a.glsl:3: error: what");
     EXPECT_EQ(to_string(Error{ErrorCode::usage, "what", {}}), "tidemark: error: what");
     EXPECT_EQ(to_string(Error{}), "");
 }
 
-TEST(Error, at_a_place_is_a_load_error_unless_told) {
+TEST(Error, error_at_is_a_load_error_by_default) {
     EXPECT_EQ(error_at({}, "").code, ErrorCode::load);
     EXPECT_EQ(error_at({}, "", ErrorCode::write).code, ErrorCode::write);
     const Result<int> failed = fail(ErrorCode::usage, "what");
@@ -39,7 +39,7 @@ TEST(Error, at_a_place_is_a_load_error_unless_told) {
     EXPECT_EQ(failed.error().message, "what");
 }
 
-TEST(ExitCode, is_what_scripts_rely_on) {
+TEST(ExitCode, codes_are_the_documented_numbers) {
     EXPECT_EQ(exit_code(ErrorCode::check_failed), 1);
     EXPECT_EQ(exit_code(ErrorCode::usage), 2);
     EXPECT_EQ(exit_code(ErrorCode::load), 3);
@@ -48,7 +48,7 @@ TEST(ExitCode, is_what_scripts_rely_on) {
     EXPECT_EQ(exit_code(ErrorCode::no_context), 77);
 }
 
-TEST(NearestName, forgives_slips) {
+TEST(NearestName, corrects_typing_errors) {
     const std::vector<std::string> names{"wave_height", "wave_speed", "fog"};
     EXPECT_EQ(nearest_name("wave_hieght", names), "wave_height");
     EXPECT_EQ(nearest_name("waveheight", names), "wave_height");
@@ -64,7 +64,7 @@ TEST(NearestName, prefers_the_nearer_and_then_the_first) {
     EXPECT_EQ(nearest_name("abcdef", {"abcdxx", "abcdex", "abcdey"}), "abcdex");
 }
 
-TEST(NearestName, nothing_is_near_when_there_is_nothing) {
+TEST(NearestName, empty_names_and_lists_give_no_suggestion) {
     EXPECT_EQ(nearest_name("a", {}), "");
     EXPECT_EQ(nearest_name("", {"scale"}), "");
 }

@@ -28,7 +28,7 @@ size_t files_in(const fs::path& folder) {
     return size_t(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
-TEST(FileCache, gives_back_what_was_kept) {
+TEST(FileCache, returns_stored_bytes) {
     const TemporaryFolder folder;
     const FileCache cache(folder / "made/when/needed", k_plenty);
     EXPECT_EQ(cache.find(key("a")), std::nullopt);
@@ -42,7 +42,7 @@ TEST(FileCache, gives_back_what_was_kept) {
     EXPECT_EQ(cache.find(key("a")), "other");
 }
 
-TEST(FileCache, what_is_damaged_is_not_there) {
+TEST(FileCache, damaged_entries_are_misses) {
     const TemporaryFolder folder;
     const FileCache cache(folder.path(), k_plenty);
     cache.keep(key("a"), "some bytes of a program");
@@ -61,7 +61,7 @@ TEST(FileCache, what_is_damaged_is_not_there) {
     EXPECT_EQ(cache.find(key("a")), "some bytes of a program");
 }
 
-TEST(FileCache, no_folder_to_write_to_is_nobodys_business) {
+TEST(FileCache, unwritable_folders_are_ignored) {
     const TemporaryFolder folder;
     save_in_place(folder / "file");
     const FileCache cache(folder / "file/below", k_plenty);
@@ -73,7 +73,7 @@ TEST(FileCache, no_folder_to_write_to_is_nobodys_business) {
     EXPECT_EQ(with_folder.find(key("taken")), std::nullopt);
 }
 
-TEST(FileCache, what_was_not_asked_for_the_longest_goes_first) {
+TEST(FileCache, least_recently_used_entries_are_removed_first) {
     const TemporaryFolder folder;
     const FileCache cache(folder.path(), 1000);
     const std::string bytes(100, 'x'); // 164 with its digest: six of them fit
@@ -93,7 +93,7 @@ TEST(FileCache, what_was_not_asked_for_the_longest_goes_first) {
     EXPECT_EQ(files_in(folder.path()), 6u);
 }
 
-TEST(FileCache, half_written_files_of_the_dead_go_too) {
+TEST(FileCache, partial_files_of_dead_processes_are_removed) {
     const TemporaryFolder folder;
     const fs::path half = folder / ("." + key("a") + ".part-1-1");
     save_in_place(half, std::string(900, 'x'));
@@ -104,7 +104,7 @@ TEST(FileCache, half_written_files_of_the_dead_go_too) {
     EXPECT_EQ(cache.find(key("a")), std::string(200, 'y'));
 }
 
-TEST(FileCache, writers_at_once_leave_something_whole) {
+TEST(FileCache, concurrent_writers_leave_a_whole_entry) {
     const TemporaryFolder folder;
     const FileCache cache(folder.path(), 4000); // so that they also throw away each other's
     std::atomic<int> wrong = 0;
@@ -124,7 +124,7 @@ TEST(FileCache, writers_at_once_leave_something_whole) {
     EXPECT_LE(files_in(folder.path()), 7u);
 }
 
-TEST(FileCache, an_entry_under_another_name_is_not_that_one) {
+TEST(FileCache, an_entry_under_another_name_is_a_miss) {
     const TemporaryFolder folder;
     const FileCache cache(folder.path(), k_plenty);
     cache.keep(key("a"), "the one");
@@ -134,7 +134,7 @@ TEST(FileCache, an_entry_under_another_name_is_not_that_one) {
     EXPECT_EQ(cache.find(key("a")), "the one");
 }
 
-TEST(FileCache, a_link_is_replaced_and_what_it_leads_to_neither_read_nor_written) {
+TEST(FileCache, a_link_is_replaced_and_its_target_untouched) {
     const TemporaryFolder folder, elsewhere;
     const FileCache cache(folder / "cache", k_plenty);
     FileCache(elsewhere.path(), k_plenty).keep(key("a"), "somebody's");
@@ -167,7 +167,7 @@ TEST(FileCache, a_folder_that_is_a_link_is_left_alone) {
     EXPECT_EQ(files_in(elsewhere.path()), 1u);
 }
 
-TEST(FileCache, a_folder_that_others_may_write_to_is_left_alone) {
+TEST(FileCache, a_folder_writable_by_other_users_is_left_alone) {
     const TemporaryFolder folder;
     fs::create_directory(folder / "cache");
     const FileCache cache(folder / "cache", k_plenty);
@@ -179,7 +179,7 @@ TEST(FileCache, a_folder_that_others_may_write_to_is_left_alone) {
     EXPECT_EQ(files_in(folder / "cache"), 1u);
 }
 
-TEST(FileCache, a_folder_of_its_own_is_made_for_its_user_alone) {
+TEST(FileCache, a_new_folder_is_private_to_the_user) {
     const TemporaryFolder folder;
     FileCache(folder / "cache", k_plenty).keep(key("a"), "ours");
     EXPECT_EQ(fs::status(folder / "cache").permissions(), fs::perms::owner_all);
@@ -198,7 +198,7 @@ TEST(FileCache, another_users_folder_and_entries_are_left_alone) {
     EXPECT_EQ(cache.find(key("a")), std::nullopt);
 }
 
-TEST(FileCache, what_is_not_ours_is_not_thrown_away) {
+TEST(FileCache, foreign_files_are_kept) {
     const TemporaryFolder folder, elsewhere;
     const std::string large(5000, 'x');
     save_in_place(folder / "letter", large);
@@ -244,7 +244,7 @@ private:
     std::optional<std::string> before_[3];
 };
 
-TEST_F(UserCache, is_where_the_desktop_wants_it) {
+TEST_F(UserCache, follows_the_xdg_variables) {
     const TemporaryFolder home;
     const char* me = home.path().c_str();
     EXPECT_EQ(folder(nullptr, "/var/cache/me", me), "/var/cache/me/tidemark");

@@ -12,7 +12,7 @@ std::string sha256_of(std::string_view text) {
 }
 
 // The examples of FIPS 180-2, appendix B.
-TEST(Sha256, known_answers) {
+TEST(Sha256, published_test_vectors) {
     EXPECT_EQ(sha256_of(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
     EXPECT_EQ(sha256_of("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
     EXPECT_EQ(sha256_of("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),

@@ -21,7 +21,7 @@ Result<ExpandedText> expand(const Files& files, const std::string& path = "main.
     return expand_includes(path, read, "/library");
 }
 
-/// Each line behind the place where it was written, as `main.glsl:1|text`.
+/// Returns each line after the place where it was written, as `main.glsl:1|text`.
 std::string listed(const Result<ExpandedText>& expanded) {
     if (!expanded)
         return to_string(expanded.error());
@@ -36,7 +36,7 @@ std::string listed(const Result<ExpandedText>& expanded) {
     return list;
 }
 
-TEST(Includes, a_text_without_any_is_itself) {
+TEST(Includes, a_text_without_includes_is_unchanged) {
     EXPECT_EQ(listed(expand({{"main.glsl", "a\nb"}})), "main.glsl:1|a\n"
                                                        "main.glsl:2|b\n");
     EXPECT_EQ(listed(expand({{"main.glsl", ""}})), "");
@@ -51,7 +51,7 @@ TEST(Includes, are_pasted_where_they_stand) {
               "main.glsl:3|c\n");
 }
 
-TEST(Includes, what_stands_beside_one_stays) {
+TEST(Includes, text_beside_a_directive_stays) {
     EXPECT_EQ(listed(expand({{"main.glsl", "/* a */ # include 'b.glsl' // c\nd"}, {"b.glsl", "b"}})),
               "main.glsl:1|/* a */ \n"
               "b.glsl:1|b\n"
@@ -59,7 +59,7 @@ TEST(Includes, what_stands_beside_one_stays) {
               "main.glsl:2|d\n");
 }
 
-TEST(Includes, are_relative_to_the_file_that_says_it) {
+TEST(Includes, are_relative_to_the_including_file) {
     const auto expanded = expand({{"scenes/main.glsl", "#include \"../lib/b.glsl\""},
                                   {"lib/b.glsl", "#include \"deep/c.glsl\""},
                                   {"lib/deep/c.glsl", "#include \"/abs/d.glsl\""},
@@ -115,7 +115,7 @@ TEST(Includes, in_angle_brackets_are_files_of_the_library) {
               "main.glsl:1: error: cannot read '/library/no.glsl': no such file");
 }
 
-TEST(Includes, of_other_forms_are_left_for_the_driver) {
+TEST(Includes, other_forms_are_left_to_the_driver) {
     const std::string text = "#include <tidemark/no\n>\n#include NAME\na #include \"no\"\n#include\n#if 0\n"
                              "#include <other>\n#endif\n#";
     const auto expanded = expand({{"main.glsl", text}});
@@ -130,7 +130,7 @@ TEST(Includes, in_angle_brackets_need_quotes) {
               "main.glsl:2: error: write the file's name in quotes: #include \"a/b.glsl\"");
 }
 
-TEST(Includes, of_a_file_with_pragma_once_paste_it_once) {
+TEST(Includes, pragma_once_pastes_a_file_once) {
     EXPECT_EQ(listed(expand({{"main.glsl", "#include \"b.glsl\"\n#include \"b.glsl\"\nend\n"},
                              {"b.glsl", "#pragma once\nb\n"}})),
               "b.glsl:1|#pragma once\n"
@@ -140,7 +140,7 @@ TEST(Includes, of_a_file_with_pragma_once_paste_it_once) {
               "main.glsl:3|end\n");
 }
 
-TEST(Includes, a_missing_file_is_named_with_the_way_to_it) {
+TEST(Includes, a_missing_file_is_named_with_its_include_chain) {
     EXPECT_EQ(listed(expand({{"main.glsl", "\n#include \"b.glsl\"\n"},
                              {"b.glsl", "\n\n#include \"lib/c.glsl\""},
                              {"lib/c.glsl", "#include \"no.glsl\""}})),
@@ -149,7 +149,7 @@ TEST(Includes, a_missing_file_is_named_with_the_way_to_it) {
               "main.glsl:2: note: included from here");
 }
 
-TEST(Includes, a_failure_lists_every_file_that_it_may_be_about) {
+TEST(Includes, a_failure_lists_every_file_read) {
     const auto expanded =
         expand({{"main.glsl", "#include \"b.glsl\"\n"}, {"b.glsl", "#include \"lib/no.glsl\""}});
     ASSERT_FALSE(expanded);
@@ -160,7 +160,7 @@ TEST(Includes, a_missing_first_file_has_no_place) {
     EXPECT_EQ(listed(expand({})), "tidemark: error: cannot read 'main.glsl': no such file");
 }
 
-TEST(Includes, a_circle_is_named_with_the_way_to_it) {
+TEST(Includes, a_cycle_is_named_with_its_include_chain) {
     EXPECT_EQ(
         listed(expand({{"main.glsl", "\n#include \"b.glsl\"\n"}, {"b.glsl", "#include \"./main.glsl\""}})),
         "b.glsl:1: error: './main.glsl' includes itself\n"
@@ -169,7 +169,7 @@ TEST(Includes, a_circle_is_named_with_the_way_to_it) {
               "main.glsl:1: error: 'main.glsl' includes itself");
 }
 
-TEST(Includes, a_missing_one_under_a_condition_is_left_for_the_driver) {
+TEST(Includes, a_missing_file_under_a_condition_is_left_to_the_driver) {
     for (const std::string condition : {"#if 0", "#ifdef A", "#ifndef A"})
         EXPECT_EQ(listed(expand({{"main.glsl", condition + "\n#include \"no\" // why\n#endif\n"}})),
                   "main.glsl:1|" + condition +
@@ -185,7 +185,7 @@ TEST(Includes, a_missing_one_under_a_condition_is_left_for_the_driver) {
               "main.glsl:3|#include \"no\"\n");
 }
 
-TEST(Includes, one_under_a_condition_that_exists_is_pasted) {
+TEST(Includes, an_existing_file_under_a_condition_is_pasted) {
     EXPECT_EQ(listed(expand({{"main.glsl", "#if 1\n#include \"b\"\n#endif"}, {"b", "b\n"}})),
               "main.glsl:1|#if 1\n"
               "b:1|b\n"
@@ -196,7 +196,7 @@ TEST(Includes, one_under_a_condition_that_exists_is_pasted) {
               "main.glsl:2: note: included from here");
 }
 
-TEST(Includes, too_deep) {
+TEST(Includes, too_deep_nesting_is_refused) {
     Files files;
     for (int i = 0; i <= 101; ++i)
         files[i == 0 ? "main.glsl" : std::to_string(i)] = "#include \"" + std::to_string(i + 1) + "\"\n";
@@ -211,7 +211,7 @@ TEST(Includes, too_deep) {
 }
 
 /// Forty small files would grow to a million million lines.
-TEST(Includes, that_double_at_each_step_are_stopped) {
+TEST(Includes, exponential_growth_is_stopped) {
     Files files{{"40", ""}};
     for (int i = 0; i < 40; ++i) {
         const std::string next = "#include \"" + std::to_string(i + 1) + "\"\n";
@@ -223,7 +223,7 @@ TEST(Includes, that_double_at_each_step_are_stopped) {
               "39:1: error: there are more than 10000 includes to follow");
 }
 
-TEST(Includes, that_add_up_to_too_much_are_stopped) {
+TEST(Includes, too_large_sums_are_stopped) {
     const std::string quarter(k_largest_text / 4, '\n');
     const std::string next = "#include \"b\"\n";
     EXPECT_EQ(listed(expand({{"main.glsl", next + next + next + next}, {"b", quarter}})),

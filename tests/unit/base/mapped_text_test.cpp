@@ -36,7 +36,7 @@ TEST(LineMap, columns_are_passed_on) {
     EXPECT_EQ(lines.locate(2, 5), (SourceLocation{"a", 11, 5}));
 }
 
-TEST(LineMap, lines_of_nobody_have_no_place) {
+TEST(LineMap, generated_lines_have_no_place) {
     EXPECT_EQ(LineMap().locate(1), SourceLocation{});
     LineMap lines;
     lines.begin_run(3, "a", 1);
@@ -45,7 +45,7 @@ TEST(LineMap, lines_of_nobody_have_no_place) {
         EXPECT_EQ(lines.locate(line, 4), SourceLocation{}) << line;
 }
 
-TEST(LineMap, a_line_beyond_all_counting_has_no_place) {
+TEST(LineMap, a_line_number_out_of_range_has_no_place) {
     LineMap lines;
     lines.begin_run(1, "a", 10);
     EXPECT_EQ(lines.locate(std::numeric_limits<int>::max()), SourceLocation{});
@@ -88,7 +88,7 @@ TEST(MappedText, appending_another_keeps_its_places) {
     EXPECT_EQ(at(text.lines(), 5), "outer:2");
 }
 
-TEST(MappedText, edits_change_what_they_cover) {
+TEST(MappedText, edits_replace_the_text_they_cover) {
     MappedText text;
     text.append("0123456789", "a", 1);
     text.apply({{0, 1, "X"}, {3, 3, "-"}, {4, 6, ""}, {9, 10, "end"}});
@@ -106,7 +106,7 @@ TEST(MappedText, edits_move_no_line) {
     EXPECT_EQ(at(text.lines(), 4), "a:4");
 }
 
-TEST(PlainLineEnds, every_system_s_line_ends_become_one) {
+TEST(PlainLineEnds, line_ends_of_every_system_become_newlines) {
     EXPECT_EQ(with_plain_line_ends("a\r\nb\rc\nd\n\re\r\r\nf\r"), "a\nb\nc\nd\n\ne\n\nf\n");
     EXPECT_EQ(with_plain_line_ends(""), "");
     EXPECT_EQ(with_plain_line_ends("\r\n"), "\n");
@@ -144,7 +144,7 @@ TEST(MappedText, columns_are_the_authors_after_edits) {
     EXPECT_EQ(whole.lines().locate(2, 9).column, 14);
 }
 
-TEST(MappedText, what_replaces_something_stands_where_that_was) {
+TEST(MappedText, replaced_text_has_the_place_of_the_original) {
     MappedText text;
     text.append("a = old + b;\n  c = old + d;\n", "a.glsl", 1);
     text.apply({{4, 7, "f(x, y)"}, {17, 17, "1 * "}, {19, 22, "long_name"}});
@@ -166,7 +166,7 @@ TEST(MappedText, what_replaces_something_stands_where_that_was) {
     EXPECT_EQ(column(1, "+ b"), 9);
 }
 
-TEST(MappedText, columns_behind_an_edit_over_lines) {
+TEST(MappedText, columns_after_an_edit_over_lines) {
     MappedText text;
     text.append("a /*\n*/ b\n", "a.glsl", 1);
     text.apply({{2, 7, " "}});

@@ -9,7 +9,7 @@ PlugIn plug_in(const char* file) {
     return {file, "picture plug-in", "reading and writing pictures", "OpenImageIO 2.4", "tidemark_none", 1};
 }
 
-TEST(PlugIn, one_that_is_missing_is_said_with_the_places_and_what_to_do) {
+TEST(PlugIn, a_missing_plug_in_names_the_searched_folders_and_a_remedy) {
     const auto missing =
         load_plug_in(plug_in("tidemark_nothing.so"), {"/nowhere/bin", "/nowhere/lib/tidemark"});
     ASSERT_FALSE(missing);
@@ -20,7 +20,7 @@ TEST(PlugIn, one_that_is_missing_is_said_with_the_places_and_what_to_do) {
               "Tidemark or put the plug-in beside the program");
 }
 
-TEST(PlugIn, a_file_that_is_no_library_is_an_error_with_the_loaders_reason) {
+TEST(PlugIn, a_file_that_is_not_a_library_gives_the_loaders_reason) {
     const TemporaryFolder folder;
     const std::string file = folder / "tidemark_broken.so";
     save_in_place(file, "not a library");
@@ -31,7 +31,7 @@ TEST(PlugIn, a_file_that_is_no_library_is_an_error_with_the_loaders_reason) {
                                           "build of Tidemark");
 }
 
-TEST(PlugIn, a_library_of_someone_elses_is_refused) {
+TEST(PlugIn, a_foreign_library_is_refused) {
     const auto foreign = load_plug_in(plug_in("libm.so.6"), {});
     ASSERT_FALSE(foreign);
     EXPECT_EQ(foreign.error().message,

@@ -1,4 +1,4 @@
-// What a terminal would obey is shown; what people read stays.
+// Characters that would control a terminal are escaped; readable text stays.
 #include "base/encoding.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ TEST(Printable, texts_of_all_languages_stay) {
         EXPECT_EQ(printable(text), text);
 }
 
-TEST(Printable, controls_are_shown) {
+TEST(Printable, control_characters_are_escaped) {
     EXPECT_EQ(printable("\x1b[31mred\x1b]0;title\a"), "\\x1b[31mred\\x1b]0;title\\x07");
     EXPECT_EQ(printable(std::string("a\0b\r\b\x7f", 6)), "a\\x00b\\x0d\\x08\\u007f");
     EXPECT_EQ(printable("\u009b31m \u0085"), "\\u009b31m \\u0085"); // CSI in one character
@@ -28,7 +28,7 @@ TEST(Printable, every_single_byte) {
     }
 }
 
-TEST(Printable, what_is_no_utf8_is_shown) {
+TEST(Printable, invalid_utf8_is_escaped) {
     EXPECT_EQ(printable("\xff\xc3(\xa9"), "\\xff\\xc3(\\xa9");
     EXPECT_EQ(printable("\xc0\x9b"), "\\xc0\\x9b");                   // ESC's neighbour, too long
     EXPECT_EQ(printable("\xe0\x82\x9b"), "\\xe0\\x82\\x9b");          // CSI, too long
@@ -37,7 +37,7 @@ TEST(Printable, what_is_no_utf8_is_shown) {
     EXPECT_EQ(printable("\xe2\x82"), "\\xe2\\x82");                   // cut
 }
 
-TEST(Printable, bytes_that_are_no_utf8_are_replaced) {
+TEST(Printable, invalid_utf8_is_replaced_by_valid_utf8) {
     EXPECT_EQ(valid_utf8("a\x1b\xc3\xa9\xff\xe2\x82"), "a\x1b\xc3\xa9\ufffd\ufffd\ufffd");
 }
 
@@ -48,10 +48,28 @@ TEST(Printable, a_long_text_is_cut_between_characters) {
     EXPECT_EQ(cut_text(std::string(10, '\x80'), 6), "...");
 }
 
-TEST(Printable, one_line) {
+TEST(Printable, printable_line_escapes_line_ends) {
     EXPECT_EQ(printable_line("two\nlines\t"), "two\\x0alines\\x09");
     EXPECT_TRUE(is_printable_line("é"));
     EXPECT_FALSE(is_printable_line("a\n"));
+}
+
+TEST(Characters, every_byte_of_one_leads_to_its_first_byte) {
+    const std::string text = "a\u00e9\u20ac";
+    const std::vector<size_t> begins{0, 1, 1, 3, 3, 3, 6};
+    for (size_t at = 0; at < begins.size(); ++at) {
+        EXPECT_EQ(begin_of_character(text, at), begins[at]) << at;
+        if (at < text.size()) {
+            EXPECT_EQ(continues_character(text[at]), begins[at] != at) << at;
+        }
+    }
+    EXPECT_EQ(begin_of_character("\xa9\xa9", 1), 0U); // bytes that continue nothing
+}
+
+TEST(FloatLiteral, has_a_point_or_an_exponent) {
+    EXPECT_EQ(float_literal("2"), "2.0");
+    EXPECT_EQ(float_literal("-0.5"), "-0.5");
+    EXPECT_EQ(float_literal("1e-07"), "1e-07");
 }
 
 } // namespace tidemark::printable_test

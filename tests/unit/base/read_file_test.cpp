@@ -1,4 +1,4 @@
-// What read_file says of paths that are no readable file.
+// Errors of read_file for paths that are not readable files.
 #include "base/file.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -65,7 +65,7 @@ TEST(ReadFile, without_permission) {
     EXPECT_EQ(refusal(read_file(path)), "cannot read '" + path + "': Permission denied");
 }
 
-TEST(ReadFile, a_circle_of_links) {
+TEST(ReadFile, circular_links) {
     const TemporaryFolder folder;
     fs::create_symlink("b", folder / "a");
     fs::create_symlink("a", folder / "b");
@@ -82,7 +82,7 @@ TEST(ReadFile, larger_than_allowed) {
     EXPECT_EQ(read_file(path, 1u << 20)->size(), 1u << 20);
 }
 
-TEST(ReadFile, what_is_too_large_is_not_read) {
+TEST(ReadFile, too_large_files_are_refused_before_reading) {
     const TemporaryFolder folder;
     const std::string path = folder / "sparse";
     save_in_place(path, "");
@@ -94,7 +94,7 @@ TEST(ReadFile, a_file_without_a_size_is_read) {
     EXPECT_EQ(read_file("/proc/self/comm"), "unit_base\n");
 }
 
-TEST(ReadFile, a_link_that_leads_nowhere_says_where) {
+TEST(ReadFile, a_dangling_link_names_its_target) {
     const TemporaryFolder folder;
     fs::create_symlink("none", folder / "a");
     fs::create_symlink("/none", folder / "b");
@@ -104,14 +104,14 @@ TEST(ReadFile, a_link_that_leads_nowhere_says_where) {
               "cannot read '" + below + "': '" + b + "' is a link to '/none', which does not exist");
 }
 
-TEST(ReadFile, names_that_no_file_has) {
+TEST(ReadFile, invalid_file_names) {
     using namespace std::string_literals;
     EXPECT_EQ(refusal(read_file("a\0b"s)), "cannot read 'a\0b': there is a zero byte in its name"s);
     const std::string longest(256, 'x');
     EXPECT_EQ(refusal(read_file(longest)), "cannot read '" + longest + "': File name too long");
 }
 
-TEST(ReadTextFile, a_binary_file_is_no_text) {
+TEST(ReadTextFile, a_binary_file_is_refused) {
     const TemporaryFolder folder;
     const std::string path = folder / "a.glsl";
     save_in_place(path, std::string_view("void\0main", 9));
@@ -120,7 +120,7 @@ TEST(ReadTextFile, a_binary_file_is_no_text) {
     EXPECT_EQ(read_text_file(path), "caf\xc3\xa9 \xff");
 }
 
-TEST(ReadTextFile, an_unreadable_file_is_said_as_such) {
+TEST(ReadTextFile, an_unreadable_file_is_reported_as_unreadable) {
     EXPECT_EQ(refusal(read_text_file("no.glsl")), "cannot read 'no.glsl': no such file");
 }
 

@@ -19,7 +19,7 @@ std::string through_a_shell(std::string_view word) {
     return {text.data(), count};
 }
 
-TEST(ShellWord, a_shell_hands_it_on_as_it_was) {
+TEST(ShellWord, a_shell_passes_the_original_text) {
     for (const std::string_view word :
          {"waves.glsl", "OCTAVES=12", "my waves.glsl", "it's",        "''", "$HOME",
           "`date`",     "a\"b",       "vec2(1, -2)",   "~",           "*",  "a\\b",
@@ -34,7 +34,7 @@ TEST(ShellWord, stays_plain_where_that_is_safe) {
     EXPECT_EQ(shell_word(""), "''");
 }
 
-TEST(ShellWord, what_steers_a_terminal_is_spelled_out) {
+TEST(ShellWord, terminal_control_characters_are_escaped) {
     EXPECT_EQ(shell_word("\x1b]0;a'b\\\a"), "$'\\033]0;a\\'b\\\\\\007'");
     EXPECT_EQ(shell_word("é\u202e\xff"), "$'é\\342\\200\\256\\377'");
 }

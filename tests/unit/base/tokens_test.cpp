@@ -58,7 +58,7 @@ TEST(Tokens, kinds_of_tokens) {
     EXPECT_EQ(kinds("#include \"a b\" 'c'"), "punctuation:# identifier:include string:\"a b\" string:'c'");
 }
 
-TEST(Tokens, nothing_gives_nothing) {
+TEST(Tokens, empty_texts_have_no_tokens) {
     EXPECT_THAT(texts(""), ElementsAre());
     EXPECT_THAT(texts(" \t\r\n\v\f\\\n"), ElementsAre());
     EXPECT_THAT(texts("// only a comment"), ElementsAre());
@@ -71,7 +71,7 @@ TEST(Tokens, numbers_of_every_form) {
         EXPECT_EQ(kinds(number), std::string("number:") + number);
 }
 
-TEST(Tokens, numbers_end_where_golf_ends_them) {
+TEST(Tokens, numbers_end_at_a_second_point) {
     EXPECT_THAT(texts("1..xxx"), ElementsAre("1.", ".", "xxx"));
     EXPECT_THAT(texts("1.xx"), ElementsAre("1.", "xx"));
     EXPECT_THAT(texts("1.5.5"), ElementsAre("1.5", ".5"));
@@ -89,19 +89,19 @@ TEST(Tokens, comments_are_skipped) {
     EXPECT_THAT(texts("/* // */ b"), ElementsAre("b"));
 }
 
-TEST(Tokens, a_comment_without_end_takes_the_rest) {
+TEST(Tokens, an_unclosed_comment_takes_the_rest) {
     EXPECT_THAT(texts("a /* b\nc"), ElementsAre("a"));
     EXPECT_THAT(texts("a /*"), ElementsAre("a"));
     EXPECT_THAT(texts("a /*/"), ElementsAre("a"));
     EXPECT_THAT(texts("a //"), ElementsAre("a"));
 }
 
-TEST(Tokens, a_line_comment_goes_on_behind_a_backslash) {
+TEST(Tokens, a_line_comment_continues_after_a_backslash) {
     EXPECT_THAT(places("a // b \\\n c\nd"), ElementsAre("a@1:1", "d@3:1"));
     EXPECT_THAT(places("a // b \\ \nc"), ElementsAre("a@1:1", "c@2:1"));
 }
 
-TEST(Tokens, places_are_counted_from_one) {
+TEST(Tokens, places_are_counted_from_1) {
     EXPECT_THAT(places("a b\n  c\n\n\td"), ElementsAre("a@1:1", "b@1:3", "c@2:3", "d@4:2"));
     EXPECT_THAT(places("/* \n\n */ a"), ElementsAre("a@3:5"));
     EXPECT_THAT(places("a\\\n b"), ElementsAre("a@1:1", "b@2:2"));
@@ -120,7 +120,7 @@ TEST(Tokens, offsets_point_into_the_text) {
     EXPECT_EQ(last, text.size());
 }
 
-TEST(Tokens, first_on_line_as_the_preprocessor_counts) {
+TEST(Tokens, first_on_line_follows_joined_lines) {
     EXPECT_THAT(first_on_line("a b\nc d"), ElementsAre("a", "c"));
     EXPECT_THAT(first_on_line("  #define A \\\n 1\n# B"), ElementsAre("#", "#"));
     EXPECT_THAT(first_on_line("/* a\n */ # b"), ElementsAre("#"));
@@ -128,7 +128,7 @@ TEST(Tokens, first_on_line_as_the_preprocessor_counts) {
     EXPECT_THAT(first_on_line("a // \\\n b\nc"), ElementsAre("a", "c"));
 }
 
-TEST(Tokens, glued_means_nothing_between) {
+TEST(Tokens, glued_tokens_have_no_space_between) {
     EXPECT_THAT(glued("a(b) c (d)"), ElementsAre("(", "b", ")", "d", ")"));
     EXPECT_THAT(glued("a/**/b"), ElementsAre());
     EXPECT_THAT(glued("a\\\nb"), ElementsAre());
@@ -144,7 +144,7 @@ TEST(Tokens, strings_end_on_their_line) {
     EXPECT_EQ(kinds("\"a\\"), "punctuation:\" identifier:a punctuation:\\");
 }
 
-TEST(Tokens, a_joined_line_ends_a_string_too) {
+TEST(Tokens, a_joined_line_ends_a_string) {
     EXPECT_THAT(places("\"a\\\nb\" c\nd"),
                 ElementsAre("\"@1:1", "a@1:2", "b@2:1", "\"@2:2", "c@2:4", "d@3:1"));
 }

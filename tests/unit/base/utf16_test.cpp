@@ -27,14 +27,14 @@ TEST(Utf16, length_is_that_of_the_encoding) {
         EXPECT_EQ(utf16_length(each.text), each.units) << each.text;
 }
 
-TEST(Utf16, bytes_lead_back_to_the_length) {
+TEST(Utf16, byte_offset_inverts_the_length) {
     for (const Case& each : k_cases) {
         EXPECT_EQ(bytes_of_utf16(each.text, each.units), each.text.size()) << each.text;
         EXPECT_EQ(bytes_of_utf16(each.text, each.units + 5), each.text.size()) << each.text;
     }
 }
 
-TEST(Utf16, a_character_is_not_cut) {
+TEST(Utf16, a_character_is_never_split) {
     EXPECT_EQ(bytes_of_utf16("\U0001F30Ab", 1), 0u);
     EXPECT_EQ(bytes_of_utf16("\U0001F30Ab", 2), 4u);
 }

@@ -29,12 +29,12 @@ std::string refusal(const Result<void>& written) {
     return written.error().message;
 }
 
-/// What write_file says in a child process that may write files of at most `limit` bytes.
+/// Returns the error of write_file in a child process that may write files of at most `limit` bytes.
 std::string refusal_under_limit(size_t limit, const fs::path& path, const std::string& text) {
     return in_limited_child(limit, [&] { return refusal(write_file(path, text)); });
 }
 
-TEST(WriteFile, writes_every_byte_and_nothing_else) {
+TEST(WriteFile, writes_every_byte_and_no_other_file) {
     const TemporaryFolder folder;
     const std::string bytes = std::string("a\0b\n", 4) + std::string(300000, 'x');
     ASSERT_TRUE(write_file(folder / "a.txt", bytes));
@@ -42,14 +42,14 @@ TEST(WriteFile, writes_every_byte_and_nothing_else) {
     EXPECT_EQ(files_in(folder), 1u);
 }
 
-TEST(WriteFile, replaces_what_was_there) {
+TEST(WriteFile, replaces_an_existing_file) {
     const TemporaryFolder folder;
     save_in_place(folder / "a.txt", "a long text of before");
     ASSERT_TRUE(write_file(folder / "a.txt", "short"));
     EXPECT_EQ(read_file(folder / "a.txt"), "short");
 }
 
-TEST(WriteFile, a_place_that_cannot_hold_it) {
+TEST(WriteFile, unwritable_places_are_errors) {
     const TemporaryFolder folder;
     const std::string missing = folder / "no/a.txt";
     EXPECT_EQ(refusal(write_file(missing, "x")), "cannot write '" + missing + "': No such file or directory");
@@ -82,7 +82,7 @@ TEST(ReplaceText, mode_and_names_stay) {
     EXPECT_EQ(files_in(folder), 2u);
 }
 
-TEST(ReplaceText, what_was_changed_or_is_read_only_stays) {
+TEST(ReplaceText, changed_and_read_only_files_stay) {
     const TemporaryFolder folder;
     const std::string path = folder / "a.glsl";
     ASSERT_TRUE(write_file(path, "edited"));
@@ -113,7 +113,7 @@ TEST(WriteFile, a_folder_that_takes_no_files_even_from_root) {
     EXPECT_EQ(refusal(write_file(path, "x")), "cannot write '/proc/a.txt': No such file or directory");
 }
 
-TEST(WriteFile, a_full_disk_leaves_nothing_new) {
+TEST(WriteFile, a_full_disk_leaves_no_new_file) {
     const TemporaryFolder folder;
     const std::string path = folder / "a.txt";
     EXPECT_EQ(refusal_under_limit(1000, path, std::string(5000, 'x')),
@@ -121,7 +121,7 @@ TEST(WriteFile, a_full_disk_leaves_nothing_new) {
     EXPECT_EQ(files_in(folder), 0u);
 }
 
-TEST(WriteFile, a_full_disk_leaves_the_old_as_it_was) {
+TEST(WriteFile, a_full_disk_keeps_the_old_file) {
     const TemporaryFolder folder;
     const std::string path = folder / "a.txt";
     save_in_place(path, "before");
@@ -132,7 +132,7 @@ TEST(WriteFile, a_full_disk_leaves_the_old_as_it_was) {
     EXPECT_EQ(refusal_under_limit(1000, path, std::string(1000, 'x')), "it was written");
 }
 
-TEST(WriteFile, whether_a_file_could_be_written_is_known_before) {
+TEST(WriteFile, check_writable_predicts_write_errors) {
     const TemporaryFolder folder;
     ASSERT_TRUE(write_file(folder / "a.txt", "kept"));
     EXPECT_TRUE(check_writable(folder / "a.txt"));
@@ -164,7 +164,7 @@ TEST(WriteFile, a_device_that_is_full) {
     EXPECT_EQ(refusal(write_file("/dev/full", "x")), "cannot write '/dev/full': No space left on device");
 }
 
-TEST(WriteFile, a_link_that_was_typed_stays_one) {
+TEST(WriteFile, a_link_named_by_the_user_is_followed) {
     const TemporaryFolder folder;
     save_in_place(folder / "a.txt", "before");
     fs::create_symlink("a.txt", folder / "link");
@@ -182,7 +182,7 @@ std::string links_sentence(const std::string& path, const std::string& link, con
            target + "', and only links named with -o are followed: remove the link, or give another name";
 }
 
-TEST(WriteFile, a_link_that_nobody_named_is_not_followed) {
+TEST(WriteFile, a_link_not_named_by_the_user_is_not_followed) {
     const TemporaryFolder folder;
     save_in_place(folder / "a.txt", "before");
     const std::string target = folder / "a.txt", link = folder / "link", loop = folder / "loop";
@@ -200,7 +200,7 @@ TEST(WriteFile, a_link_that_nobody_named_is_not_followed) {
     EXPECT_EQ(files_in(folder), 4u);
 }
 
-TEST(WriteFile, nor_one_on_the_way_below_a_folder) {
+TEST(WriteFile, a_linked_folder_not_named_by_the_user_is_not_followed) {
     const TemporaryFolder folder, elsewhere;
     fs::create_directory_symlink(elsewhere.path(), folder / "own");
     const OutputPath own = OutputPath::typed(folder / "own"), ours(folder / "own");
@@ -229,7 +229,7 @@ TEST(WriteFile, a_name_does_not_lead_out_of_its_folder) {
     EXPECT_EQ((in / "/a.txt").path(), folder / "in/a.txt");
 }
 
-TEST(WriteFile, what_is_read_is_not_replaced) {
+TEST(WriteFile, files_read_by_the_command_are_not_replaced) {
     const TemporaryFolder folder;
     save_in_place(folder / "a.txt", "read");
     fs::create_symlink("a.txt", folder / "link");
@@ -247,7 +247,7 @@ TEST(WriteFile, what_is_read_is_not_replaced) {
     EXPECT_TRUE(write_file(OutputPath(folder / "b.txt").sparing(read), "x"));
 }
 
-TEST(WriteFile, a_descriptor_of_ours_by_its_name) {
+TEST(WriteFile, a_descriptor_of_this_process_by_its_name) {
     const TemporaryFolder folder;
     const int file = ::open((folder / "a.txt").c_str(), O_RDWR | O_CREAT, 0600);
     ASSERT_GE(file, 0);
@@ -285,14 +285,14 @@ TEST(StagedFile, keeps_its_extension_beside_its_place) {
     EXPECT_EQ(StagedFile::create(OutputPath::typed(folder / "link.mp4"))->path().extension(), ".mp4");
 }
 
-TEST(StagedFile, two_for_one_place_are_two_files) {
+TEST(StagedFile, two_staged_files_of_one_place_differ) {
     const TemporaryFolder folder;
     const auto first = StagedFile::create(folder / "a.png"), second = StagedFile::create(folder / "a.png");
     ASSERT_TRUE(first && second);
     EXPECT_NE(first->path(), second->path());
 }
 
-TEST(StagedFile, goes_when_it_is_dropped) {
+TEST(StagedFile, destruction_removes_the_staged_file) {
     const TemporaryFolder folder;
     {
         const auto staged = StagedFile::create(folder / "a.png");
@@ -301,7 +301,7 @@ TEST(StagedFile, goes_when_it_is_dropped) {
     EXPECT_EQ(files_in(folder), 0u);
 }
 
-TEST(StagedFile, one_that_was_moved_has_one_owner) {
+TEST(StagedFile, a_moved_file_has_one_owner) {
     const TemporaryFolder folder;
     auto first = StagedFile::create(folder / "a.png");
     ASSERT_TRUE(first);
@@ -314,7 +314,7 @@ TEST(StagedFile, one_that_was_moved_has_one_owner) {
     EXPECT_EQ(files_in(folder), 1u);
 }
 
-TEST(StagedFile, nothing_to_commit) {
+TEST(StagedFile, commit_of_a_removed_file_fails) {
     const TemporaryFolder folder;
     const std::string path = folder / "a.png";
     auto staged = StagedFile::create(path);
@@ -323,7 +323,7 @@ TEST(StagedFile, nothing_to_commit) {
     EXPECT_EQ(refusal(staged->commit()), "cannot write '" + path + "': No such file or directory");
 }
 
-TEST(StagedFile, of_a_device_is_copied_into_it) {
+TEST(StagedFile, staged_bytes_are_copied_into_a_device) {
     const TemporaryFolder folder;
     fs::create_symlink("/dev/full", folder / "a.mp4");
     const std::string path = folder / "a.mp4";
@@ -336,7 +336,7 @@ TEST(StagedFile, of_a_device_is_copied_into_it) {
     EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
-/// A process number that nobody has any more.
+/// Returns the number of a process that has ended.
 pid_t gone() {
     const pid_t child = ::fork();
     if (child == 0)
@@ -352,7 +352,7 @@ std::string machine_in(const fs::path& staged) {
     return name.substr(part, name.find('-', part) + 1 - part);
 }
 
-TEST(StagedFile, what_a_killed_process_left_of_the_same_output_goes) {
+TEST(StagedFile, leftovers_of_a_killed_process_are_removed) {
     const TemporaryFolder folder;
     const std::string machine = machine_in(StagedFile::create(folder / "own.png")->path());
     const std::string dead = machine + std::to_string(gone()), alive = machine + std::to_string(::getppid());
@@ -376,7 +376,7 @@ TEST(StagedFile, what_a_killed_process_left_of_the_same_output_goes) {
     ::close(held);
 }
 
-TEST(StagedFile, a_planted_name_is_not_opened) {
+TEST(StagedFile, an_existing_temporary_name_is_not_opened) {
     const TemporaryFolder folder;
     save_in_place(folder / "victim", "before");
     const auto first = StagedFile::create(folder / "a.png");
@@ -393,7 +393,7 @@ TEST(StagedFile, a_planted_name_is_not_opened) {
     EXPECT_EQ(read_file(folder / "a.png"), "x");
 }
 
-TEST(StagedFile, one_of_a_forked_process_that_was_killed_is_removed_by_its_parent) {
+TEST(StagedFile, a_parent_removes_the_file_of_a_killed_child) {
     const TemporaryFolder folder;
     clear_leftovers_on_signals(); // before the fork
     const auto own = StagedFile::create(folder / "own.png");
@@ -409,7 +409,7 @@ TEST(StagedFile, one_of_a_forked_process_that_was_killed_is_removed_by_its_paren
     EXPECT_TRUE(fs::exists(own->path()));
 }
 
-/// What is left in the folder by a child that such a signal ends in the midst of its work.
+/// Returns the number of files that a child leaves in the folder when the signal ends it during its work.
 size_t left_by_child(const TemporaryFolder& folder, int signal) {
     int ready[2];
     EXPECT_EQ(::pipe(ready), 0);
@@ -444,7 +444,7 @@ size_t left_by_child(const TemporaryFolder& folder, int signal) {
     return files_in(folder);
 }
 
-TEST(StagedFile, a_signal_takes_it_along) {
+TEST(StagedFile, a_signal_removes_the_staged_file) {
     const TemporaryFolder folder;
     for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM})
         EXPECT_EQ(left_by_child(folder, signal), 0u) << signal;

@@ -9,6 +9,8 @@
 
 namespace tidemark::cli::capture_delivery_test {
 
+using namespace host;
+
 using image::CubeFaces;
 using image::Image;
 using image::SampleType;
@@ -23,13 +25,13 @@ CubeFaces cube(SampleType type) {
     return faces;
 }
 
-TEST(CaptureDelivery, a_picture_is_laid_out_as_it_is) {
+TEST(CaptureDelivery, a_picture_is_delivered_unchanged) {
     const Image picture = image::patterned_u8({5, 3}, 4);
     for (const bool six_faces : {false, true})
         EXPECT_EQ(laid_out(picture, six_faces), std::vector{picture});
 }
 
-TEST(CaptureDelivery, six_faces_are_upright_in_their_order) {
+TEST(CaptureDelivery, six_faces_are_upright_and_in_order) {
     for (const SampleType type : {SampleType::u8, SampleType::f32}) {
         const CubeFaces faces = cube(type);
         const std::vector<Image> pictures = laid_out(faces, true);
@@ -48,7 +50,7 @@ TEST(CaptureDelivery, a_cube_for_one_file_is_a_panorama) {
 
 class CroppedBands : public image::PictureTest {};
 
-TEST_F(CroppedBands, are_the_file_of_the_cropped_picture) {
+TEST_F(CroppedBands, equal_the_file_of_the_cropped_picture) {
     constexpr Extent k_whole{9, 12};
     for (const SampleType type : {SampleType::u8, SampleType::f32})
         for (const Rectangle& area :
@@ -74,7 +76,7 @@ TEST_F(CroppedBands, are_the_file_of_the_cropped_picture) {
         }
 }
 
-TEST_F(CroppedBands, count_the_pixels_of_the_part_alone) {
+TEST_F(CroppedBands, count_only_the_pixels_of_the_crop) {
     Image picture({2, 4}, 4, SampleType::f32);
     for (const size_t row : {size_t{0}, size_t{2}})
         picture.f32()[8 * row] = std::numeric_limits<float>::infinity();

@@ -13,7 +13,7 @@ glsl::Cure around(const std::string& file, int column, const std::string& word) 
     return {{{there, there, "(", ")"}}, ""};
 }
 
-TEST(CuredFiles, EachCureComesOnTopOfThoseBefore) {
+TEST(CuredFiles, EachFixIsAppliedAfterTheEarlierFixes) {
     const TemporaryFolder folder;
     const std::string file = (folder.path() / "a.glsl").string();
     ASSERT_TRUE(write_file(OutputPath::typed(file), "x = y;\n"));
@@ -30,7 +30,7 @@ TEST(CuredFiles, EachCureComesOnTopOfThoseBefore) {
     EXPECT_TRUE(write_files(*second));
 }
 
-TEST(CuredFiles, AFileThatChangedMeanwhileIsLeft) {
+TEST(CuredFiles, AFileChangedMeanwhileIsKept) {
     const TemporaryFolder folder;
     const std::string file = (folder.path() / "a.glsl").string();
     ASSERT_TRUE(write_file(OutputPath::typed(file), "x = y;\n"));
@@ -53,7 +53,7 @@ TEST(CuredFiles, AFileThatChangedMeanwhileIsLeft) {
     EXPECT_EQ(read_text_file(file + ".2.diff").value_or(""), difference);
 }
 
-TEST(CuredFiles, WordsThatAreNotThereAreRefused) {
+TEST(CuredFiles, MissingOriginalTextIsRefused) {
     const TemporaryFolder folder;
     const std::string file = (folder.path() / "a.glsl").string();
     ASSERT_TRUE(write_file(OutputPath::typed(file), "x = y;\n"));

@@ -3,13 +3,13 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::cli::editor_test {
+namespace tidemark::window::editor_test {
 
 using testing::ElementsAre;
 
 const SourceLocation k_place{"a b.glsl", 12, 5};
 
-TEST(Editor, is_told_the_place_in_its_own_way) {
+TEST(Editor, command_has_the_place_in_the_editors_syntax) {
     EXPECT_THAT(editor_words("code --wait", k_place),
                 ElementsAre("code", "--wait", "--goto", "a b.glsl:12:5"));
     EXPECT_THAT(editor_words("/usr/bin/kate", k_place),
@@ -20,12 +20,12 @@ TEST(Editor, is_told_the_place_in_its_own_way) {
                 ElementsAre("x-terminal-emulator", "-e", "vim", "+12", "a b.glsl"));
 }
 
-TEST(Editor, has_a_line_where_an_error_has_none) {
+TEST(Editor, command_uses_line_1_for_an_error_without_a_line) {
     EXPECT_THAT(editor_words("subl", {"a.glsl", 0, 0}), ElementsAre("subl", "a.glsl:1:1"));
 }
 
-TEST(Editor, is_none_without_words) {
+TEST(Editor, blank_setting_gives_no_command) {
     EXPECT_THAT(editor_words("  ", k_place), ElementsAre());
 }
 
-} // namespace tidemark::cli::editor_test
+} // namespace tidemark::window::editor_test

@@ -5,6 +5,8 @@
 
 namespace tidemark::cli::fingerprint_test {
 
+using namespace host;
+
 CapturePlan plan_of(const char* text) {
     CapturePlan plan;
     plan.scene.passes.resize(1);
@@ -25,13 +27,13 @@ Fingerprint run_of(const CapturePlan& plan, const char* renderer = "one") {
     return run_of(plan, driver);
 }
 
-TEST(Fingerprint, comes_back_from_its_text) {
+TEST(Fingerprint, survives_conversion_to_text) {
     const Fingerprint frame = run_of(plan_of("a")).of_frame({.frame = 3});
     EXPECT_EQ(Fingerprint::parse(frame.text()), frame);
     EXPECT_EQ(frame.differences(Fingerprint::parse(frame.text())), "");
 }
 
-TEST(Fingerprint, names_what_differs) {
+TEST(Fingerprint, names_the_differences) {
     const Fingerprint run = run_of(plan_of("a"));
     EXPECT_EQ(run.of_frame({.frame = 3}).differences(run.of_frame({.frame = 4})),
               "another time, size, mouse or camera");
@@ -47,7 +49,7 @@ TEST(Fingerprint, names_what_differs) {
     knob.scene.knobs.push_back({.name = "k"});
     EXPECT_EQ(run.differences(run_of(knob)), "other knobs");
     CapturePlan crop = plan_of("a");
-    crop.crop = Rectangle{1, 2, {3, 4}};
+    crop.area.crop = Rectangle{1, 2, {3, 4}};
     EXPECT_EQ(run.differences(run_of(crop)), "other drawing options");
     EXPECT_EQ(run.differences(Fingerprint::parse("what")),
               "another version of Tidemark, another device or driver, another text of the scene, other "
@@ -55,7 +57,7 @@ TEST(Fingerprint, names_what_differs) {
               "knobs, other drawing options, something unknown to this version");
 }
 
-TEST(Fingerprint, of_another_device_differs_in_that_alone) {
+TEST(Fingerprint, on_another_device_differs_in_the_device_only) {
     const Fingerprint here = run_of(plan_of("a"));
     const Fingerprint there = run_of(plan_of("a"), "two");
     EXPECT_EQ(here.differences(there), "another device or driver");

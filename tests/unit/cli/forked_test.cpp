@@ -7,7 +7,7 @@
 #include <csignal>
 #include <vector>
 
-namespace tidemark::cli::forked_test {
+namespace tidemark::host::forked_test {
 
 Result<ForkedHelper> echo() {
     return ForkedHelper::start([](const std::string& question, const Tell& tell) {
@@ -20,7 +20,7 @@ Result<ForkedHelper> echo() {
     });
 }
 
-TEST(Forked, WhatWasToldSurvives) {
+TEST(Forked, OutputIsReturned) {
     const auto run = run_forked([](const Tell& tell) { tell("one"), tell("two"); }, {60});
     ASSERT_TRUE(run);
     EXPECT_EQ(run->output, "one\ntwo\n");
@@ -28,7 +28,7 @@ TEST(Forked, WhatWasToldSurvives) {
     EXPECT_FALSE(run->timed_out);
 }
 
-TEST(Forked, AHelperAnswersItsQuestion) {
+TEST(Forked, AHelperAnswersRequests) {
     auto helper = echo();
     ASSERT_TRUE(helper);
     const auto run = helper->ask("how deep?", {60});
@@ -51,7 +51,7 @@ TEST(Forked, MemoryHasALimit) {
     EXPECT_EQ(run->output, "before\n");
 }
 
-TEST(Forked, WhatNobodyWantsIsEnded) {
+TEST(Forked, UnwantedWorkIsEnded) {
     int asked = 0;
     const auto run = run_forked([](const Tell&) { ::sleep(60); },
                                 {.seconds = 60, .unwanted = [&] { return ++asked == 3; }});
@@ -60,7 +60,7 @@ TEST(Forked, WhatNobodyWantsIsEnded) {
     EXPECT_EQ(run->crash, "");
 }
 
-TEST(Forked, WhatTheDriverWasAtIsKnown) {
+TEST(Forked, CrashNamesTheDriverCall) {
     Doing::note_on(DoingPage::make());
     const auto run = run_forked(
         [](const Tell&) {
@@ -74,14 +74,14 @@ TEST(Forked, WhatTheDriverWasAtIsKnown) {
     EXPECT_EQ(run->doing, "compiling Image");
 }
 
-TEST(Forked, ADriverThatEndsTheProcessIsSaid) {
+TEST(Forked, ExitOfTheProcessIsReported) {
     const auto run = run_forked([](const Tell&) { ::_exit(66); }, {60});
     ASSERT_TRUE(run);
     EXPECT_EQ(run->crash, "the driver ended the process (exit code 66)");
     EXPECT_EQ(run_forked([](const Tell&) {}, {60})->crash, "");
 }
 
-TEST(Forked, AHelperThatCrashesIsSaid) {
+TEST(Forked, ACrashingHelperIsReported) {
     auto helper = echo();
     const auto run = helper->ask("crash", {60});
     ASSERT_TRUE(run);
@@ -89,7 +89,7 @@ TEST(Forked, AHelperThatCrashesIsSaid) {
     EXPECT_EQ(run->crash, "the driver crashed (SIGKILL)");
 }
 
-TEST(Forked, AHelperHasItsTime) {
+TEST(Forked, AHelperHasATimeLimit) {
     auto helper = echo();
     const auto run = helper->ask("sleep", {0.2});
     ASSERT_TRUE(run);
@@ -97,7 +97,7 @@ TEST(Forked, AHelperHasItsTime) {
     EXPECT_EQ(run->output, "asked: sleep\ndone\n");
 }
 
-TEST(Forked, AHelperThatNobodyAskedEnds) {
+TEST(Forked, AnUnusedHelperEnds) {
     int ends[2];
     ASSERT_EQ(::pipe(ends), 0);
     {
@@ -110,4 +110,4 @@ TEST(Forked, AHelperThatNobodyAskedEnds) {
     ::close(ends[0]);
 }
 
-} // namespace tidemark::cli::forked_test
+} // namespace tidemark::host::forked_test

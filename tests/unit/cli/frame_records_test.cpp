@@ -22,7 +22,7 @@ FrameRecords three(bool listed) {
     return records;
 }
 
-TEST(FrameRecords, TellWhatIsToldWithoutAList) {
+TEST(FrameRecords, SummariseWithoutAList) {
     const FrameRecords records = three(false);
     EXPECT_EQ(records.count(), 3U);
     EXPECT_EQ(records.first().file, "4.png");
@@ -34,12 +34,12 @@ TEST(FrameRecords, TellWhatIsToldWithoutAList) {
     EXPECT_TRUE(records.list().empty());
 }
 
-TEST(FrameRecords, ListThemWhereThatIsAsked) {
+TEST(FrameRecords, ListAllFramesOnRequest) {
     ASSERT_EQ(three(true).list().size(), 3U);
     EXPECT_EQ(three(true).list()[1].frame, 5);
 }
 
-TEST(FrameRecords, NoneFound) {
+TEST(FrameRecords, WithoutFindingsTheCountsAreZero) {
     FrameRecords records(false);
     EXPECT_EQ(records.count(), 0U);
     records.add(record(0, 0));

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::cli::frame_writer_test {
+namespace tidemark::host::frame_writer_test {
 
 namespace fs = std::filesystem;
 
@@ -49,13 +49,13 @@ TEST(FrameWriter, writes_every_frame_under_its_name) {
     }
 }
 
-TEST(FrameWriter, nothing_to_write) {
+TEST(FrameWriter, finish_without_frames_succeeds) {
     FrameWriter writer(2);
     EXPECT_TRUE(writer.finish());
     EXPECT_TRUE(writer.finish()) << "and again";
 }
 
-TEST(FrameWriter, its_end_waits_for_its_frames) {
+TEST(FrameWriter, destruction_waits_for_all_frames) {
     const TemporaryFolder folder;
     {
         FrameWriter writer(1);
@@ -76,7 +76,7 @@ TEST(FrameWriter, the_queue_is_bounded) {
     EXPECT_TRUE(writer.finish());
 }
 
-TEST(FrameWriter, a_failure_ends_the_pushing_and_is_told_once) {
+TEST(FrameWriter, a_failure_stops_push_and_is_reported_once) {
     const TemporaryFolder folder;
     FrameWriter writer(2);
     const fs::path missing = folder / "no/a.png";
@@ -105,4 +105,4 @@ TEST(FrameWriter, the_error_is_that_of_the_earliest_frame) {
               "cannot write '" + (folder / "no/3.png").string() + "': No such file or directory");
 }
 
-} // namespace tidemark::cli::frame_writer_test
+} // namespace tidemark::host::frame_writer_test

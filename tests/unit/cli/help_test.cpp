@@ -1,4 +1,4 @@
-#include "cli/help_topics.hpp"
+#include "cli/help.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@ namespace tidemark::cli::help_test {
 using testing::ElementsAre;
 using testing::Field;
 
-TEST(HelpTopics, a_page_and_its_sections_by_their_titles) {
+TEST(HelpTopics, pages_and_sections_are_found_by_title) {
     constexpr std::string_view page = "# Command line\n\nAll.\n\n## Exit codes\n\nNone.\n\n## Keys\nS\n";
     const std::string_view pages[] = {page};
     const auto topics = topics_of(pages);
@@ -18,7 +18,7 @@ TEST(HelpTopics, a_page_and_its_sections_by_their_titles) {
     EXPECT_EQ(topics[2].markdown, "## Keys\nS\n");
 }
 
-TEST(HelpTopics, that_contain_a_word_the_most_frequent_first) {
+TEST(HelpTopics, mentions_of_a_word_are_sorted_by_frequency) {
     constexpr std::string_view pages[] = {
         "# Check\n\nAll.\n\n## Times\n\nA NaN at 0 s.\n\n## Find a NaN\n\nThe nan's line.\n"};
     const auto found = mentions_of("nan", topics_of(pages));
@@ -30,7 +30,7 @@ TEST(HelpTopics, that_contain_a_word_the_most_frequent_first) {
     EXPECT_THAT(mentions_of("keyz", topics_of(pages)), testing::IsEmpty());
 }
 
-TEST(HelpText, links_and_emphasis_are_their_words_alone) {
+TEST(HelpText, links_and_emphasis_become_plain_words) {
     EXPECT_EQ(plain_text("## Keys\n\n**Press** [S](keys.md), not `[PASS:]N`.\n"),
               "Keys\n\nPress S, not `[PASS:]N`.\n");
 }
@@ -39,23 +39,23 @@ TEST(HelpText, pictures_and_comments_are_left_out) {
     EXPECT_EQ(plain_text("a\n![sea](sea.png)\n<!-- options -->\nb"), "a\nb\n");
 }
 
-TEST(HelpText, code_is_kept_as_it_is) {
+TEST(HelpText, code_is_unchanged) {
     EXPECT_EQ(plain_text("```sh\n**a** [b](c) | d\n```\n"), "    **a** [b](c) | d\n");
 }
 
-TEST(HelpText, a_narrow_table_stands_in_columns) {
+TEST(HelpText, a_narrow_table_has_columns) {
     EXPECT_EQ(plain_text("| key | does |\n|---|---|\n| `S` | saves |\n| `é` | half\\|full |\n| H | |\n"),
               "  key  does\n  `S`  saves\n  `é`  half|full\n  H\n");
 }
 
-TEST(PlainText, gives_rows_of_tables_and_lines_of_examples) {
+TEST(PlainText, has_one_line_per_table_row_and_example) {
     EXPECT_THAT(rows_of("a\n| key | [does](x.md) |\n|---|---|\n| `S` | saves |\n"),
                 ElementsAre(ElementsAre("key", "does"), ElementsAre("`S`", "saves")));
     EXPECT_THAT(example_lines("```sh\none \\\n  more\ntwo\n```\nthree\n```\nfour\n```\n"),
                 ElementsAre("one \\\n  more", "two"));
 }
 
-TEST(HelpText, the_cells_of_a_wide_table_stand_below_each_other) {
+TEST(HelpText, cells_of_a_wide_table_are_stacked) {
     const std::string wide(50, 'x');
     EXPECT_EQ(plain_text("| " + wide + " | b | c |\n\nd\n"), "  " + wide + "\n      b\n      c\n\nd\n");
 }

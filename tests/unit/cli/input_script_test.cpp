@@ -2,26 +2,27 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::cli::input_script_test {
+namespace tidemark::host::input_script_test {
 
-using platform::Button;
-using platform::Key;
+using host::Button;
+using host::Key;
 
 const InputScript k_script{
-    {0, platform::ButtonPressed{Button::left, {10, 20.5}}},
-    {2, platform::PointerMoved{{-3, 1e-3}}},
-    {2, platform::ButtonReleased{Button::left}},
-    {5, platform::KeyPressed{Key::a}},
-    {5, platform::WheelTurned{0, -1}},
-    {9, platform::KeyReleased{Key::a}},
-    {9, platform::ButtonPressed{Button::middle, {0, 0}}},
-    {9, platform::ButtonReleased{Button::middle}},
+    {0, host::ButtonPressed{Button::left, {10, 20.5}}},
+    {2, host::PointerMoved{{-3, 1e-3}}},
+    {2, PointerFollowed{{4, 5}}},
+    {2, host::ButtonReleased{Button::left}},
+    {5, host::KeyPressed{Key::a}},
+    {5, host::WheelTurned{0, -1}},
+    {9, host::KeyReleased{Key::a}},
+    {9, host::ButtonPressed{Button::middle, {0, 0}}},
+    {9, host::ButtonReleased{Button::middle}},
     {12, CameraReset{}},
     {13, KnobTurned{{"deep", {3, {0.1, 0, 1}, scene::KnobType::vec3}}}},
 };
 
 constexpr const char* k_text =
-    "0 press left 10 20.5\n2 move -3 0.001\n2 release left\n5 keydown 65\n5 wheel -1\n"
+    "0 press left 10 20.5\n2 move -3 0.001\n2 point 4 5\n2 release left\n5 keydown 65\n5 wheel -1\n"
     "9 keyup 65\n9 press middle 0 0\n9 release middle\n12 camera reset\n13 set deep=vec3(0.1, 0, 1)\n";
 
 /// What is wrong with a text.
@@ -53,15 +54,17 @@ TEST(InputScript, keys_have_names) {
     EXPECT_NE(refusal("1 keydown spacebar"), "");
 }
 
-TEST(InputScript, says_what_is_wrong_and_where) {
+TEST(InputScript, errors_name_reason_and_place) {
     const std::string number = "a line must begin with a frame number, as in `12 move 100 50`";
     EXPECT_EQ(refusal("press left 1 2"), "take.txt:1: error: " + number);
     EXPECT_EQ(refusal("\n# x\n-1 move 1 2"), "take.txt:3: error: " + number);
     EXPECT_EQ(refusal("100000001 move 1 2"), "take.txt:1: error: " + number);
-    EXPECT_EQ(refusal("1 moves 1 2"), "take.txt:1: error: unknown event 'moves': give press, release, move, "
-                                      "wheel, keydown, keyup, set or camera");
-    EXPECT_EQ(refusal("1"), "take.txt:1: error: unknown event '': give press, release, move, wheel, keydown, "
-                            "keyup, set or camera");
+    EXPECT_EQ(refusal("1 moves 1 2"),
+              "take.txt:1: error: unknown event 'moves': give press, release, move, point, "
+              "wheel, keydown, keyup, set or camera");
+    EXPECT_EQ(refusal("1"),
+              "take.txt:1: error: unknown event '': give press, release, move, point, wheel, keydown, "
+              "keyup, set or camera");
     EXPECT_EQ(refusal("1 move 1"), "take.txt:1: error: give it as `1 move X Y`");
     EXPECT_EQ(refusal("1 move 1 nan"), "take.txt:1: error: give it as `1 move X Y`");
     EXPECT_EQ(refusal("1 move 1 2 3"), "take.txt:1: error: give it as `1 move X Y`");
@@ -86,7 +89,7 @@ TEST(InputScript, values_are_written_in_their_shortest_form) {
     EXPECT_EQ(to_string(*script), "1 set k=0.5\n2 set k=1,2\n3 set k=default\n");
 }
 
-TEST(InputScript, must_suit_the_knobs_of_the_scene) {
+TEST(InputScript, must_match_the_knobs_of_the_scene) {
     const std::vector<scene::Knob> knobs{{.name = "deep", .type = scene::KnobType::vec3}};
     const auto check = [&](const char* name, const scene::GivenValue& value) {
         const auto known = check_knobs({{0, KnobTurned{{name, value}}}}, knobs);
@@ -104,7 +107,7 @@ std::vector<scene::KnobSetting> held_by(const Controls& controls) {
     return state.knobs;
 }
 
-TEST(Controls, release_the_values_that_a_scene_does_not_need_or_accept) {
+TEST(Controls, release_values_unused_or_invalid_in_a_scene) {
     Controls controls{render::OrbitCamera{}};
     const scene::GivenValue pair{2, {1, 2}}, one{1, {1}};
     for (const scene::KnobSetting& setting :
@@ -125,11 +128,11 @@ render::FrameInputs at(Replay& replay, int frame) {
     return inputs_of(state);
 }
 
-TEST(Replay, shows_each_frame_what_a_person_would_have_done) {
+TEST(Replay, applies_events_at_their_frames) {
     Replay replay(k_script, {});
     EXPECT_EQ(at(replay, 0).mouse, glm::vec4(10, 20, 10, 20)); // pressed in this frame
     EXPECT_EQ(at(replay, 1).mouse, glm::vec4(10, 20, 10, -20));
-    EXPECT_EQ(at(replay, 2).mouse, glm::vec4(-3, 0, -10, -20));
+    EXPECT_EQ(at(replay, 2).mouse, glm::vec4(4, 5, -10, -20));
     EXPECT_EQ(at(replay, 4).keyboard[65], 0);
     EXPECT_EQ(at(replay, 5).keyboard[65], 255);
     EXPECT_EQ(at(replay, 5).keyboard[256 + 65], 255); // the same frame again is the same
@@ -141,7 +144,7 @@ TEST(Replay, shows_each_frame_what_a_person_would_have_done) {
     EXPECT_EQ(at(replay, 12).camera, at(untouched, 12).camera);
 }
 
-TEST(Replay, can_be_written_while_it_runs) {
+TEST(Replay, events_can_be_added_during_replay) {
     Replay written({}, {});
     for (int frame = 0; frame < 12; ++frame) {
         for (const TimedEvent& timed : k_script)
@@ -154,10 +157,10 @@ TEST(Replay, can_be_written_while_it_runs) {
     }
 }
 
-TEST(Replay, forgets_what_comes_after_a_time_that_is_gone_back_to) {
+TEST(Replay, going_back_discards_later_events) {
     Replay replay({}, {});
-    replay.note(3, platform::WheelTurned{0, 1});
-    replay.note(8, platform::WheelTurned{0, 2});
+    replay.note(3, host::WheelTurned{0, 1});
+    replay.note(8, host::WheelTurned{0, 2});
     const glm::mat4 shown = at(replay, 7).camera;
     EXPECT_NE(at(replay, 9).camera, shown);
     replay.go_back(4);
@@ -168,7 +171,7 @@ TEST(Replay, forgets_what_comes_after_a_time_that_is_gone_back_to) {
     EXPECT_EQ(to_string(replay.script()), "3 wheel 1\n4 camera reset\n");
 }
 
-TEST(Replay, a_frame_asked_for_alone_equals_the_same_frame_of_a_sequence) {
+TEST(Replay, a_single_frame_equals_the_same_frame_of_a_sequence) {
     Replay stepped(k_script, {});
     for (int frame = 0; frame < 12; ++frame) {
         const render::FrameInputs one = at(stepped, frame);
@@ -184,4 +187,13 @@ TEST(Replay, a_frame_asked_for_alone_equals_the_same_frame_of_a_sequence) {
     }
 }
 
-} // namespace tidemark::cli::input_script_test
+TEST(Controls, a_followed_pointer_moves_the_mouse_without_a_button) {
+    Controls controls{render::OrbitCamera()};
+    EXPECT_FALSE(controls.handle(host::PointerMoved{{9, 9}}, 100));
+    EXPECT_TRUE(controls.handle(PointerFollowed{{12.7, 30.2}}, 100));
+    render::FrameState state;
+    controls.fill(state);
+    EXPECT_EQ(state.mouse.uniform(), glm::vec4(12, 30, 0, 0));
+}
+
+} // namespace tidemark::host::input_script_test

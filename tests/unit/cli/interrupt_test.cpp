@@ -9,7 +9,7 @@
 #include <functional>
 #include <thread>
 
-namespace tidemark::cli::interrupt_test {
+namespace tidemark::host::interrupt_test {
 
 bool comes_true(const std::function<bool()>& fact) {
     for (int i = 0; i < 1000 && !fact(); ++i)
@@ -31,12 +31,12 @@ int status_of_child(const Action& action) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST(Interrupt, nothing_is_asked_at_first) {
+TEST(Interrupt, is_not_requested_at_first) {
     const Interrupt interrupt;
     EXPECT_FALSE(interrupt.requested());
 }
 
-TEST(Interrupt, the_first_signal_asks) {
+TEST(Interrupt, the_first_signal_requests_an_interrupt) {
     for (const int signal : {SIGINT, SIGTERM}) {
         const Interrupt interrupt;
         ::kill(::getpid(), signal);
@@ -44,7 +44,7 @@ TEST(Interrupt, the_first_signal_asks) {
     }
 }
 
-TEST(Interrupt, a_sleeper_is_woken_as_long_as_it_wants_to_be) {
+TEST(Interrupt, a_waker_runs_only_during_its_lifetime) {
     static std::atomic<int> woken;
     woken = 0;
     Interrupt interrupt;
@@ -64,7 +64,7 @@ TEST(Interrupt, a_sleeper_is_woken_as_long_as_it_wants_to_be) {
               0);
 }
 
-TEST(Interrupt, other_threads_are_left_in_peace) {
+TEST(Interrupt, signals_of_other_threads_are_handled) {
     const Interrupt interrupt;
     std::thread worker([&] {
         ::kill(::getpid(), SIGINT);
@@ -73,7 +73,7 @@ TEST(Interrupt, other_threads_are_left_in_peace) {
     worker.join();
 }
 
-TEST(Interrupt, the_wake_up_signal_from_outside_asks_nothing) {
+TEST(Interrupt, an_external_wake_up_signal_is_ignored) {
     const Interrupt interrupt;
     ::kill(::getpid(), SIGUSR1);
     ::kill(::getpid(), SIGINT);
@@ -92,7 +92,7 @@ TEST(Interrupt, the_second_signal_ends_the_process) {
     EXPECT_EQ(Interrupt::k_exit_code, 130);
 }
 
-TEST(Interrupt, gives_the_signals_back) {
+TEST(Interrupt, restores_the_signal_handlers) {
     sigset_t before, during, after;
     ::pthread_sigmask(SIG_SETMASK, nullptr, &before);
     {
@@ -106,4 +106,4 @@ TEST(Interrupt, gives_the_signals_back) {
     }
 }
 
-} // namespace tidemark::cli::interrupt_test
+} // namespace tidemark::host::interrupt_test

@@ -8,7 +8,7 @@
 #include <csignal>
 #include <vector>
 
-namespace tidemark::cli::memory_limit_test {
+namespace tidemark::host::memory_limit_test {
 
 constexpr uint64_t k_gibi = uint64_t{1} << 30;
 
@@ -28,7 +28,7 @@ TEST(MemoryLimit, Sizes) {
     EXPECT_EQ(parsed("12.5%"), k_gibi);
 }
 
-TEST(MemoryLimit, NoSizes) {
+TEST(MemoryLimit, InvalidSizes) {
     for (const char* text :
          {"", "G", "2X", "2GG", "-1G", "0", "0%", "nan", "inf", "1e30", "2 G", "2G ", "%"}) {
         const auto bytes = parse_memory(text, k_gibi);
@@ -39,7 +39,7 @@ TEST(MemoryLimit, NoSizes) {
     }
 }
 
-TEST(MemoryLimit, WordsOfASize) {
+TEST(MemoryLimit, TextOfASize) {
     EXPECT_EQ(memory_text(k_gibi / 2), "512 MiB");
     EXPECT_EQ(memory_text(2 * k_gibi), "2 GiB");
     EXPECT_EQ(memory_text(k_gibi * 3 / 2), "1.5 GiB");
@@ -51,7 +51,7 @@ TEST(MemoryLimit, AMachineHasMemory) {
     EXPECT_GT(machine_memory(), uint64_t{1} << 20);
 }
 
-TEST(MemoryLimit, OfAProcessAndThoseThatItStarted) {
+TEST(MemoryLimit, MemoryOfAProcessAndItsChildren) {
     constexpr size_t k_taken = 64 << 20;
     int ready[2];
     ASSERT_EQ(::pipe(ready), 0);
@@ -80,4 +80,4 @@ TEST(MemoryLimit, OfAProcessAndThoseThatItStarted) {
     EXPECT_EQ(memory_of(child), 0U);
 }
 
-} // namespace tidemark::cli::memory_limit_test
+} // namespace tidemark::host::memory_limit_test

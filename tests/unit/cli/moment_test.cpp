@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace tidemark::cli::moment_test {
+namespace tidemark::host::moment_test {
 
 using testing::ElementsAre;
 
@@ -20,7 +20,7 @@ Moment example() {
     return moment_of(std::move(scene), sequence, state);
 }
 
-TEST(Moment, comes_back_from_its_json) {
+TEST(Moment, survives_conversion_to_json) {
     const Moment moment = example();
     const auto back = moment_of(Json::parse(dump(to_json(moment))));
     ASSERT_TRUE(back);
@@ -29,13 +29,13 @@ TEST(Moment, comes_back_from_its_json) {
     EXPECT_EQ(dump(to_json(*back)), dump(to_json(moment)));
 }
 
-TEST(Moment, is_a_command) {
+TEST(Moment, becomes_a_command) {
     EXPECT_EQ(capture_command(example()), "tidemark capture a.glsl --set k=1 --define N=3 --channel 0=noise "
                                           "--time 0.125 --size 30x20 --mouse 4,5 "
                                           "--camera 30,20,10,1,2,3 --set k=2 --precision double");
 }
 
-TEST(Moment, of_a_stranger_is_refused) {
+TEST(Moment, invalid_state_is_refused) {
     for (const char* state :
          {R"({"frame": -1})", R"({"size": [0, 5]})", R"({"size": [5]})", R"({"fps": 0})",
           R"({"camera": [0, 0, 0, [0, 0, 0]]})", R"({"camera": [0, 0, 1, [0, 0]]})",
@@ -52,8 +52,8 @@ TEST(Moment, of_a_stranger_is_refused) {
               "'tall' is not a value for height: give a number, up to four as in 1,2,3, #rrggbb or default");
 }
 
-TEST(Merged, newer_settings_of_a_name_stand_alone) {
+TEST(Merged, newer_settings_of_a_name_replace_older_settings) {
     EXPECT_THAT(merged({"a=1", "b=2", "a=3"}, {"a=4", "c=5"}), ElementsAre("b=2", "a=4", "c=5"));
 }
 
-} // namespace tidemark::cli::moment_test
+} // namespace tidemark::host::moment_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace tidemark::cli::options_test {
+namespace tidemark::host::options_test {
 
 using testing::ElementsAre;
 
@@ -28,7 +28,7 @@ TEST(Resolve, defaults) {
     EXPECT_EQ(request->state.date, render::Date{});
 }
 
-TEST(Resolve, everything) {
+TEST(Resolve, all_options_set_the_state) {
     FrameOptions options;
     options.size = "8x4";
     options.numbers["--fps"] = 29.97;
@@ -48,7 +48,7 @@ TEST(Resolve, everything) {
     EXPECT_EQ(request->state.camera.distance, 30);
 }
 
-TEST(Resolve, one_frame_or_one_time) {
+TEST(Resolve, resolves_one_frame_or_one_time) {
     FrameOptions options;
     options.frame = 7;
     EXPECT_THAT(resolve(options)->frames, ElementsAre(7));
@@ -60,7 +60,7 @@ TEST(Resolve, one_frame_or_one_time) {
     EXPECT_THAT(resolve(options)->frames, ElementsAre(120));
 }
 
-TEST(Resolve, rates_that_are_none) {
+TEST(Resolve, invalid_rates_are_refused) {
     FrameOptions options;
     for (const auto& [fps, text] : {std::pair(0.0, "0"),
                                     {-30.0, "-30"},
@@ -73,7 +73,7 @@ TEST(Resolve, rates_that_are_none) {
     EXPECT_EQ(refusal(options), "--bpm 0: give a number above 0");
 }
 
-TEST(Resolve, frames_and_times_that_are_none) {
+TEST(Resolve, invalid_frames_and_times_are_refused) {
     FrameOptions options;
     options.frame = -1;
     EXPECT_EQ(refusal(options), "--frame -1: frames count from 0 to 100000000");
@@ -103,4 +103,4 @@ TEST(Resolve, the_option_at_fault_is_named) {
                                 "degrees, a distance above 0), and after them x,y,z if the view was panned");
 }
 
-} // namespace tidemark::cli::options_test
+} // namespace tidemark::host::options_test

@@ -1,11 +1,11 @@
-// What the window says of a trace that another process made.
+// The window's messages about a trace that another process made.
 #include "window/inspection.hpp"
 
 #include <gtest/gtest.h>
 
-namespace tidemark::cli::origin_search_test {
+namespace tidemark::window::origin_search_test {
 
-TEST(OriginSearch, names_the_operation_to_mend) {
+TEST(OriginSearch, names_the_operation_to_fix) {
     const Error found =
         origin_of(R"json({"ended": "", "trace": {"first": {"file": "a.glsl", "line": 2}, "fix": {
         "file": "a.glsl", "line": 4, "column": 15, "statement": "c.g = sqrt(x)", "value": "NaN",
@@ -13,7 +13,7 @@ TEST(OriginSearch, names_the_operation_to_mend) {
     EXPECT_EQ(to_string(found), "a.glsl:4:15: error: `c.g = sqrt(x)` gave NaN: sqrt of a negative number");
 }
 
-TEST(OriginSearch, tells_a_finite_pixel_from_no_answer) {
+TEST(OriginSearch, distinguishes_a_finite_pixel_from_a_failure) {
     EXPECT_EQ(origin_of(R"json({"ended": "", "trace": null})json").message,
               "no origin was found: drawn again, the pixel is finite");
     EXPECT_EQ(origin_of(R"json({"ended": "given up after 60 s", "trace": null})json").message,
@@ -23,4 +23,4 @@ TEST(OriginSearch, tells_a_finite_pixel_from_no_answer) {
             << broken;
 }
 
-} // namespace tidemark::cli::origin_search_test
+} // namespace tidemark::window::origin_search_test

@@ -3,29 +3,29 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::cli::output_name_test {
+namespace tidemark::host::output_name_test {
 
 std::string name_of(std::string_view pattern, int frame, size_t frame_count = 1) {
     const auto name = OutputName::parse(pattern, frame_count);
     return name ? name->of_frame(frame).string() : name.error().message;
 }
 
-TEST(OutputName, one_picture) {
+TEST(OutputName, name_of_a_single_picture) {
     EXPECT_EQ(name_of("out/a.png", 7), "out/a.png");
     EXPECT_EQ(OutputName::parse("out/a.png", 1)->pattern(), "out/a.png");
     EXPECT_FALSE(OutputName::parse("out/a.png", 1)->standard_output());
 }
 
-TEST(OutputName, numbers_as_printf_writes_them) {
+TEST(OutputName, printf_patterns_insert_the_number) {
     EXPECT_EQ(name_of("a.%04d.png", 7, 2), "a.0007.png");
-    EXPECT_EQ(name_of("a.%4d.png", 7), "a.0007.png"); // a blank in a name helps nobody
+    EXPECT_EQ(name_of("a.%4d.png", 7), "a.0007.png"); // zeros instead of blanks
     EXPECT_EQ(name_of("a.%d.png", 7), "a.7.png");
     EXPECT_EQ(name_of("a.%d.png", 0), "a.0.png");
     EXPECT_EQ(name_of("a.%02d.png", 123456), "a.123456.png");
     EXPECT_EQ(name_of("%020d.png", 100'000'000), "00000000000100000000.png");
 }
 
-TEST(OutputName, one_video_for_all_frames) {
+TEST(OutputName, a_video_has_one_name_for_all_frames) {
     for (const char* name : {"out/a.mp4", "a.webm", "50%.gif"}) {
         EXPECT_EQ(name_of(name, 7, 300), name);
         EXPECT_TRUE(OutputName::parse(name, 300)->video());
@@ -48,7 +48,7 @@ std::string of_scene(const std::filesystem::path& scene, size_t frame_count = 1)
     return name.of_frame(7).string();
 }
 
-TEST(OutputName, of_a_scene) {
+TEST(OutputName, default_name_of_a_scene) {
     EXPECT_EQ(of_scene("shaders/wave.glsl"), "wave.png");
     EXPECT_EQ(of_scene("wave.glsl", 2), "wave.0007.png");
     EXPECT_EQ(of_scene("folder/"), "folder.png");
@@ -57,14 +57,14 @@ TEST(OutputName, of_a_scene) {
     EXPECT_EQ(of_scene("./"), here + ".png");
 }
 
-TEST(OutputName, of_a_scene_no_sign_in_it_is_a_pattern) {
+TEST(OutputName, default_names_contain_no_patterns) {
     for (const std::string name : {"shot#1", "####", "50%", "%04d", "%s%n", "{}", "a{}#%d", "x.mp4", "-"}) {
         EXPECT_EQ(of_scene(name + ".glsl"), name + ".png");
         EXPECT_EQ(of_scene(name + ".glsl", 3), name + ".0007.png");
     }
 }
 
-TEST(OutputName, of_a_scene_no_longer_than_a_name_may_be) {
+TEST(OutputName, default_names_are_shortened_to_the_limit) {
     const std::string name(245, 'n'), wide(250, 'n');
     EXPECT_EQ(of_scene(name + ".glsl"), name + ".png");
     EXPECT_EQ(of_scene(name + ".glsl", 2), name + ".0007.png");
@@ -72,7 +72,7 @@ TEST(OutputName, of_a_scene_no_longer_than_a_name_may_be) {
     EXPECT_EQ(of_scene(wide.substr(0, 245) + "é.glsl", 2), wide.substr(0, 245) + ".0007.png");
 }
 
-TEST(OutputName, links_are_followed_only_where_they_were_typed) {
+TEST(OutputName, links_are_followed_only_if_named_by_the_user) {
     const TemporaryFolder folder, elsewhere;
     const std::string root = folder.path().string();
     std::filesystem::create_directory_symlink(elsewhere.path(), folder / "out");
@@ -90,7 +90,7 @@ TEST(OutputName, links_are_followed_only_where_they_were_typed) {
     EXPECT_FALSE(goes("/out%d/b.png"));
 }
 
-TEST(OutputName, numbers_as_hashes) {
+TEST(OutputName, hash_patterns_insert_the_number) {
     EXPECT_EQ(name_of("a.####.png", 7, 2), "a.0007.png");
     EXPECT_EQ(name_of("a##.exr", 7), "a07.exr");
     EXPECT_EQ(name_of("##/a.png", 12), "12/a.png");
@@ -115,18 +115,18 @@ TEST(OutputName, standard_output) {
     EXPECT_TRUE(name->standard_output());
 }
 
-TEST(OutputName, two_numbers) {
+TEST(OutputName, two_patterns_are_refused) {
     for (const std::string pattern : {"%d/%d.png", "##.##.png", "%d##.png", "##%04d.png"})
         EXPECT_EQ(name_of(pattern, 1), "-o " + pattern + ": it has two frame numbers; one is enough");
 }
 
-TEST(OutputName, forms_that_we_do_not_write) {
+TEST(OutputName, unsupported_formats) {
     for (const std::string pattern : {"100%.png", "%x.png", "%.4d.png", "%-4d.png", "%04.png", "%021d.png",
                                       "%99999999999999999999d.png", "% d.png"})
         EXPECT_EQ(name_of(pattern, 1), "-o " + pattern + ": write the frame number as %04d or ####");
 }
 
-TEST(OutputName, several_frames_need_a_number) {
+TEST(OutputName, several_frames_need_a_pattern) {
     EXPECT_EQ(name_of("a.png", 1, 30),
               "-o a.png: 30 frames need a frame number in the name, as in wave.%04d.png");
     EXPECT_EQ(name_of("50%%.png", 1, 2),
@@ -145,4 +145,4 @@ TEST(OutputName, unknown_formats) {
     }
 }
 
-} // namespace tidemark::cli::output_name_test
+} // namespace tidemark::host::output_name_test

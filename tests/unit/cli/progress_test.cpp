@@ -1,11 +1,11 @@
-// The progress of a long command where standard error is no terminal.
+// The progress of a long command when standard error is not a terminal.
 #include "host/console.hpp"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 
-namespace tidemark::cli::progress_test {
+namespace tidemark::host::progress_test {
 
 std::string printed(size_t total, size_t done, Progress::Manner manner = {.silent = 0}) {
     testing::internal::CaptureStderr();
@@ -27,19 +27,19 @@ TEST(Progress, a_line_for_each_tenth) {
     }
 }
 
-TEST(Progress, a_line_for_each_of_a_few) {
+TEST(Progress, a_line_for_each_item_of_a_few) {
     const std::string lines = printed(3, 3);
     EXPECT_THAT(lines, testing::StartsWith("1/3 frames, "));
     EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 3);
 }
 
-TEST(Progress, tenths_that_take_long_are_not_waited_for) {
+TEST(Progress, slow_tenths_print_lines_before_they_are_done) {
     const std::string lines = printed(100'000'000, 3, {.silent = 0, .between = 0});
     EXPECT_THAT(lines, testing::StartsWith("1/100000000 frames, "));
     EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 3);
 }
 
-TEST(Progress, a_short_job_needs_none) {
+TEST(Progress, a_short_job_prints_no_progress) {
     EXPECT_EQ(printed(100, 100, {}), "");
 }
 
@@ -48,13 +48,13 @@ TEST(Progress, uneven_pieces_have_no_rate) {
                 testing::MatchesRegex("1/10 frames, at most (3600|3599) s left\n"));
 }
 
-TEST(Progress, one_thing_has_no_progress) {
+TEST(Progress, a_single_item_prints_no_progress) {
     EXPECT_EQ(printed(1, 1), "");
     EXPECT_EQ(printed(0, 0), "");
     EXPECT_EQ(printed(100, 0), "");
 }
 
-TEST(SlowNotice, is_printed_after_its_delay_alone) {
+TEST(SlowNotice, is_printed_only_after_its_delay) {
     testing::internal::CaptureStderr();
     { const SlowNotice never("never", std::chrono::hours(1)); }
     {
@@ -64,4 +64,4 @@ TEST(SlowNotice, is_printed_after_its_delay_alone) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "compiling Image\n");
 }
 
-} // namespace tidemark::cli::progress_test
+} // namespace tidemark::host::progress_test

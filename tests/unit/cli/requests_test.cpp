@@ -1,10 +1,10 @@
-// What is typed for sizes, frames and the mouse, and what a frame of a request sees.
+// Options for sizes, frames and the mouse, and the state of a frame that follows from them.
 #include "host/requests.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 
-namespace tidemark::cli::requests_test {
+namespace tidemark::host::requests_test {
 
 using testing::Contains;
 using testing::ElementsAre;
@@ -33,7 +33,7 @@ TEST(ParseFrames, are_inclusive) {
     EXPECT_THAT(frames("5-5"), ElementsAre(5));
 }
 
-TEST(ParseFrames, by_steps_that_stay_within) {
+TEST(ParseFrames, steps_end_within_the_range) {
     EXPECT_THAT(frames("1-10x3"), ElementsAre(1, 4, 7, 10));
     EXPECT_THAT(frames("1-9x3"), ElementsAre(1, 4, 7));
     EXPECT_THAT(frames("1-3x100"), ElementsAre(1));
@@ -45,7 +45,7 @@ TEST(ParseFrames, backwards) {
     EXPECT_THAT(frames("10-1x4"), ElementsAre(10, 6, 2));
 }
 
-TEST(ParseFrames, several_in_their_order) {
+TEST(ParseFrames, several_ranges_keep_their_order) {
     EXPECT_THAT(frames("5,0-2,9-7"), ElementsAre(5, 0, 1, 2, 9, 8, 7));
     EXPECT_THAT(frames("1,1"), ElementsAre(1, 1));
 }
@@ -58,7 +58,7 @@ TEST(ParseFrames, bounds) {
         EXPECT_FALSE(parse_frames(text)) << text;
 }
 
-TEST(ParseFrames, what_is_no_range) {
+TEST(ParseFrames, invalid_ranges) {
     for (const std::string text :
          {"",     "x",    "-1",   "1-",      "1-x3",  "1-5x",  "1-5x0", "1-5x-1", "1,",    ",1",
           "1,,2", "5,1-", "5,1x", "5,1-2x0", "1-2-3", "1 - 2", "1;2",   "1.5",    "0-5y2", "1-5x2x2"}) {
@@ -92,7 +92,7 @@ TEST(ParseMouse, after_a_drag_and_before_its_end) {
     EXPECT_EQ(i_mouse("30.9,-40,5.9,6,down"), glm::vec4(30, -40, 5, -6));
 }
 
-TEST(ParseMouse, what_is_no_mouse) {
+TEST(ParseMouse, invalid_mouse_positions) {
     for (const std::string text :
          {"",      "1",      "1,",           ",1",        "1,2,",      "1,2,up",    "1,2,down,",
           "1,2,3", "1,2,3,", "1,2,down,3,4", "1,2,3,nan", "1,2,3,4,5", "1,2,3,4,",  "1;2",
@@ -107,7 +107,7 @@ TEST(ParseMouse, what_is_no_mouse) {
     }
 }
 
-TEST(StatesOf, a_frame_sees_what_was_asked_for) {
+TEST(StatesOf, a_frame_has_the_requested_state) {
     FrameSequence sequence;
     sequence.state.fps = 24;
     sequence.state.mouse = render::Mouse::clicked({1, 2}, false);
@@ -123,7 +123,7 @@ TEST(StatesOf, a_frame_sees_what_was_asked_for) {
     EXPECT_EQ(inputs.view, glm::mat4(1));
 }
 
-TEST(StatesOf, a_mouse_moves_the_camera_where_there_is_one_to_move) {
+TEST(StatesOf, a_mouse_moves_the_camera_only_with_an_initial_camera) {
     render::FrameState state;
     state.mouse = render::Mouse::clicked({1, 2}, false);
     EXPECT_EQ(inputs_of(state).orbit, glm::dvec4(0, 0, 1, 0)) << "--mouse";
@@ -137,7 +137,7 @@ TEST(StatesOf, a_mouse_moves_the_camera_where_there_is_one_to_move) {
     EXPECT_EQ(inputs_of(state).orbit, glm::dvec4(0, 0, 2, 1));
 }
 
-TEST(StatesOf, a_time_falls_in_a_frame_and_the_frames_before_lead_to_it) {
+TEST(StatesOf, a_time_selects_a_frame_and_shifts_the_earlier_frames) {
     FrameSequence sequence{render::at_time(1.999)};
     EXPECT_EQ(sequence.state.frame, 119);
     const render::FrameStates states = states_of(sequence);
@@ -148,14 +148,14 @@ TEST(StatesOf, a_time_falls_in_a_frame_and_the_frames_before_lead_to_it) {
 
 TEST(StatesOf, a_recording_moves_the_mouse) {
     FrameSequence sequence;
-    sequence.input = {{3, platform::ButtonPressed{platform::Button::left, {10, 20}}}};
+    sequence.input = {{3, host::ButtonPressed{host::Button::left, {10, 20}}}};
     const render::FrameStates states = states_of(sequence);
     EXPECT_EQ(states(3).mouse.uniform(), glm::vec4(10, 20, 10, 20));
     EXPECT_EQ(states(2).mouse, render::Mouse());
     EXPECT_EQ(states(4).mouse.uniform(), glm::vec4(10, 20, 10, -20));
 }
 
-TEST(FrameAt, is_the_frame_that_a_time_falls_in) {
+TEST(FrameAt, is_the_frame_that_contains_a_time) {
     EXPECT_EQ(render::frame_at(0, 60), 0);
     EXPECT_EQ(render::frame_at(2, 60), 120);
     EXPECT_EQ(render::frame_at(1.999, 60), 119);
@@ -163,7 +163,7 @@ TEST(FrameAt, is_the_frame_that_a_time_falls_in) {
     EXPECT_EQ(render::frame_at(1e300, 60), render::k_last_frame);
 }
 
-TEST(Load, carries_out_every_option) {
+TEST(Load, applies_every_option) {
     const TemporaryFolder folder;
     save_in_place(folder / "a.glsl", "#define A 1\n#iUniform float k = 1.0\nvoid mainImage() {}\n");
     const SceneRequest request{folder / "a.glsl", {"k=2", "k=3"}, {"A=2"}, {"0=none", "1=t.png"}};
@@ -175,7 +175,7 @@ TEST(Load, carries_out_every_option) {
     EXPECT_EQ(scene->image().channels[1].input, scene::ChannelInput(scene::Picture{"t.png"}));
 }
 
-TEST(Load, the_first_error_is_the_answer) {
+TEST(Load, returns_the_first_error) {
     const TemporaryFolder folder;
     save_in_place(folder / "a.glsl", "void mainImage() {}\n");
     const auto message = [](const SceneRequest& request) {
@@ -193,7 +193,7 @@ TEST(Load, the_first_error_is_the_answer) {
               "tidemark: error: cannot read '" + (folder / "b.glsl").string() + "': no such file");
 }
 
-TEST(Load, refuses_a_saved_value_that_does_not_suit_its_knob) {
+TEST(Load, refuses_a_saved_value_of_the_wrong_type) {
     const TemporaryFolder folder;
     save_in_place(folder / "a.glsl", "#iUniform float k = 1.0\nvoid mainImage() {}\n");
     SceneRequest request{folder / "a.glsl"};
@@ -208,4 +208,4 @@ TEST(Load, refuses_a_saved_value_that_does_not_suit_its_knob) {
     EXPECT_TRUE(load(request, sequence));
 }
 
-} // namespace tidemark::cli::requests_test
+} // namespace tidemark::host::requests_test

@@ -21,7 +21,7 @@ scene::Scene scene_with(scene::PassKind kind) {
     return scene;
 }
 
-TEST(Shard, every_frame_is_made_once) {
+TEST(Shard, every_frame_belongs_to_exactly_one_shard) {
     for (const auto kind : {scene::PassKind::image, scene::PassKind::buffer})
         for (const int count : {1, 2, 3, 7, 40}) {
             std::vector<int> all;
@@ -33,14 +33,14 @@ TEST(Shard, every_frame_is_made_once) {
         }
 }
 
-TEST(Shard, of_a_scene_with_buffers_is_a_run) {
+TEST(Shard, is_a_contiguous_range_for_scenes_with_buffers) {
     EXPECT_THAT(frames_of({1, 3}, frames_up_to(7), scene_with(scene::PassKind::buffer)),
                 testing::ElementsAre(2, 3));
     EXPECT_THAT(frames_of({1, 3}, frames_up_to(7), scene_with(scene::PassKind::image)),
                 testing::ElementsAre(1, 4));
 }
 
-TEST(Shard, is_read_from_one) {
+TEST(Shard, index_is_parsed_from_1) {
     const auto shard = parse_shard("2/8");
     ASSERT_TRUE(shard);
     EXPECT_EQ(shard->index, 1);

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace tidemark::cli::state_json_test {
+namespace tidemark::host::state_json_test {
 
 using render::FrameState;
 using testing::ElementsAre;
@@ -32,7 +32,7 @@ FrameState unusual() {
     return state;
 }
 
-TEST(StateJson, every_field_comes_back) {
+TEST(StateJson, every_field_survives) {
     const FrameState state = unusual(), usual;
     render::for_each_field([&](const auto& field) {
         EXPECT_NE(state.*field.member, usual.*field.member) << field.name << ": give it a value above";
@@ -44,7 +44,7 @@ TEST(StateJson, every_field_comes_back) {
     EXPECT_EQ(dump(to_json(state)["knobs"]), R"~([["k","vec2(0, 1)"],["l","2"]])~");
 }
 
-TEST(FrameFields, are_all_of_a_state_in_their_order) {
+TEST(FrameFields, list_all_fields_in_order) {
     const FrameState state;
     const char* last = nullptr;
     render::for_each_field([&](const auto& field) {
@@ -54,7 +54,7 @@ TEST(FrameFields, are_all_of_a_state_in_their_order) {
     });
 }
 
-TEST(OptionWords, say_what_is_not_usual) {
+TEST(OptionWords, list_non_default_settings) {
     EXPECT_THAT(option_words(FrameState{.frame = 3}), ElementsAre("--frame", "3", "--size", "640x360"));
     EXPECT_THAT(option_words(unusual()),
                 ElementsAre("--time", "0.1", "--size", "3x2", "--fps", "24", "--bpm", "90", "--mouse",
@@ -64,7 +64,7 @@ TEST(OptionWords, say_what_is_not_usual) {
                             "Buffer A"));
 }
 
-TEST(OptionWords, of_a_mouse_and_a_date_are_read_as_they_were) {
+TEST(OptionWords, mouse_and_date_survive_parsing) {
     for (const char* text : {"1,2", "1,2,down", "3,4,1,2", "3,4,1,2,down", "1,2,1,2,down"}) {
         const auto words = option_words(FrameState{.mouse = *parse_mouse(text)});
         EXPECT_EQ(words.back(), text);
@@ -73,4 +73,4 @@ TEST(OptionWords, of_a_mouse_and_a_date_are_read_as_they_were) {
     EXPECT_EQ(render::parse_date(option_words(FrameState{.date = date}).back()), date);
 }
 
-} // namespace tidemark::cli::state_json_test
+} // namespace tidemark::host::state_json_test

@@ -6,11 +6,11 @@
 
 #include <thread>
 
-namespace tidemark::cli::watchdog_test {
+namespace tidemark::host::watchdog_test {
 
 using namespace std::chrono_literals;
 
-TEST(Watchdog, work_that_ends_while_its_leavings_are_taken_down_does_not_go_on) {
+TEST(Watchdog, work_that_ends_during_clean_up_does_not_continue) {
     EXPECT_EXIT(
         {
             Watchdog dog([] { std::this_thread::sleep_for(1s); });
@@ -23,7 +23,7 @@ TEST(Watchdog, work_that_ends_while_its_leavings_are_taken_down_does_not_go_on) 
         testing::ExitedWithCode(exit_code(ErrorCode::timed_out)), "stopped drawing after ");
 }
 
-TEST(Watchdog, work_in_time_is_left_alone) {
+TEST(Watchdog, work_within_its_limit_continues) {
     EXPECT_EXIT(
         {
             Watchdog dog([] { ::_exit(1); });
@@ -34,7 +34,7 @@ TEST(Watchdog, work_in_time_is_left_alone) {
         testing::ExitedWithCode(0), "");
 }
 
-TEST(Watchdog, work_that_nobody_wants_any_more_has_a_moment_to_end) {
+TEST(Watchdog, cancelled_work_gets_a_moment_to_end) {
     EXPECT_EXIT(
         {
             Watchdog dog;
@@ -51,4 +51,4 @@ TEST(Watchdog, work_that_nobody_wants_any_more_has_a_moment_to_end) {
         testing::ExitedWithCode(130), "stopped encoding after .* interrupted");
 }
 
-} // namespace tidemark::cli::watchdog_test
+} // namespace tidemark::host::watchdog_test

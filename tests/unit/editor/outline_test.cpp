@@ -15,11 +15,12 @@ std::vector<std::pair<Kind, std::string>> kinds_in(std::string_view text) {
     return found;
 }
 
-TEST(Outline, names_what_stands_outermost) {
+TEST(Outline, lists_global_declarations) {
     EXPECT_THAT(kinds_in("#define PI 3.14\n"
                          "#define SQUARE(x) ((x) * (x))\n"
                          "#iUniform float speed = 1.0 in { 0.0, 2.0 }\n"
                          "const highp float a = 1.0, b[2] = float[2](1.0, 2.0);\n"
+                         "precision mediump float;\n"
                          "vec3 c, d;\n"
                          "struct Ray { vec3 from; vec3 to; } ray;\n"
                          "float announced(vec3 p);\n"
@@ -40,13 +41,13 @@ TEST(Outline, has_the_signature_on_one_line_and_the_comment_above) {
     EXPECT_EQ(found[0].comment, "How far\nit is.");
 }
 
-TEST(Outline, takes_any_bytes) {
+TEST(Outline, accepts_any_bytes) {
     for (const char* text : {"", "{", "}", "float", "float x", "const", "struct", "#define", "#iUniform",
                              "#iUniform float", "(;", "float f(", "vec3 a[", ";;;", "float a,,b;", "\xff"})
         outline(text);
 }
 
-TEST(Comments, above_a_place) {
+TEST(Comments, above_a_declaration_are_found) {
     const std::string_view text = "int a; // of a\n// one\n// two\nint b;\n\nint c; /* of c */\nint d;\n";
     EXPECT_EQ(comment_above(text, text.find("int b")), "one\ntwo");
     EXPECT_EQ(comment_above(text, text.find("int c")), "");
@@ -58,7 +59,7 @@ TEST(Comments, above_a_place) {
     EXPECT_EQ(comment_above("int a; /* a\nb */\nint b;", 17), "");
 }
 
-TEST(Comments, that_a_text_begins_with) {
+TEST(Comments, leading_comment_of_a_text) {
     EXPECT_EQ(leading_comment("// a\n// b\n\nint c;"), "a\nb");
     EXPECT_EQ(leading_comment("/* a\n * b\n */\nint c;"), "a\nb");
     EXPECT_EQ(leading_comment("int c; // d"), "");

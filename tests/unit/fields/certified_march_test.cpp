@@ -20,7 +20,7 @@ Ray towards(const glm::dvec3& from, const glm::dvec3& to) {
     return {from, glm::normalize(to - from)};
 }
 
-TEST(CertifiedMarch, MeetsABallWhereGeometryHasIt) {
+TEST(CertifiedMarch, HitsABallAtTheExactDistance) {
     const Field field = ball({0, 0, 0});
     const CertifiedHit hit = certified_march(field, towards({0, 5, 0}, {0, 0, 0}), {0, 100});
     EXPECT_NEAR(hit.distance, 4.0, 1e-15);
@@ -31,7 +31,7 @@ TEST(CertifiedMarch, MeetsABallWhereGeometryHasIt) {
     EXPECT_NEAR(aside.distance, 5 - 0.8, 1e-14);
 }
 
-TEST(CertifiedMarch, PassesByWhatItDoesNotTouch) {
+TEST(CertifiedMarch, MissesWhereTheRayPassesBy) {
     const Field field = ball({0, 0, 0});
     EXPECT_EQ(certified_march(field, {{1.001, 5, 0}, {0, -1, 0}}, {0, 100}).distance, -1);
     EXPECT_EQ(certified_march(field, towards({0, 5, 0}, {0, 0, 0}), {0, 3.9}).distance, -1);
@@ -46,7 +46,7 @@ TEST(CertifiedMarch, FindsAContactLongerThanItsShortestStep) {
     EXPECT_NEAR(hit.distance, 5 - 1e-3, 1e-6);
 }
 
-TEST(CertifiedMarch, SaysThatTheRangeBeginsInside) {
+TEST(CertifiedMarch, ReportsAStartInside) {
     const Field field = ball({0, 0, 0});
     const CertifiedHit hit = certified_march(field, {{0, 0, 0}, {0, 1, 0}}, {0.5, 100});
     EXPECT_TRUE(hit.started_inside);
@@ -55,13 +55,13 @@ TEST(CertifiedMarch, SaysThatTheRangeBeginsInside) {
     EXPECT_EQ(below.samples, 1); // below the lowest zero all is inside; the ball alone would not say so
 }
 
-TEST(CertifiedMarch, DoesNotWalkThroughWhatIsNotANumber) {
+TEST(CertifiedMarch, StopsAtNan) {
     Field field = ball({0, 0, 0});
     field.sample = [](const glm::dvec3&, const glm::dvec3&) { return FieldSample{NAN, NAN}; };
     EXPECT_TRUE(std::isnan(certified_march(field, {{0, 0.9, 0}, {0, -1, 0}}, {0, 100}).distance));
 }
 
-TEST(ClipToSlab, KeepsOnlyWhereAZeroCanBe) {
+TEST(ClipToSlab, KeepsOnlyThePartThatCanContainAZero) {
     const Field field = ball({0, 0, 0});
     const RayRange down = clip_to_slab(field, {{0, 5, 0}, {0, -1, 0}}, {0.1, 100});
     EXPECT_NEAR(down.near, 4, 1e-8);

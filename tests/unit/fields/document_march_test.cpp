@@ -73,7 +73,7 @@ lab::Hits hits_of_view(const Reference& reference, March march) {
     return hits;
 }
 
-TEST(DocumentMarch, HasTheErrorsOfAnIndependentProgram) {
+TEST(DocumentMarch, ErrorsEqualThoseOfAnIndependentProgram) {
     const Reference reference = typical_view();
     const lab::Hits truth = hits_of_view(reference, [&](const Ray& ray) {
         const CertifiedHit hit = certified_march(reference.field, ray, reference.range);

@@ -43,7 +43,7 @@ TEST_F(WaterSurfaceField, HasTheBoundsThatAreProvedByHand) {
     EXPECT_NEAR(field.highest, 0.6, 1e-6);
 }
 
-TEST_F(WaterSurfaceField, TheViewRestsAtThePolesOrTurnsRound) {
+TEST_F(WaterSurfaceField, TheViewStopsAtThePolesOrPassesThePoles) {
     const glm::dvec2 upper_edge{24, 27};
     inputs_.mouse = {24, 4}; // pitch below -90 degrees
     EXPECT_LT(glm::distance(reference().ray({24, 13.5}).direction, {0, -1, 0}), 1e-9);
@@ -69,7 +69,7 @@ TEST_F(WaterSurfaceField, StaysWithinItsBounds) {
     EXPECT_LE(field.value({3, field.lowest, -5}), 0);
 }
 
-TEST_F(WaterSurfaceField, ClearanceHoldsNoZero) {
+TEST_F(WaterSurfaceField, ClearanceContainsNoZero) {
     const Field field = reference().field;
     std::mt19937 random(11);
     std::uniform_real_distribution<double> wide(-20, 20), depth(-3, 1), unit(-1, 1);
@@ -85,7 +85,7 @@ TEST_F(WaterSurfaceField, ClearanceHoldsNoZero) {
     }
 }
 
-TEST_F(WaterSurfaceField, CertifiedMarchAgreesWithADenseOne) {
+TEST_F(WaterSurfaceField, CertifiedMarchAgreesWithADenseMarch) {
     const Reference r = reference();
     int hits = 0;
     for (int y = 0; y < 27; y += 2)
@@ -112,7 +112,7 @@ TEST_F(WaterSurfaceField, ProvesNothingBelowZero) {
               "the reference knows no 'wave_height' below 0, and it is -1: its bounds would not hold");
 }
 
-TEST_F(WaterSurfaceField, SaysWhichKnobIsMissing) {
+TEST_F(WaterSurfaceField, NamesTheMissingKnob) {
     const auto camera_only = std::span(inputs_.knobs).first(4);
     inputs_.knobs = camera_only;
     const auto made = water_surface_reference(inputs_);

@@ -52,7 +52,7 @@ TEST_P(WaveFields, StaysWithinItsBounds) {
     EXPECT_GT(steepest, 1.02); // and the sampling meets slopes: more than a plane's 1
 }
 
-TEST_P(WaveFields, ClearanceHoldsNoZero) {
+TEST_P(WaveFields, ClearanceContainsNoZero) {
     const scene::Scene loaded = scene();
     const Field field = reference(loaded, 77).field;
     std::mt19937 random(5);
@@ -67,7 +67,7 @@ TEST_P(WaveFields, ClearanceHoldsNoZero) {
     }
 }
 
-TEST_P(WaveFields, CertifiedMarchAgreesWithADenseOne) {
+TEST_P(WaveFields, CertifiedMarchAgreesWithADenseMarch) {
     const scene::Scene loaded = scene();
     const Reference r = reference(loaded, 10);
     int hits = 0;
@@ -105,7 +105,7 @@ glm::dvec3 moved(const glm::dvec2& rest, double time) {
     return place;
 }
 
-TEST(GerstnerWavesField, IsZeroWhereTheDocumentsWavesPutTheWater) {
+TEST(GerstnerWavesField, IsZeroOnTheDocumentedSurface) {
     auto loaded = scene::load_scene(TIDEMARK_SOURCE_DIR "/shaders/gerstner_waves.glsl");
     ASSERT_TRUE(loaded);
     for (const double time : {0.0, 3.5, 60.0}) {

@@ -1,4 +1,4 @@
-// What is left of a ladder, held against sums whose limit is known.
+// Compares the estimated rest of a ladder with sums whose limit is known.
 #include "lab/truth.hpp"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@ namespace tidemark::lab::convergence_test {
 
 using Series = std::function<double(int n)>;
 
-/// Of `count` changes on the ladder from `first` on, doubled each time: what is really left over what is
-/// told.
+/// Returns the true rest divided by the estimated one, for `count` changes on a ladder that begins at `first`
+/// and doubles each time.
 double understated(const Series& value, double limit, int first, int count) {
     std::vector<double> changes;
     int n = first;
@@ -30,7 +30,7 @@ double sum_of(int n, const std::function<double(double k)>& term) {
     return sum;
 }
 
-TEST(Remainder, IsWhatSumsStillLack) {
+TEST(Remainder, EstimatesTheRemainderOfSums) {
     constexpr double k_zeta_1_1 = 10.5844484649508098; // zeta(1.1)
     const Series slow = [](int n) { return sum_of(n, [](double k) { return std::pow(k, -1.1); }); };
     const Series squares = [](int n) { return sum_of(n, [](double k) { return 1 / (k * k); }); };
@@ -49,7 +49,7 @@ TEST(Remainder, IsWhatSumsStillLack) {
     EXPECT_NEAR((k_zeta_1_1 - slow(256)) / (slow(256) - slow(128)), 13.97, 0.01);
 }
 
-TEST(Remainder, IsNoSmallerThanWhatFasterMethodsLack) {
+TEST(Remainder, BoundsTheErrorOfFasterMethods) {
     const Series geometric = [](int n) { return 2 - std::pow(0.97, n); };
     const Series midpoint = [](int n) {
         return sum_of(n, [n](double k) { return std::exp((k - 0.5) / n) / n; });
@@ -66,7 +66,7 @@ TEST(Remainder, IsNoSmallerThanWhatFasterMethodsLack) {
     EXPECT_LE(understated(newton, std::sqrt(2), 4, 3), 1);
 }
 
-TEST(Remainder, HoldsWhereTheRatioItselfRises) {
+TEST(Remainder, HoldsForRisingRatios) {
     const Series logarithm = [](int n) { return 1 - 1 / std::log(double(n)); };
     const Series square = [](int n) { return 1 - std::pow(std::log(double(n)), -2); };
     for (const int changes : {3, 4, 6}) {
@@ -75,7 +75,7 @@ TEST(Remainder, HoldsWhereTheRatioItselfRises) {
     }
 }
 
-TEST(Remainder, IsNotToldOfWhatDoesNotConverge) {
+TEST(Remainder, IsUnknownForDivergentSeries) {
     const Series harmonic = [](int n) { return sum_of(n, [](double k) { return 1 / k; }); };
     const Series slowest = [](int n) { return std::log(std::log(double(n))); };
     for (const auto& [series, first] : {std::pair{harmonic, 4}, {slowest, 4}}) {
@@ -95,7 +95,7 @@ TEST(Remainder, IsNotToldOfWhatDoesNotConverge) {
     EXPECT_FALSE(remainder_of({0.0, 0.1}, 0).error);
 }
 
-TEST(Remainder, OfNoChangeIsRounding) {
+TEST(Remainder, IsRoundingWithoutChange) {
     const Remainder left = remainder_of({0.1, 1e-9}, 1e-8);
     EXPECT_TRUE(left.still);
     EXPECT_EQ(left.error, 1e-8);

@@ -19,7 +19,7 @@ Hits hits(std::vector<double> distances, std::vector<uint8_t> flags = {}) {
     return made;
 }
 
-TEST(Hits, are_read_from_the_picture_that_main_hit_makes) {
+TEST(Hits, are_read_from_the_picture_of_main_hit) {
     image::Image image({3, 1}, 4, image::SampleType::f32);
     const float samples[] = {2.5f, 17, 1e-5f, 3, -1, 4, 0.5f, 0, std::nanf(""), 9, 0, 300};
     std::ranges::copy(samples, image.f32().begin());
@@ -39,13 +39,13 @@ TEST(Hits, views_are_joined_in_their_order) {
     EXPECT_EQ(joined(std::vector<Hits>{}).size(), 0u);
 }
 
-TEST(Hits, a_distance_below_0_that_is_no_miss_is_no_answer) {
+TEST(Hits, a_negative_distance_other_than_a_miss_is_nan) {
     image::Image image({1, 1}, 4, image::SampleType::f32);
     image.f32()[0] = -0.5f;
     EXPECT_TRUE(std::isnan(hits_of(image).distance[0]));
 }
 
-TEST(Hits, evaluations_that_are_no_number_are_no_answer_and_leave_the_mean_one) {
+TEST(Hits, invalid_evaluation_counts_are_left_out_of_the_mean) {
     image::Image image({4, 1}, 4, image::SampleType::f32);
     const float samples[] = {2, 6, 0, 0, 2, std::nanf(""), 0, 0, 2, -1, 0, 0, 2, 2, 0, 0};
     std::ranges::copy(samples, image.f32().begin());
@@ -54,7 +54,7 @@ TEST(Hits, evaluations_that_are_no_number_are_no_answer_and_leave_the_mean_one) 
     EXPECT_EQ(errors.evaluations, 2); // (6 + 0 + 0 + 2) / 4
 }
 
-TEST(HitErrors, count_what_is_wrong_in_each_way) {
+TEST(HitErrors, count_each_kind_of_error) {
     //                      right false miss false hit  +0.05  +0.5   both miss  NaN
     const Hits truth = hits({1.0, 2.0, -1.0, 4.0, 5.0, -1.0, 7.0});
     const Hits found = hits({1.0, -1.0, 3.0, 4.05, 5.5, -1.0, k_nan}, {0, 1, 0, 2, 0, 0, 0});
@@ -77,21 +77,21 @@ TEST(HitErrors, count_what_is_wrong_in_each_way) {
     EXPECT_EQ(errors.evaluations, 10);
 }
 
-TEST(HitErrors, quantiles_of_an_even_count_lie_between_its_values) {
+TEST(HitErrors, quantiles_of_an_even_count_are_interpolated) {
     const HitErrors errors = hit_errors(hits({1, 1}), hits({1, 2}), std::vector<double>(2, 0.01));
     EXPECT_DOUBLE_EQ(errors.median, 0.5);
     EXPECT_DOUBLE_EQ(errors.p95, 0.95);
     EXPECT_DOUBLE_EQ(errors.p99, 0.99);
 }
 
-TEST(HitErrors, of_equal_hits_are_none) {
+TEST(HitErrors, are_zero_for_equal_hits) {
     const Hits same = hits({1, -1, 3});
     const HitErrors errors = hit_errors(same, same, std::vector<double>(3, 0.01));
     EXPECT_EQ(errors.rms, 0);
     EXPECT_EQ(errors.wrong_hundredth, 0);
 }
 
-TEST(Causes, of_wrong_pixels) {
+TEST(Causes, are_found_for_wrong_pixels) {
     const uint8_t exhausted = glsl::k_hit_exhausted, negative = glsl::k_hit_negative;
     const Hits truth = hits({5, 5, 5, 5, 5, 5, -1, -1, 5});
     const Hits found =
@@ -105,7 +105,7 @@ TEST(Causes, of_wrong_pixels) {
     EXPECT_EQ(counts[size_t(Cause::exhaustion)], 2u);
 }
 
-TEST(Causes, have_colours_of_their_own) {
+TEST(Causes, have_distinct_colours) {
     std::vector<Cause> all;
     for (size_t i = 0; i < k_causes; ++i)
         all.push_back(Cause(i));

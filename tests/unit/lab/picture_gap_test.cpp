@@ -1,4 +1,4 @@
-// How far apart two pictures are, and how alike they are called, also where they hold what is no number.
+// The difference of two pictures and its words, also for pictures with NaN.
 #include "lab/probed_pictures.hpp"
 
 #include <gtest/gtest.h>
@@ -24,22 +24,22 @@ image::Image picture(std::initializer_list<float> samples) {
     return row(samples, 2);
 }
 
-TEST(P99Difference, LiesBetweenTheTwoPixelsAroundIt) {
+TEST(P99Difference, IsInterpolatedBetweenPixels) {
     EXPECT_NEAR(p99_difference(grey({0, 0}), grey({0, 1})), 0.99, 1e-12);
     EXPECT_EQ(p99_difference(grey({2}), grey({1.5f})), 0.5);
 }
 
-TEST(P99Difference, WhatIsANumberInOneOnlyCountsAsOne) {
+TEST(P99Difference, FiniteAgainstNonFiniteCountsAs1) {
     EXPECT_EQ(p99_difference(grey({k_nan, k_infinity}), grey({k_nan, k_infinity})), 0);
     EXPECT_EQ(p99_difference(grey({k_nan, 0}), grey({0, k_infinity})), 1);
 }
 
-TEST(Alikeness, IsThePsnrOfNumbers) {
+TEST(Alikeness, IsThePsnrOfFinitePixels) {
     EXPECT_EQ(alikeness(picture({0, 0.5f}), picture({0, 0.5f})), "the same");
     EXPECT_EQ(alikeness(picture({0, 0, 0, 0}), picture({0.1f, 0.1f, 0.1f, 0.1f})), "20.0 dB");
 }
 
-TEST(Alikeness, CountsPixelsThatAreNoNumbersAndLeavesThemOut) {
+TEST(Alikeness, CountsNonFinitePixelsAndLeavesThemOut) {
     const image::Image numbers = picture({0, 0, 0, 0, 0, 0});
     EXPECT_EQ(alikeness(numbers, picture({0.1f, 0.1f, k_nan, 0, 0.1f, 0.1f})),
               "0 pixels with NaN or infinity become 1, 20.0 dB over the rest");
@@ -49,7 +49,7 @@ TEST(Alikeness, CountsPixelsThatAreNoNumbersAndLeavesThemOut) {
               "0 pixels with NaN or infinity become 3, and no pixel is finite in both");
 }
 
-TEST(Alikeness, TheSameNanInBothIsTheSame) {
+TEST(Alikeness, EqualNanPixelsAreEqual) {
     EXPECT_EQ(alikeness(picture({k_nan, 0, 0, 0}), picture({k_nan, 0, 0.2f, 0})), "20.0 dB");
 }
 

@@ -1,6 +1,5 @@
-// What is said of a study, made by hand so that the right answers are known.
+// The report of a study that is made by hand, so that the right answers are known.
 #include "lab/study_data.hpp"
-#include "lab/study_page.hpp"
 #include "lab/study_report.hpp"
 #include "lab/work_precision.hpp"
 
@@ -46,7 +45,7 @@ WorkPrecisionSet usual() {
                    point(0, "32", 0.001, 40), point(0, "64", 0.002, 80), point(0, "128", 5e-5, 90)});
 }
 
-TEST(Judge, finds_the_front_and_what_is_too_near_the_reference) {
+TEST(Judge, finds_the_front_and_hollow_points) {
     std::vector<bool> front, hollow;
     for (const WorkPrecision& p : usual().points) {
         front.push_back(p.on_front);
@@ -56,7 +55,7 @@ TEST(Judge, finds_the_front_and_what_is_too_near_the_reference) {
     EXPECT_THAT(hollow, ElementsAre(false, false, false, false, false, true));
 }
 
-TEST(Verdict, names_the_cheapest_that_is_good_enough_and_the_gain_at_equal_error) {
+TEST(Verdict, names_the_cheapest_good_point_and_the_gain_at_equal_error) {
     const WorkPrecisionSet set = usual();
     EXPECT_EQ(cheapest_good(set)->point.label, "32"); // 60 dB; "16" has 41
     EXPECT_EQ(cheapest_as_exact(set)->point.label, "16");
@@ -68,7 +67,7 @@ TEST(Verdict, names_the_cheapest_that_is_good_enough_and_the_gain_at_equal_error
     EXPECT_THAT(sentences(set)[0], HasSubstr("cheapest setting with PSNR >= 50 dB: 32 (40.8 ms"));
 }
 
-TEST(Verdict, is_withheld_where_noise_decides) {
+TEST(Verdict, is_withheld_within_the_noise) {
     WorkPrecisionSet set = set_of({point(1, "defaults", 0.01, 10), point(0, "8", 0.01, 9.99)});
     for (size_t i = 0; i < 30; ++i)
         set.points[1].wall[0][i] *= i % 2 ? 0.8 : 1.25;
@@ -79,16 +78,18 @@ TEST(Verdict, is_withheld_where_noise_decides) {
     EXPECT_THAT(sentences(set), testing::Contains(HasSubstr("no verdict at equal error")));
 }
 
-TEST(Verdict, says_when_nothing_is_good_enough_and_when_it_was_cut_short) {
+TEST(Verdict, reports_no_good_point_and_an_interrupted_study) {
     WorkPrecisionSet set = set_of({point(1, "defaults", 0.1, 10)});
     set.circumstances.complete = false;
-    EXPECT_THAT(sentences(set),
-                ElementsAre("no setting of this study certainly has PSNR >= 50 dB",
-                            "no tested setting is cheaper than the scene's defaults without being less exact",
-                            "incomplete: the study was interrupted"));
+    EXPECT_THAT(
+        sentences(set),
+        ElementsAre(
+            HasSubstr("no setting of this study certainly has PSNR >= 50 dB: the nearest is defaults ("),
+            "no tested setting is cheaper than the scene's defaults without being less exact",
+            "incomplete: the study was interrupted"));
 }
 
-TEST(Verdict, compares_no_hollow_points_and_counts_the_truths_own_error_against_a_promise) {
+TEST(Verdict, skips_hollow_points_and_adds_the_references_error) {
     WorkPrecisionSet set = usual();
     set.picture_standard.uncertainty = 0.0015; // only the defaults' and "8" are ten times as much
     judge(set);
@@ -110,7 +111,7 @@ TEST(Verdict, compares_no_hollow_points_and_counts_the_truths_own_error_against_
         ElementsAre("no reference for the pictures: it does not converge; give one with --reference"));
 }
 
-TEST(Verdict, never_names_a_point_that_is_idle) {
+TEST(Verdict, never_names_an_idle_point) {
     WorkPrecisionSet set = usual();
     set.points[2].idle = set.points[3].idle = true;
     judge(set);
@@ -119,7 +120,7 @@ TEST(Verdict, never_names_a_point_that_is_idle) {
     EXPECT_FALSE(set.points[2].on_front);
 }
 
-TEST(Data, json_has_everything_and_null_for_what_is_no_number) {
+TEST(Data, json_has_all_fields_and_null_for_non_finite_numbers) {
     WorkPrecisionSet set = usual();
     set.points[1].all.picture.samples.psnr = INFINITY;
     set.points[2].failure = "it broke";
@@ -133,7 +134,7 @@ TEST(Data, json_has_everything_and_null_for_what_is_no_number) {
     EXPECT_EQ(json["references"]["picture"]["uncertainty"], 1e-5);
 }
 
-TEST(Data, csv_has_a_row_for_each_view_and_quotes_what_needs_it) {
+TEST(Data, csv_has_a_row_for_each_view_and_quotes_fields) {
     WorkPrecisionSet set = usual();
     set.points[0].point.label = "a \"b\", c";
     const std::string csv = to_csv(set);
@@ -163,7 +164,7 @@ TEST(Html, escapes_and_needs_no_network) {
     EXPECT_THAT(html, Not(HasSubstr("<of it>")));
 }
 
-TEST(Html, numbers_have_three_digits_and_what_is_unknown_a_dash) {
+TEST(Html, numbers_have_three_digits_and_nan_is_a_dash) {
     for (const auto& [value, text] : std::vector<std::pair<double, std::string>>{{0, "0"},
                                                                                  {0.0121, "0.0121"},
                                                                                  {0.58, "0.580"},
@@ -176,7 +177,7 @@ TEST(Html, numbers_have_three_digits_and_what_is_unknown_a_dash) {
         EXPECT_EQ(number(value), text);
 }
 
-TEST(Baseline, tells_what_became_slower_or_more_wrong_and_nothing_else) {
+TEST(Baseline, reports_only_slower_and_less_exact_points) {
     const std::string old = to_json(usual());
     const auto same = compare_with(old, "old.json", usual());
     ASSERT_TRUE(same) << to_string(same.error());
@@ -191,7 +192,7 @@ TEST(Baseline, tells_what_became_slower_or_more_wrong_and_nothing_else) {
                             HasSubstr("8: slower: 5.1 ms -> 7.14 ms")));
 }
 
-TEST(Baseline, an_error_that_is_no_number_any_more_is_worse_and_one_that_was_none_is_told) {
+TEST(Baseline, a_new_nan_is_worse_and_an_old_nan_is_a_note) {
     const std::string good = to_json(set_of({point(0, "8", 0.1, 5)}));
     const WorkPrecisionSet broken = set_of({point(0, "8", NAN, 5)});
     EXPECT_THAT(compare_with(good, "old.json", broken)->worse, ElementsAre(HasSubstr("8: less exact: ")));
@@ -200,7 +201,7 @@ TEST(Baseline, an_error_that_is_no_number_any_more_is_worse_and_one_that_was_non
     EXPECT_THAT(found->notes, ElementsAre("8: its error is not compared: the baseline has no number for it"));
 }
 
-TEST(Baseline, another_camera_is_another_view) {
+TEST(Baseline, a_different_camera_is_a_different_view) {
     WorkPrecisionSet seen = usual();
     const std::string plain = to_json(seen);
     seen.study.views[0].state.camera.elevation = 5;
@@ -212,7 +213,7 @@ TEST(Baseline, another_camera_is_another_view) {
     EXPECT_FALSE(compare_with(through, "old.json", seen));
 }
 
-TEST(Baseline, of_another_machine_or_another_study_is_told) {
+TEST(Baseline, a_different_machine_or_study_is_noted) {
     const std::string old = to_json(usual());
     WorkPrecisionSet elsewhere = set_of({point(1, "defaults", 0.01, 200)});
     elsewhere.circumstances.renderer = "another GPU";
@@ -237,7 +238,7 @@ TEST(Timing, rounds_are_spread_evenly_and_end_together) {
     }
 }
 
-TEST(Data, what_a_set_has_not_is_left_out) {
+TEST(Data, missing_measures_are_left_out) {
     WorkPrecisionSet set = usual();
     set.picture_standard = {};
     set.hit_standard = {"closed forms", 1e-15, "exact"};
@@ -277,7 +278,7 @@ WorkPrecisionSet timed_with(double ratio, size_t& asked) {
     return set;
 }
 
-TEST(Clock, the_drivers_timer_is_used_where_it_agrees_with_the_wall) {
+TEST(Clock, the_drivers_timer_is_used_if_it_agrees_with_wall_time) {
     size_t asked = 0;
     const WorkPrecisionSet set = timed_with(0.95, asked);
     EXPECT_EQ(asked, 2u * 10);
@@ -291,7 +292,7 @@ TEST(Clock, the_drivers_timer_is_used_where_it_agrees_with_the_wall) {
     EXPECT_EQ(json["points"][1]["all"]["wall_ms"]["median"], 10);
 }
 
-TEST(Clock, a_timer_that_lies_is_found_out_and_asked_no_more) {
+TEST(Clock, a_wrong_timer_is_detected_and_no_longer_used) {
     size_t asked = 0;
     const WorkPrecisionSet set = timed_with(0.07, asked);
     EXPECT_EQ(asked, 2u * 4); // the warm-up
@@ -300,7 +301,7 @@ TEST(Clock, a_timer_that_lies_is_found_out_and_asked_no_more) {
     EXPECT_FALSE(nlohmann::json::parse(to_json(set))["points"][1]["all"].contains("gpu_ms"));
 }
 
-TEST(Clock, without_a_timer_it_is_the_wall) {
+TEST(Clock, without_a_timer_wall_time_is_used) {
     size_t asked = 0;
     EXPECT_EQ(timed_with(0, asked).circumstances.clock, "wall clock around glFinish");
 }

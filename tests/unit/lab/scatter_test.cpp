@@ -1,6 +1,6 @@
 // Diagrams of pages: axes, places of labels, and what is written as SVG.
 #include "lab/report_page.hpp"
-#include "lab/scatter_plot.hpp"
+#include "lab/study_explorer.hpp"
 
 #include <gmock/gmock.h>
 
@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(LogAxis, is_even_in_the_logarithm_and_leaves_room) {
+TEST(LogAxis, is_linear_in_the_logarithm_with_margins) {
     const LogAxis axis{1, 100, 10, 110};
     EXPECT_DOUBLE_EQ(axis.pixel(10), 60);
     const LogAxis upwards = log_axis(0.01, 1, 400, 0);
@@ -27,7 +27,7 @@ TEST(LogAxis, is_even_in_the_logarithm_and_leaves_room) {
     EXPECT_NEAR(of_one.pixel(5), 50, 1e-9);
 }
 
-TEST(LogAxis, ticks_are_powers_of_ten_or_round_numbers_within_it) {
+TEST(LogAxis, ticks_are_powers_of_ten_or_round_numbers_in_range) {
     EXPECT_THAT(ticks({0.005, 20, 0, 1}),
                 ElementsAre(DoubleEq(0.01), DoubleEq(0.1), DoubleEq(1), DoubleEq(10)));
     EXPECT_THAT(ticks({4, 60, 0, 1}), ElementsAre(DoubleEq(5), DoubleEq(10), DoubleEq(20), DoubleEq(50)));
@@ -66,14 +66,14 @@ TEST(LabelPlacement, no_label_covers_another_a_mark_or_the_edge) {
     }
 }
 
-TEST(LabelPlacement, one_without_room_has_no_place) {
+TEST(LabelPlacement, a_label_without_room_has_no_place) {
     const std::vector<Label> labels{{50, 50, 20}, {50, 50, 400}};
     const auto placed = place_labels(labels, {}, {0, 0, 100, 100});
     EXPECT_TRUE(placed[0]);
     EXPECT_FALSE(placed[1]);
 }
 
-TEST(Scatter, series_differ_by_shape_and_colour_and_texts_are_no_markup) {
+TEST(Scatter, series_differ_by_shape_and_colour_and_texts_are_escaped) {
     std::set<std::string> marks;
     for (size_t series = 0; series < 57; ++series)
         marks.insert(mark_of(series, false));
@@ -89,7 +89,7 @@ TEST(Scatter, series_differ_by_shape_and_colour_and_texts_are_no_markup) {
     EXPECT_EQ(to_svg({}, {400, 300}, "wide"), "");
 }
 
-TEST(Page, fills_in_each_part_once_and_data_end_no_script) {
+TEST(Page, inserts_each_part_once_and_escapes_script_ends) {
     const std::string page =
         make_page({"{{body}} <t>", "h", "a", "<p>{{scripts}}</p>", R"({"a":"</script>"})"});
     EXPECT_THAT(page, HasSubstr("<title>{{body}} &lt;t&gt;</title>"));

@@ -1,4 +1,4 @@
-// Where a search looks: that any beginning of its list is spread over all that the scene reads.
+// The points of a search: any first part of the list is spread over all that the scene reads.
 #include "lab/probe_inputs.hpp"
 #include "support/scene_of.hpp"
 
@@ -50,7 +50,7 @@ TEST(SearchSpace, KnobsStayWithinTheirRange) {
     EXPECT_GT(high, 0.68);
 }
 
-TEST(SearchSpace, WhatASceneDoesNotReadIsNotMoved) {
+TEST(SearchSpace, InputsThatASceneDoesNotReadStayFixed) {
     const scene::Scene scene = scene_of("void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }");
     EXPECT_EQ(SearchSpace(scene, {}, {}).survey().size(), 1u);
 }

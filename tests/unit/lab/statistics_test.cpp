@@ -35,21 +35,21 @@ TEST(Statistics, the_interval_holds_the_true_median_in_95_of_100_cases) {
     EXPECT_NEAR(width, 2 * 1.96 * 1.2533 * 2.0 / std::sqrt(40.0), 0.3);
 }
 
-TEST(Statistics, a_share_of_a_sample_has_wilsons_bound) {
+TEST(Statistics, the_bound_of_a_proportion_is_wilsons) {
     EXPECT_NEAR(most_of_share(0, 2576), 2.7055434 / (2576 + 2.7055434), 1e-9);
     EXPECT_NEAR(most_of_share(5, 100), 0.09916, 5e-6); // by hand
     EXPECT_NEAR(most_of_share(100, 100), 1, 1e-12);
     EXPECT_EQ(most_of_share(0, 0), 1);
 }
 
-TEST(Statistics, of_few_values_there_is_no_interval) {
+TEST(Statistics, few_values_have_no_interval) {
     const Interval interval = bootstrap_median({1, 2, 3, 4});
     EXPECT_TRUE(std::isnan(interval.low));
     EXPECT_FALSE(interval.contains(2.5));
     EXPECT_FALSE(interval.overlaps(interval));
 }
 
-TEST(Statistics, a_machine_that_slows_down_is_noticed) {
+TEST(Statistics, a_slowing_machine_is_detected) {
     std::vector<double> steady, slowing;
     for (int i = 0; i < 30; ++i) {
         steady.push_back(10 + 0.1 * (i % 3));
@@ -63,7 +63,7 @@ TEST(Statistics, a_machine_that_slows_down_is_noticed) {
     EXPECT_EQ(summary.runs, 30u);
 }
 
-TEST(Statistics, shuffles_are_whole_repeatable_and_different) {
+TEST(Statistics, shuffles_are_complete_repeatable_and_different) {
     const auto order = shuffled(50, 3);
     EXPECT_EQ(order, shuffled(50, 3));
     EXPECT_NE(order, shuffled(50, 4));

@@ -1,4 +1,4 @@
-// What a study is to do: settings, axes, views, files, and what comes after the strictest value.
+// The parts of a study: settings, axes, views, files, and the values beyond the strictest one.
 #include "base/file.hpp"
 #include "lab/scene_numbers.hpp"
 #include "lab/study.hpp"
@@ -28,7 +28,7 @@ TEST(Setting, is_a_knob_a_define_or_a_const) {
     EXPECT_EQ(value_of(k_scene, "MAX_STEPS"), "64");
 }
 
-TEST(Setting, that_the_scene_does_not_have_names_the_nearest) {
+TEST(Setting, unknown_setting_suggests_the_nearest) {
     const auto set = with(k_scene, {{"MAX_STEP", "8"}});
     ASSERT_FALSE(set);
     EXPECT_EQ(set.error().code, ErrorCode::usage);
@@ -55,7 +55,7 @@ TEST(Setting, the_last_value_of_a_name_counts) {
 
 // ---- Points ---------------------------------------------------------------------------------------------
 
-TEST(Points, are_the_scene_as_it_is_and_all_combinations) {
+TEST(Points, are_the_unchanged_scene_and_all_combinations) {
     Study study;
     study.series = series_of({{"A", {"1", "2"}}, {"B", {"x", "y"}}});
     const std::vector<Point> points = points_of(study);
@@ -140,7 +140,7 @@ TEST(StudyFile, errors_have_line_and_pointer) {
     EXPECT_THAT(error_of("{"), HasSubstr("s.json"));
 }
 
-TEST(StudyFile, those_of_our_scenes_name_knobs_that_the_scenes_have) {
+TEST(StudyFile, shipped_studies_name_existing_knobs) {
     namespace fs = std::filesystem;
     size_t studies = 0;
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(TIDEMARK_SOURCE_DIR) / "shaders")) {
@@ -169,7 +169,7 @@ TEST(StudyFile, those_of_our_scenes_name_knobs_that_the_scenes_have) {
 
 // ---- Beyond the strictest -------------------------------------------------------------------------------
 
-TEST(Stricter, goes_on_as_the_values_went) {
+TEST(Stricter, extrapolates_increasing_values) {
     EXPECT_EQ(beyond({"N", {"16", "32", "64"}}, 1), "128");
     EXPECT_EQ(beyond({"N", {"16", "32", "64"}}, 3), "512");
     EXPECT_EQ(beyond({"N", {"10", "11"}}, 1), "22");    // at least doubled
@@ -186,7 +186,7 @@ TEST(Stricter, goes_on_as_the_values_went) {
     EXPECT_EQ(beyond({"N", {"1000000000", "2000000000"}}, 1), std::nullopt); // no int
 }
 
-TEST(Stricter, goes_back_as_the_values_came) {
+TEST(Stricter, extrapolates_decreasing_values) {
     EXPECT_EQ(beyond({"N", {"16", "32", "64"}}, -1), "32");
     EXPECT_EQ(beyond({"N", {"16", "32", "64"}}, -2), "16");
     EXPECT_EQ(beyond({"N", {"16", "32", "64"}}, -3), std::nullopt);
@@ -198,7 +198,7 @@ TEST(Stricter, goes_back_as_the_values_came) {
     EXPECT_EQ(strictest(study, -2)[0].value, "64");
 }
 
-TEST(Stricter, settings_beside_the_ladder_are_odd_for_even) {
+TEST(Stricter, other_settings_switch_between_odd_and_even) {
     Study study;
     study.series = series_of({{"S", {"A", "B"}}, {"E", {"0.2", "0.1"}}, {"N", {"8", "16"}}});
     EXPECT_THAT(beside(study, 1, false),
@@ -211,14 +211,14 @@ TEST(Stricter, settings_beside_the_ladder_are_odd_for_even) {
     EXPECT_EQ(beside(study, 2, false)[0].value, "1"); // nothing is stricter
 }
 
-TEST(Stricter, all_axes_of_a_command_line_go_on) {
+TEST(Stricter, all_axes_of_a_command_line_are_extrapolated) {
     Study study;
     study.series = series_of({{"A", {"1", "2"}}, {"B", {"0.1", "0.01"}}});
     EXPECT_THAT(strictest(study, 0), ElementsAre(Setting{"A", "2"}, Setting{"B", "0.01"}));
     EXPECT_THAT(strictest(study, 1), ElementsAre(Setting{"A", "4"}, Setting{"B", "0.001"}));
 }
 
-TEST(Stricter, named_references_go_on_in_the_direction_of_their_axis) {
+TEST(Stricter, named_references_are_extrapolated_along_their_axis) {
     Study study;
     study.series = series_of({{"N", {"16", "32"}}});
     study.reference = {{"N", "256"}, {"SOLVER", "BEST"}};

@@ -1,4 +1,4 @@
-// What `tune` turns, what it measures next, and what it chooses.
+// The knobs that `tune` changes, the points that it measures next, and the one that it chooses.
 #include "lab/tune.hpp"
 #include "support/scene_of.hpp"
 
@@ -32,7 +32,7 @@ std::vector<std::string> names(const QualitySettings& settings) {
     return names;
 }
 
-TEST(QualitySettings, of_a_march_are_known_by_their_use) {
+TEST(QualitySettings, of_a_march_are_found_by_their_use) {
     const auto settings = found_in("#define N 64\n#define NEAR 0.001\n#define BALLS 7\n"
                                    "float f() {\n"
                                    "    float t = 0.0;\n"
@@ -55,7 +55,7 @@ TEST(QualitySettings, of_a_march_are_known_by_their_use) {
     EXPECT_EQ(settings.found[1].axis.values[settings.found[1].own], "0.001");
 }
 
-TEST(QualitySettings, that_change_nothing_of_what_is_compiled_are_left) {
+TEST(QualitySettings, without_effect_on_the_compiled_text_are_left_out) {
     const std::string text = "#define SOLVER 1\n#define STEPS 64\n#define EPSILON 0.001\n"
                              "void mainImage(out vec4 c, in vec2 p) {\n"
                              "    float t = 0.0;\n"
@@ -90,7 +90,7 @@ QualitySettings found_in_march(const std::string& head, const std::string& test,
                     4, 5, 20.0);
 }
 
-TEST(QualitySettings, of_a_march_need_no_names) {
+TEST(QualitySettings, of_a_march_may_be_literals) {
     const auto settings = found_in_march("int i = 0; i < 64 && t < 20.0; i++", "d < 0.001", "t += d * 0.5;");
     EXPECT_THAT(names(settings), ElementsAre(HasSubstr(":3:25"), HasSubstr(":4:39"), HasSubstr(":5:18")));
     EXPECT_EQ(settings.found[0].axis.values[settings.found[0].own], "64");
@@ -101,13 +101,13 @@ TEST(QualitySettings, of_a_march_need_no_names) {
         EXPECT_TRUE(each.march);
 }
 
-TEST(QualitySettings, without_a_name_and_not_the_only_ones_are_left) {
+TEST(QualitySettings, ambiguous_literals_are_left_out) {
     EXPECT_THAT(names(found_in_march("int i = 0; i < 64 && k < 32; i++", "d < 0.001 || h < 0.002",
                                      "t += 0.5 * d * 0.9;")),
                 IsEmpty());
 }
 
-TEST(Setting, a_number_without_a_name_is_called_by_its_place) {
+TEST(Setting, a_literal_is_named_by_its_place) {
     const scene::Scene scene = scene_of("float a = 1.5 + 2.5;\nfloat b = 2.5;\n");
     const std::string file = scene.image().text.lines().locate(1).file;
     EXPECT_EQ(value_of(scene, file + ":1:17"), "2.5");
@@ -119,7 +119,7 @@ TEST(Setting, a_number_without_a_name_is_called_by_its_place) {
     EXPECT_FALSE(with(scene, {{file + ":9:1", "1"}}));
 }
 
-TEST(QualitySettings, elsewhere_are_known_by_their_names_too) {
+TEST(QualitySettings, outside_a_march_are_found_by_name) {
     const auto settings =
         found_in("#define SAMPLES 5\nconst float EPSILON = 0.01;\n#define LINE 0.02\n#define STEP_SCALE 0.7\n"
                  "#define FOG 0.5\n"
@@ -133,7 +133,7 @@ TEST(QualitySettings, elsewhere_are_known_by_their_names_too) {
     EXPECT_FALSE(settings.found[0].march);
 }
 
-TEST(QualitySettings, are_no_counts_that_define_the_picture) {
+TEST(QualitySettings, exclude_counts_that_define_the_picture) {
     const auto settings = found_in("#define OCTAVES 5\n#define ITERATIONS 12\n"
                                    "float f(float t) {\n"
                                    "    for (int i = 0; i < OCTAVES; i++) t *= 2.0;\n"
@@ -144,7 +144,7 @@ TEST(QualitySettings, are_no_counts_that_define_the_picture) {
     EXPECT_THAT(settings.left, ElementsAre("OCTAVES", "ITERATIONS"));
 }
 
-TEST(QualitySettings, of_loops_that_look_like_marches_are_found_without_analysis) {
+TEST(QualitySettings, of_march_like_loops_are_found_without_analysis) {
     const auto settings =
         found_in("#define LAYERS 70\n"
                  "float field(vec3 p) { return length(p) - 1.0; }\n"
@@ -167,7 +167,7 @@ TEST(QualitySettings, of_loops_that_look_like_marches_are_found_without_analysis
     EXPECT_TRUE(settings.found[0].march);
 }
 
-TEST(QualitySettings, are_no_texts_and_no_numbers_out_of_range) {
+TEST(QualitySettings, exclude_expressions_and_numbers_out_of_range) {
     EXPECT_THAT(
         names(found_in("#define STEPS (2 * 32)\n#define EPS 4.0\n#define MAX_STEPS 0\n"
                        "float f(float t) { for (int i = 0; i < STEPS && i < MAX_STEPS; i++) t *= 2.0;\n"
@@ -175,7 +175,7 @@ TEST(QualitySettings, are_no_texts_and_no_numbers_out_of_range) {
         IsEmpty());
 }
 
-TEST(QualitySettings, take_a_person_s_values) {
+TEST(QualitySettings, take_the_users_values) {
     const scene::Scene scene = scene_of("#define STEPS 64\n");
     const QualitySetting own = quality_setting(scene, {"STEPS", {"32", "64", "128"}});
     EXPECT_EQ(own.own, 1U);
@@ -221,7 +221,7 @@ QualitySetting setting(const std::string& name, std::vector<std::string> values,
     return {.axis = {name, std::move(values)}, .own = own};
 }
 
-TEST(Candidates, combine_what_saves_time_within_the_error) {
+TEST(Candidates, combine_faster_settings_within_the_error) {
     Explored explored;
     explored.set.study = {};
     explored.add({{"A", "1"}}, 5, 0.02);
@@ -235,7 +235,7 @@ TEST(Candidates, combine_what_saves_time_within_the_error) {
         EXPECT_NE(each, (std::vector<Setting>{{"A", "4"}, {"B", "1"}, {"A", "1"}}));
 }
 
-TEST(Candidates, of_a_time_are_around_it) {
+TEST(Candidates, for_a_time_limit_are_near_the_limit) {
     Explored explored;
     explored.add({{"A", "4"}}, 20, 0.001);
     explored.add({{"A", "8"}}, 40, 0.0001);
@@ -244,7 +244,7 @@ TEST(Candidates, of_a_time_are_around_it) {
     EXPECT_THAT(found, testing::Contains(ElementsAre(Setting{"A", "4"})));
 }
 
-TEST(BestBy, keeps_the_error_even_if_the_truth_s_own_is_against_it) {
+TEST(BestBy, adds_the_references_error_to_the_point) {
     Explored explored;
     explored.set.picture_standard.uncertainty = 0.001;
     explored.add({{"A", "1"}}, 4, 0.0195);
@@ -257,7 +257,7 @@ TEST(BestBy, keeps_the_error_even_if_the_truth_s_own_is_against_it) {
     EXPECT_EQ(best_by(explored.set, {}), &explored.set.points[3]);
 }
 
-TEST(BestBy, decides_where_the_truth_s_own_error_allows_it) {
+TEST(BestBy, decides_within_the_references_error) {
     Explored explored;
     explored.set.picture_standard.uncertainty = 0.008; // most of the allowed error
     explored.set.points.front().all.picture.samples.rmse = 0.0005;
@@ -269,7 +269,7 @@ TEST(BestBy, decides_where_the_truth_s_own_error_allows_it) {
     EXPECT_LT(least_error(explored.set, explored.set.points[1], Measure::rmse), 0.01);
 }
 
-TEST(BestBy, keeps_the_error_in_every_view_with_room_for_others) {
+TEST(BestBy, keeps_the_error_in_every_view_with_a_margin) {
     Explored explored;
     explored.set.picture_standard.uncertainty = 0;
     WorkPrecision& uneven = explored.add({{"A", "1"}}, 4, 0.008);
@@ -280,7 +280,7 @@ TEST(BestBy, keeps_the_error_in_every_view_with_room_for_others) {
     EXPECT_EQ(best_by(explored.set, {Measure::rmse, 0.01, {}}), &explored.set.points.front());
 }
 
-TEST(BestBy, is_never_the_scene_s_own_setting) {
+TEST(BestBy, is_never_the_unchanged_scene) {
     Explored explored;
     explored.set.picture_standard.uncertainty = 0;
     explored.add({{"A", "2"}}, 4, 0.01).own = true;
@@ -306,7 +306,7 @@ TEST(Rank, is_by_wrong_rays_first) {
     EXPECT_TRUE(no_more_wrong(set, set.points[1].all, set.points[0].all));
 }
 
-TEST(BestBy, of_a_time_is_the_most_exact_within_it) {
+TEST(BestBy, for_a_time_limit_is_the_most_exact_point) {
     Explored explored;
     explored.add({{"A", "1"}}, 4, 0.02);
     explored.add({{"A", "4"}}, 15, 0.001);
@@ -315,7 +315,7 @@ TEST(BestBy, of_a_time_is_the_most_exact_within_it) {
     EXPECT_EQ(best_by(explored.set, {Measure::rmse, {}, 1.0}), nullptr);
 }
 
-TEST(BestBy, says_nothing_of_points_without_an_error) {
+TEST(BestBy, skips_points_without_an_error) {
     Explored explored;
     explored.set.picture_standard.uncertainty = 0;
     explored.add({{"A", "1"}}, 4, std::nan(""));
@@ -324,7 +324,7 @@ TEST(BestBy, says_nothing_of_points_without_an_error) {
     EXPECT_EQ(best_by(explored.set, {Measure::rmse, 0.02, {}}), &explored.set.points.front());
 }
 
-TEST(Blur, is_a_truth_that_cannot_tell) {
+TEST(Blur, names_a_too_uncertain_reference) {
     Explored explored;
     EXPECT_THAT(blur_of(explored.set, Measure::rmse, 0.01), HasSubstr("unknown"));
     explored.set.picture_standard.uncertainty = 0.012;

@@ -21,7 +21,7 @@ std::string turned_to(const TurnableScene& turnable, const std::vector<Setting>&
     return values;
 }
 
-TEST(TurnableScene, numbers_of_a_text_become_uniforms_of_their_kind) {
+TEST(TurnableScene, literals_become_uniforms_of_their_type) {
     const std::vector<Setting> settings{{"N", "64"}, {"NEAR", "0.001"}, {"FAR", "50.0"}};
     const auto turnable = TurnableScene::create(scene_of("#define N 32\n"
                                                          "const float NEAR = 0.01, FAR = 50.0;\n"
@@ -37,7 +37,7 @@ TEST(TurnableScene, numbers_of_a_text_become_uniforms_of_their_kind) {
     EXPECT_EQ(turned_to(*turnable, {{"N", "128"}, {"NEAR", "5e-4"}, {"FAR", "50.0"}}), "128;0.0005;50;");
 }
 
-TEST(TurnableScene, a_number_without_a_name_and_a_knob_are_turned_too) {
+TEST(TurnableScene, unnamed_literals_and_knobs_become_uniforms) {
     const auto scene = scene_of("#iUniform float pace = 1.0 in { 0.0, 2.0 }\n"
                                 "float f() { for (int i = 0; i < 80; i++) g(pace); }\n");
     const std::string place = scene.image().text.lines().locate(2).file + ":2:33";
@@ -47,7 +47,7 @@ TEST(TurnableScene, a_number_without_a_name_and_a_knob_are_turned_too) {
     EXPECT_EQ(turned_to(*turnable, {{place, "160"}, {"pace", "0.5"}}), "0.5;160;");
 }
 
-TEST(TurnableScene, what_a_branch_of_the_preprocessor_depends_on_is_another_program) {
+TEST(TurnableScene, values_used_by_the_preprocessor_need_another_program) {
     const std::string text = "#define N 3\n"
                              "#if N > 4\n"
                              "float f() { return 1.0; }\n"
@@ -60,7 +60,7 @@ TEST(TurnableScene, what_a_branch_of_the_preprocessor_depends_on_is_another_prog
     EXPECT_EQ(turned_to(*turnable, {{"N", "5"}}), "");
 }
 
-TEST(TurnableScene, another_solver_or_another_kind_of_number_is_another_program) {
+TEST(TurnableScene, another_solver_or_number_type_needs_another_program) {
     const auto turnable = TurnableScene::create(scene_of("#define SOLVER a\n"
                                                          "#define N 3\n"
                                                          "float f() { return SOLVER(N); }\n"),
@@ -73,7 +73,7 @@ TEST(TurnableScene, another_solver_or_another_kind_of_number_is_another_program)
     EXPECT_EQ(turned_to(*turnable, {{"SOLVER", "b"}}), "") << "the scene's own number is no uniform";
 }
 
-TEST(TurnableScene, a_name_that_is_not_there_is_an_error) {
+TEST(TurnableScene, unknown_names_are_errors) {
     EXPECT_FALSE(TurnableScene::create(scene_of("float f() { return 1.0; }\n"), {{"N", "3"}}));
 }
 

@@ -17,7 +17,7 @@ Image with_bits(Extent extent, int channels, std::initializer_list<std::pair<siz
     return image;
 }
 
-TEST(Census, ordinary_numbers_are_nothing_to_report) {
+TEST(Census, ordinary_numbers_are_not_counted) {
     // zeros, the smallest and largest normal numbers, and their negatives
     const FiniteCensus found = census(with_bits({3, 2}, 1,
                                                 {{0, 0x00000000u},
@@ -49,7 +49,7 @@ TEST(Census, every_kind_is_counted_by_its_bits) {
     EXPECT_EQ(found.first_non_finite, (SamplePlace{2, 0, 1}));
 }
 
-TEST(Census, what_no_half_can_hold_is_counted_apart) {
+TEST(Census, values_beyond_half_floats_are_counted_separately) {
     const FiniteCensus found = census(with_bits({4, 1}, 1,
                                                 {{0, 0x477fe000u}, // 65504, the largest half
                                                  {1, 0x477fefffu}, // just below the middle: rounded down

@@ -17,15 +17,15 @@ TEST(CodecLoader, finds_the_plug_in_of_this_build) {
 }
 
 /// Runs in a process of its own, below: it leaves while the libraries are still being loaded.
-TEST(CodecLoader, DISABLED_leaves_during_the_preload) {
+TEST(CodecLoader, DISABLED_exits_during_the_preload) {
     const std::jthread loading = preload_picture_codec("later.exr");
 }
 
-TEST_F(CodecLoaderTest, a_process_may_leave_during_the_preload) {
+TEST_F(CodecLoaderTest, a_process_may_exit_during_the_preload) {
     const std::string log = in_folder("log").string();
     const std::string command =
         "exec " + fs::read_symlink("/proc/self/exe").string() +
-        " --gtest_also_run_disabled_tests --gtest_filter=CodecLoader.DISABLED_leaves_during_the_preload >" +
+        " --gtest_also_run_disabled_tests --gtest_filter=CodecLoader.DISABLED_exits_during_the_preload >" +
         log + " 2>&1";
     for (int round = 0; round < 3; ++round) {
         const int status = std::system(command.c_str());

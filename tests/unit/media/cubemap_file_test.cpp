@@ -17,8 +17,8 @@ using Vector = std::array<double, 3>;
 
 const std::array<std::string, 6> k_names = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
 
-// What a texel sees, from ShaderToy's own table: the direction at uv is the bilinear mix of those at the
-// corners A (0,0), B (1,0), C (1,1), D (0,1) of a face.
+// The direction of a texel by ShaderToy's own table: at uv it is the bilinear mix of those at the corners A
+// (0,0), B (1,0), C (1,1), D (0,1) of a face.
 constexpr Vector k_corners[6][4] = {
     {{1, 1, 1}, {1, 1, -1}, {1, -1, -1}, {1, -1, 1}}, {{-1, 1, -1}, {-1, 1, 1}, {-1, -1, 1}, {-1, -1, -1}},
     {{-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}}, {{-1, -1, 1}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}},
@@ -97,7 +97,7 @@ Image cross(const CubeFaces& faces, bool tall) {
     return picture;
 }
 
-TEST(CubemapFile, crosses_are_unfolded_cubes_and_give_the_faces_back) {
+TEST(CubemapFile, crosses_are_unfolded_cubes_and_return_the_faces) {
     const CubeFaces faces = compass(16);
     for (const bool tall : {false, true}) {
         Image picture = cross(faces, tall);
@@ -149,7 +149,7 @@ Image compass_panorama(Extent size) {
     return panorama;
 }
 
-TEST(CubemapFile, a_panorama_shows_every_direction_where_samplerCube_looks_for_it) {
+TEST(CubemapFile, a_panorama_matches_the_directions_of_samplerCube) {
     const Result<CubeFaces> cube = cube_of_picture(compass_panorama({512, 256}));
     ASSERT_TRUE(cube);
     const CubeFaces wanted = compass(128);
@@ -157,7 +157,7 @@ TEST(CubemapFile, a_panorama_shows_every_direction_where_samplerCube_looks_for_i
         EXPECT_LT(largest_difference((*cube)[face], wanted[face]), 0.015) << face;
 }
 
-TEST(CubemapFile, the_panorama_of_a_cube_shows_its_directions_and_has_no_seams) {
+TEST(CubemapFile, the_panorama_of_a_cube_matches_its_directions_without_seams) {
     const Image panorama = equirectangular_of(compass(64), {256, 128});
     EXPECT_LT(largest_difference(panorama, compass_panorama({256, 128})), 0.005);
 }
@@ -180,7 +180,7 @@ TEST(CubemapFile, the_middle_of_a_panorama_is_minus_z_and_right_of_it_is_plus_x)
     EXPECT_EQ(at(20, 0), 3);  // -Y
 }
 
-TEST(CubemapFile, there_and_back_keeps_a_panorama) {
+TEST(CubemapFile, conversion_to_faces_and_back_keeps_a_panorama) {
     Image picture({256, 128}, 3, SampleType::u8);
     const Image directions = compass_panorama(picture.extent);
     for (size_t i = 0; i < picture.samples(); ++i)
@@ -192,7 +192,7 @@ TEST(CubemapFile, there_and_back_keeps_a_panorama) {
     EXPECT_LE(largest, 2);
 }
 
-TEST(CubemapFile, vflip_shows_in_a_direction_what_its_mirror_image_showed) {
+TEST(CubemapFile, vflip_mirrors_directions_vertically) {
     const CubeFaces flipped_faces = vflipped(compass(32));
     CubeFaces wanted = compass(32);
     for (Image& face : wanted)
@@ -211,7 +211,7 @@ TEST(CubemapFile, infinities_of_a_panorama_stay_where_they_are) {
         EXPECT_FALSE(std::isnan(sample));
 }
 
-TEST(CubemapFile, faces_that_differ_in_kind_are_made_alike) {
+TEST(CubemapFile, faces_of_different_types_are_converted) {
     CubeFaces pictures;
     pictures.fill(patterned_u8({4, 4}, 3));
     pictures[2] = patterned_u8({4, 4}, 1);
@@ -237,7 +237,7 @@ TEST(CubemapFile, faces_that_differ_in_kind_are_made_alike) {
 
 class CubemapFiles : public PictureTest {};
 
-TEST_F(CubemapFiles, six_files_or_one) {
+TEST_F(CubemapFiles, are_read_from_one_file_or_six) {
     std::vector<fs::path> files;
     for (int face = 0; face < 6; ++face) {
         files.push_back(in_folder("f" + std::to_string(face) + ".exr"));
@@ -251,7 +251,7 @@ TEST_F(CubemapFiles, six_files_or_one) {
     EXPECT_EQ(*read_cubemap({in_folder("cross.exr")}), *six);
 }
 
-TEST_F(CubemapFiles, what_is_wrong_is_said) {
+TEST_F(CubemapFiles, errors_are_reported) {
     const auto message = [](const std::vector<fs::path>& files) {
         const Result<CubeFaces> cube = read_cubemap(files);
         return cube ? "no error" : cube.error().message;

@@ -33,7 +33,7 @@ TEST(Fft, is_the_discrete_fourier_transform) {
     }
 }
 
-TEST(Fft, of_one_impulse_is_flat_and_of_a_turn_one_line) {
+TEST(Fft, impulse_has_a_flat_spectrum_and_an_exponential_one_line) {
     std::vector<Complex> x(64);
     x[0] = 1.0;
     transform(x);

@@ -10,7 +10,7 @@ std::string refusal(FileFormat format, const std::string& file) {
     return checked ? "" : checked.error();
 }
 
-TEST(FileCheck, formats_are_told_by_their_first_bytes) {
+TEST(FileCheck, formats_are_detected_by_their_first_bytes) {
     EXPECT_EQ(format_of(k_png_signature, "a"), FileFormat::png);
     EXPECT_EQ(format_of("\xff\xd8\xff\xe0"s, "a.png"), FileFormat::jpeg);
     EXPECT_EQ(format_of("II*\0"s, "a"), FileFormat::tiff);
@@ -28,7 +28,7 @@ TEST(FileCheck, formats_are_told_by_their_first_bytes) {
         EXPECT_EQ(format_of(other, "a.png"), std::nullopt) << other;
 }
 
-TEST(FileCheck, a_png_keeps_the_chunks_that_make_samples) {
+TEST(FileCheck, a_png_keeps_the_chunks_that_define_samples) {
     const std::string sober = hand_made_png(1, 1, 8, 0, "\0x"s, png_chunk("tRNS", "\0\1"s));
     const std::string chatty =
         hand_made_png(1, 1, 8, 0, "\0x"s,
@@ -38,7 +38,7 @@ TEST(FileCheck, a_png_keeps_the_chunks_that_make_samples) {
     EXPECT_EQ(checked_file(FileFormat::png, sober), sober);
 }
 
-TEST(FileCheck, a_png_with_a_chunk_that_must_be_understood_is_refused) {
+TEST(FileCheck, a_png_with_an_unknown_critical_chunk_is_refused) {
     EXPECT_EQ(refusal(FileFormat::png, hand_made_png(1, 1, 8, 0, "\0x"s, png_chunk("QQQQ", "?"))),
               "it has an unknown kind of PNG chunk");
     const std::string palette = png_chunk("PLTE", "abc");
@@ -46,7 +46,7 @@ TEST(FileCheck, a_png_with_a_chunk_that_must_be_understood_is_refused) {
               "it has more than one palette");
 }
 
-TEST(FileCheck, a_jpeg_is_followed_from_marker_to_marker_to_its_end) {
+TEST(FileCheck, a_jpeg_is_checked_marker_by_marker) {
     const std::string start = "\xff\xd8"s, frame = "\xff\xc0\0\x0b\x08\0\x10\0\x20\1\1\x11\0"s,
                       scan = "\xff\xda\0\x08\1\1\0\0\x3f\0"s, data = "ab\xff\0cd\xff\xd0xy"s,
                       end = "\xff\xd9"s;

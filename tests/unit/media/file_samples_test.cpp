@@ -1,6 +1,7 @@
 #include "media/file_samples.hpp"
 #include "picture_support.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -40,7 +41,7 @@ TEST(FileSamples, a_byte_becomes_the_same_fraction_of_any_depth) {
     EXPECT_EQ(file_samples(all_bytes(), SampleDepth::u8), all_bytes().bytes);
 }
 
-TEST(FileSamples, every_integer_survives_the_way_through_float) {
+TEST(FileSamples, every_integer_survives_conversion_to_float) {
     Image image({65536, 1}, 1, SampleType::f32);
     for (size_t i = 0; i < 65536; ++i)
         image.f32()[i] = float(i) / 65535.0f;
@@ -71,7 +72,7 @@ TEST(FileSamples, floats_to_floats_are_the_same_bytes) {
     EXPECT_EQ(file_samples(image, SampleDepth::f32), image.bytes);
 }
 
-TEST(FileSamples, radiance_gets_three_channels_of_what_it_can_hold) {
+TEST(FileSamples, radiance_gets_three_clamped_channels) {
     constexpr float inf = std::numeric_limits<float>::infinity(),
                     nan = std::numeric_limits<float>::quiet_NaN();
     const Image repeated = radiance_samples(grey({0.25f, -1.0f, nan, inf}));
@@ -84,6 +85,28 @@ TEST(FileSamples, radiance_gets_three_channels_of_what_it_can_hold) {
     for (size_t pixel = 0; pixel < 4; ++pixel)
         for (size_t channel = 0; channel < 3; ++channel)
             EXPECT_EQ(colours.f32()[3 * pixel + channel], float(image.u8()[4 * pixel + channel]) / 255.0f);
+}
+
+TEST(WithChannels, grey_is_repeated_and_a_missing_alpha_is_1) {
+    Image bytes({2, 1}, 1, SampleType::u8);
+    std::ranges::copy(std::array<uint8_t, 2>{51, 204}, bytes.u8().begin());
+    const auto in_bytes = [](const Image& image) {
+        return std::vector<int>(image.u8().begin(), image.u8().end());
+    };
+    EXPECT_EQ(with_channels(bytes, 1), bytes);
+    EXPECT_EQ(in_bytes(with_channels(bytes, 2)), (std::vector{51, 255, 204, 255}));
+    EXPECT_EQ(in_bytes(with_channels(bytes, 3)), (std::vector{51, 51, 51, 204, 204, 204}));
+    EXPECT_EQ(in_bytes(with_channels(bytes, 4)), (std::vector{51, 51, 51, 255, 204, 204, 204, 255}));
+    Image translucent({1, 1}, 2, SampleType::f32);
+    std::ranges::copy(std::array{0.5F, 0.25F}, translucent.f32().begin());
+    const Image wide = with_channels(translucent, 4);
+    EXPECT_EQ(std::vector<float>(wide.f32().begin(), wide.f32().end()),
+              (std::vector{0.5F, 0.5F, 0.5F, 0.25F}));
+    Image colour({1, 1}, 3, SampleType::f32);
+    std::ranges::copy(std::array{1.0F, 2.0F, -3.0F}, colour.f32().begin());
+    const Image opaque = with_channels(colour, 4);
+    EXPECT_EQ(std::vector<float>(opaque.f32().begin(), opaque.f32().end()),
+              (std::vector{1.0F, 2.0F, -3.0F, 1.0F}));
 }
 
 } // namespace tidemark::image::file_samples_test

@@ -5,7 +5,7 @@
 
 namespace tidemark::image::image_test {
 
-TEST(Image, flipped_exchanges_rows_and_keeps_their_order_inside) {
+TEST(Image, flipped_reverses_the_rows_only) {
     Image image({2, 3}, 1, SampleType::u8);
     std::ranges::copy(std::initializer_list<uint8_t>{1, 2, 3, 4, 5, 6}, image.u8().begin());
     const Image turned = flipped(image);
@@ -50,7 +50,7 @@ TEST(Image, cropped_keeps_the_pixels_of_the_part) {
             }
 }
 
-TEST(Image, alpha_is_opaque_when_every_pixel_has_one) {
+TEST(Image, alpha_is_opaque_if_it_is_1_everywhere) {
     for (const int channels : {2, 4}) {
         Image bytes = opaque(patterned_u8({3, 3}, channels));
         EXPECT_TRUE(has_opaque_alpha(bytes));

@@ -22,7 +22,7 @@ std::vector<float> mean_of(bool clamped, const std::vector<Image>& pictures) {
 }
 
 /// IEC 61966-2-1: half the light of white is the sample 0.7354.
-TEST(LightMean, adds_light_and_not_samples) {
+TEST(LightMean, averages_linear_light) {
     const auto half = mean_of(true, {pixel(1, 0, 0.5f, 1), pixel(0, 0, 0.5f, 1)});
     EXPECT_NEAR(half[0], 0.735357, 1e-6);
     EXPECT_EQ(half[1], 0);
@@ -30,21 +30,21 @@ TEST(LightMean, adds_light_and_not_samples) {
     EXPECT_EQ(half[3], 1);
 }
 
-TEST(LightMean, a_colour_counts_as_much_as_it_covers) {
+TEST(LightMean, colours_are_weighted_by_coverage) {
     const auto edge = mean_of(true, {pixel(1, 0, 0.5f, 1), pixel(0, 1, 0, 0)});
-    EXPECT_EQ(edge, (std::vector<float>{1, 0, edge[2], 0.5f})); // alpha is no light
+    EXPECT_EQ(edge, (std::vector<float>{1, 0, edge[2], 0.5f})); // alpha is not light
     EXPECT_NEAR(edge[2], 0.5, 1e-7);
     EXPECT_NEAR(mean_of(true, {pixel(1, 0, 0, 0.75f), pixel(0, 0, 0, 0.25f)})[0], srgb_of_light(0.75), 1e-6);
     EXPECT_EQ(mean_of(true, {pixel(1, 1, 1, 0), pixel(1, 1, 1, 0)}), (std::vector<float>{0, 0, 0, 0}));
 }
 
-TEST(LightMean, of_what_a_display_shows_is_clamped_sample_by_sample) {
+TEST(LightMean, display_values_are_clamped_sample_by_sample) {
     EXPECT_NEAR(mean_of(true, {pixel(9, -3, 0, 1), pixel(0, 0, 0, 1)})[0], 0.735357, 1e-6);
     EXPECT_GT(mean_of(false, {pixel(9, -3, 0, 1), pixel(0, 0, 0, 1)})[0], 5);
     EXPECT_LT(mean_of(false, {pixel(9, -3, 0, 1), pixel(0, 0, 0, 1)})[1], -2);
 }
 
-TEST(LightMean, keeps_what_is_no_number) {
+TEST(LightMean, keeps_non_finite_values) {
     const float nan = std::numeric_limits<float>::quiet_NaN(),
                 infinity = std::numeric_limits<float>::infinity();
     const auto mean = mean_of(true, {pixel(nan, infinity, 0, 1), pixel(0, 0, 0, 1)});
@@ -53,7 +53,7 @@ TEST(LightMean, keeps_what_is_no_number) {
     EXPECT_TRUE(std::isnan(mean_of(true, {pixel(nan, 0, 0, 0)})[0]));
 }
 
-TEST(Transfer, goes_there_and_back) {
+TEST(Transfer, inverse_returns_the_sample) {
     for (double sample = -2; sample < 3; sample += 0.01)
         EXPECT_NEAR(srgb_of_light(light_of_srgb(sample)), sample, 1e-4); // the standard's halves meet to 3e-5
     EXPECT_EQ(light_of_srgb(1), 1);

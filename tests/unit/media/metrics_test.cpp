@@ -28,7 +28,7 @@ TEST(Metrics, equal_pictures_have_no_difference_and_infinite_psnr) {
     }
 }
 
-TEST(Metrics, one_step_of_a_byte_is_exactly_one_255th) {
+TEST(Metrics, difference_of_one_byte_step_is_one_255th) {
     Image left({2, 2}, 3, SampleType::u8), right = left;
     left.u8()[4] = 200; // pixel 1
     right.u8()[4] = 201;
@@ -41,7 +41,7 @@ TEST(Metrics, one_step_of_a_byte_is_exactly_one_255th) {
     EXPECT_FALSE(found->equal());
 }
 
-TEST(Metrics, psnr_has_a_peak_of_one) {
+TEST(Metrics, psnr_has_a_peak_of_1) {
     const auto found = compare(grey({0.5f, 0.5f}), grey({0.25f, 0.75f}));
     ASSERT_TRUE(found);
     EXPECT_EQ(found->rmse, 0.25);
@@ -58,7 +58,7 @@ TEST(Metrics, a_pixel_differs_once_however_many_of_its_samples_do) {
     EXPECT_EQ(compare(left, right)->differing, 1u);
 }
 
-TEST(Metrics, a_byte_equals_the_float_that_a_file_makes_of_it) {
+TEST(Metrics, a_byte_equals_its_float_in_a_file) {
     Image bytes({256, 1}, 1, SampleType::u8), floats({256, 1}, 1, SampleType::f32);
     for (size_t i = 0; i < 256; ++i) {
         bytes.u8()[i] = uint8_t(i);
@@ -72,7 +72,7 @@ TEST(Metrics, a_byte_equals_the_float_that_a_file_makes_of_it) {
     EXPECT_EQ(found->rmse, compare(floats, bytes)->rmse);
 }
 
-TEST(Metrics, nan_equals_nan_and_an_infinity_its_like) {
+TEST(Metrics, nan_equals_nan_and_infinity_equals_infinity) {
     const auto found = compare(grey({k_nan, k_inf, -k_inf, 1.0f}), grey({-k_nan, k_inf, -k_inf, 1.0f}));
     ASSERT_TRUE(found);
     EXPECT_TRUE(found->equal());
@@ -81,7 +81,7 @@ TEST(Metrics, nan_equals_nan_and_an_infinity_its_like) {
     EXPECT_EQ(found->one_non_finite, 0u);
 }
 
-TEST(Metrics, any_other_non_finite_pair_poisons_the_mean_and_leaves_the_maximum) {
+TEST(Metrics, other_non_finite_pairs_make_the_mean_nan_and_keep_the_maximum) {
     for (const auto& [left, right] : {std::pair{k_nan, 0.0f},
                                       {0.0f, k_nan},
                                       {k_inf, 0.0f},
@@ -101,11 +101,11 @@ TEST(Metrics, any_other_non_finite_pair_poisons_the_mean_and_leaves_the_maximum)
     }
 }
 
-TEST(Metrics, the_sign_of_zero_is_no_difference) {
+TEST(Metrics, the_sign_of_zero_is_ignored) {
     EXPECT_TRUE(compare(grey({0.0f}), grey({-0.0f}))->equal());
 }
 
-TEST(Metrics, the_smallest_difference_is_one) {
+TEST(Metrics, the_smallest_float_difference_counts) {
     const auto found = compare(grey({0.0f}), grey({0x1p-149f}));
     EXPECT_EQ(found->differing, 1u);
     EXPECT_EQ(found->largest, 0x1p-149);

@@ -69,7 +69,7 @@ std::vector<std::complex<double>> transformed_rows(const std::vector<std::comple
 /// has 1 everywhere.
 class PowerSpectrum {
 public:
-    /// Of the first k_tile² texels of a picture.
+    /// Takes the first k_tile² texels of a picture.
     PowerSpectrum(const Image& image, int channel) {
         std::vector<std::complex<double>> tile;
         for (int y = 0; y < k_tile; ++y)
@@ -104,7 +104,7 @@ const Image& blue_noise() {
     return noise;
 }
 
-TEST(NoiseKinds, have_the_shapes_of_the_textures_they_stand_for) {
+TEST(NoiseKinds, have_the_shapes_of_shadertoys_textures) {
     const auto expect = [](NoiseTexture kind, int side, int channels) {
         const Image image = make_noise(kind);
         EXPECT_EQ(image.extent, (Extent{side, side}));
@@ -120,7 +120,7 @@ TEST(NoiseKinds, have_the_shapes_of_the_textures_they_stand_for) {
     expect(NoiseTexture::bayer_8, 8, 1);
 }
 
-TEST(NoiseKinds, rgba_256_is_the_noise_of_before) {
+TEST(NoiseKinds, rgba_256_is_the_default_noise) {
     EXPECT_EQ(make_noise(NoiseTexture::rgba_256), make_noise());
     EXPECT_EQ(make_noise(NoiseTexture::rgba_256, 5), make_noise(5));
 }
@@ -153,7 +153,7 @@ TEST(NoiseKinds, bytes_are_uniform) {
             EXPECT_NEAR(chi_squared(plane_of(make_noise(kind), channel)), 255.0, 4.0 * 22.6);
 }
 
-TEST(NoiseKinds, grey_256_has_nothing_to_do_with_red) {
+TEST(NoiseKinds, grey_256_is_independent_of_red) {
     const std::vector<double> grey = plane_of(make_noise(NoiseTexture::grey_256), 0);
     for (int channel = 0; channel < 4; ++channel)
         EXPECT_LT(std::abs(correlation(grey, plane_of(make_noise(), channel))), 5.0 / 256.0);
@@ -170,7 +170,7 @@ TEST(NoiseKinds, bayer_has_the_standard_order) {
     EXPECT_EQ(bayer, make_noise(NoiseTexture::bayer_8, 7));
 }
 
-TEST(NoiseKinds, every_byte_is_as_frequent_as_any_other_in_blue_noise) {
+TEST(NoiseKinds, blue_noise_has_every_byte_equally_often) {
     const Image& noise = blue_noise();
     for (int channel = 0; channel < 4; ++channel)
         EXPECT_EQ(chi_squared(plane_of(noise, channel)), 0.0);
@@ -195,7 +195,7 @@ TEST(NoiseKinds, blue_noise_has_its_power_in_the_high_frequencies) {
         EXPECT_LT(blue.mean(0.0, 0.1), 0.001 * white.mean(0.0, 0.1));
         EXPECT_LT(blue.mean(0.1, 0.2), 0.01 * white.mean(0.1, 0.2));
         EXPECT_GT(blue.mean(0.4, 0.72), 1.3 * white.mean(0.4, 0.72));
-        // No lattice: the strongest ring of one texel's width is no peak
+        // No lattice: the strongest ring of one texel's width is not a peak
         for (double radius = 0.3; radius < 0.7; radius += 0.02)
             EXPECT_LT(blue.mean(radius, radius + 0.02), 4.0) << radius;
     }
@@ -208,7 +208,7 @@ TEST(NoiseKinds, channels_of_blue_noise_are_independent) {
             EXPECT_LT(std::abs(correlation(plane_of(noise, a), plane_of(noise, b))), 5.0 / 128.0);
 }
 
-TEST(NoiseKinds, volumes_are_uniform_and_the_grey_one_begins_the_other) {
+TEST(NoiseKinds, volumes_are_uniform_and_share_their_first_bytes) {
     const VolumeData grey = make_noise_volume(NoiseVolume::grey_32);
     const VolumeData rgba = make_noise_volume(NoiseVolume::rgba_32);
     for (const VolumeData* volume : {&grey, &rgba}) {
@@ -227,7 +227,7 @@ TEST(NoiseKinds, volumes_are_uniform_and_the_grey_one_begins_the_other) {
     EXPECT_TRUE(std::equal(grey.bytes.begin(), grey.bytes.end(), rgba.bytes.begin()));
 }
 
-TEST(NoiseKinds, a_seed_gives_its_bytes_again_and_another_seed_others) {
+TEST(NoiseKinds, a_seed_is_repeatable_and_seeds_differ) {
     for (const NoiseTexture kind :
          {NoiseTexture::rgba_64, NoiseTexture::grey_64, NoiseTexture::grey_256, NoiseTexture::blue_1024}) {
         EXPECT_EQ(make_noise(kind, 3), make_noise(kind, 3));

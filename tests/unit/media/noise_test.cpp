@@ -13,7 +13,7 @@ uint8_t in_file(const Image& noise, int x, int y, int channel) {
     return noise.u8()[size_t(4 * (256 * row + column) + channel)];
 }
 
-TEST(Noise, has_the_shape_of_the_texture_it_stands_for) {
+TEST(Noise, has_the_shape_of_shadertoys_texture) {
     const Image noise = make_noise();
     EXPECT_EQ(noise.extent, (Extent{256, 256}));
     EXPECT_EQ(noise.channels, 4);
@@ -77,7 +77,7 @@ TEST(Noise, the_first_bytes_are_those_of_the_mersenne_twister) {
         EXPECT_EQ(in_file(noise, (first + byte) % 256, (first + byte) / 256, 1), uint8_t(word >> (8 * byte)));
 }
 
-TEST(Noise, a_seed_gives_its_bytes_again_and_another_seed_others) {
+TEST(Noise, a_seed_is_repeatable_and_seeds_differ) {
     EXPECT_EQ(make_noise(), make_noise(k_noise_seed));
     EXPECT_NE(make_noise(1), make_noise(2));
 }

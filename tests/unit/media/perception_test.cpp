@@ -36,7 +36,7 @@ struct Published {
     double rmse, psnr, relative_mse, ssim, flip, largest_flip;
 };
 
-TEST(Perception, agrees_with_other_programs) {
+TEST(Perception, metrics_agree_with_other_programs) {
     for (const Published& expected :
          {Published{{64, 48}, 0.176935623954, 15.043694362, 5.7493247464, 0.6381734041, 0.2647986, 0.9757770},
           Published{{12, 11}, 0.055080278000, 25.180077529, 0.0925668330, 0.7602096234, 0.1350434, 0.3040418},
@@ -71,7 +71,7 @@ TEST(Perception, green_and_blue_are_as_far_apart_as_colours_get) {
     EXPECT_NEAR(flip(green, blue).mean, 1.0, 1e-9);
 }
 
-TEST(Perception, grey_is_three_equal_colours_and_alpha_is_not_seen) {
+TEST(Perception, grey_equals_three_equal_colours_and_alpha_is_ignored) {
     const Image grey = patterned_u8({24, 24}, 1);
     Image rgba({24, 24}, 4, SampleType::u8);
     for (size_t i = 0; i < grey.samples(); ++i)
@@ -100,7 +100,7 @@ TEST(Perception, a_nan_on_one_side_leaves_no_metric_that_could_pass) {
     EXPECT_EQ(both->samples.both_non_finite, 1u);
 }
 
-TEST(Perception, a_tolerance_changes_what_differs_and_nothing_else) {
+TEST(Perception, a_tolerance_changes_only_the_count_of_differing_pixels) {
     Image left({4, 1}, 1, SampleType::u8), right = left;
     right.u8()[1] = 16;
     right.u8()[2] = 17;

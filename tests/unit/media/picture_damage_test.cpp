@@ -1,4 +1,5 @@
-// Files that are no pictures, or no longer: one line of error each, nothing printed, nothing crashed.
+// Files that are not pictures, or damaged ones: each gives one line of error; nothing is printed, nothing
+// crashes.
 #include "media/picture_file.hpp"
 #include "picture_support.hpp"
 
@@ -38,7 +39,7 @@ protected:
     }
 };
 
-/// What the action prints on either stream.
+/// Returns what the action prints on either stream.
 std::string printed_by(const std::function<void()>& action) {
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
@@ -46,13 +47,13 @@ std::string printed_by(const std::function<void()>& action) {
     return testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr();
 }
 
-TEST_F(PictureDamage, what_is_no_file_is_said) {
+TEST_F(PictureDamage, missing_files_are_reported) {
     EXPECT_EQ(outcome_of(in_folder("none.png")), "no such file");
     EXPECT_EQ(outcome_of(folder()), "it is a directory");
     EXPECT_EQ(outcome("empty.png", ""), "the file is empty");
 }
 
-TEST_F(PictureDamage, what_is_no_picture_is_said) {
+TEST_F(PictureDamage, files_of_other_types_are_reported) {
     const std::string what = "it is not a PNG, JPEG, TIFF, EXR, HDR, BMP, WebP, PNM or TGA picture";
     EXPECT_EQ(outcome("text.png", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1); }"), what);
     EXPECT_EQ(outcome("one.jpg", "x"), what);
@@ -60,7 +61,7 @@ TEST_F(PictureDamage, what_is_no_picture_is_said) {
     EXPECT_EQ(outcome("riff.webp", std::string("RIFF\4\0\0\0WAVE", 12)), what);
 }
 
-TEST_F(PictureDamage, a_file_cut_anywhere_is_no_picture) {
+TEST_F(PictureDamage, a_truncated_file_is_refused) {
     for (const std::string name : {"a.png", "a.jpg", "a.tif", "a.exr", "a.hdr"}) {
         const std::string whole = written(name);
         ASSERT_EQ(outcome(name, whole), "");
@@ -82,7 +83,8 @@ std::string little_endian(uint64_t value, int bytes) {
     return text;
 }
 
-/// Of bytes, in two strips; the directory stands in front, so that a cut takes pixels and nothing else.
+/// Returns a TIFF of bytes in two strips. The directory comes first, so that cutting the file off removes
+/// only pixels.
 std::string hand_made_tiff(bool big) {
     constexpr uint64_t width = 16, height = 8;
     const int offset = big ? 8 : 4;
@@ -111,7 +113,7 @@ std::string hand_made_tiff(bool big) {
     return file;
 }
 
-TEST_F(PictureDamage, a_tiff_of_either_size_is_whole_or_no_picture) {
+TEST_F(PictureDamage, a_truncated_tiff_of_either_kind_is_refused) {
     for (const bool big : {false, true}) {
         const std::string whole = hand_made_tiff(big);
         const Result<Image> read = read_picture(put("a.tif", whole));
@@ -125,7 +127,7 @@ TEST_F(PictureDamage, a_tiff_of_either_size_is_whole_or_no_picture) {
 }
 
 /// One of each format that we read and do not write, uncompressed.
-TEST_F(PictureDamage, a_cut_file_of_the_simpler_formats_is_no_picture) {
+TEST_F(PictureDamage, a_truncated_file_of_a_simple_format_is_refused) {
     using namespace std::string_literals;
     const std::string pixels(4 * 3 * 3, 'x');
     const std::pair<std::string, std::string> files[] = {
@@ -145,7 +147,7 @@ TEST_F(PictureDamage, a_cut_file_of_the_simpler_formats_is_no_picture) {
     }
 }
 
-TEST_F(PictureDamage, the_words_for_a_cut_file) {
+TEST_F(PictureDamage, messages_for_truncated_files) {
     EXPECT_EQ(outcome("a.png", written("a.png").substr(0, 200)), "the file is damaged or cut short");
     EXPECT_EQ(outcome("a.jpg", written("a.jpg").substr(0, 400)), "the file is damaged or cut short");
     EXPECT_EQ(outcome("a.exr", written("a.exr").substr(0, 200)), "the file is damaged or cut short");
@@ -153,7 +155,7 @@ TEST_F(PictureDamage, the_words_for_a_cut_file) {
     EXPECT_EQ(outcome("a.exr", exr.substr(0, exr.size() - 8)), "Unexpected end of file");
 }
 
-TEST_F(PictureDamage, any_changed_byte_of_a_png_is_noticed) {
+TEST_F(PictureDamage, any_changed_byte_of_a_png_is_detected) {
     const std::string whole = written("a.png");
     const std::string printed = printed_by([&] {
         for (size_t at = 0; at < whole.size(); at += 3) {
@@ -186,7 +188,7 @@ TEST_F(PictureDamage, changed_bytes_neither_crash_nor_print) {
     }
 }
 
-TEST_F(PictureDamage, junk_behind_a_signature_neither_crashes_nor_prints) {
+TEST_F(PictureDamage, junk_after_a_signature_neither_crashes_nor_prints) {
     std::mt19937 random(7);
     using namespace std::string_literals;
     for (const std::string& start : {k_png_signature, "\xff\xd8\xff"s, "II*\0"s, "MM\0*"s, "v/1\x01"s,

@@ -38,7 +38,7 @@ double nearest_half(double v) {
     return std::nearbyint(v / step) * step;
 }
 
-TEST_F(PictureFile, bytes_come_back_from_every_lossless_format_of_bytes) {
+TEST_F(PictureFile, bytes_survive_every_lossless_byte_format) {
     for (const char* name : {"a.png", "a.tif", "a.tiff", "a.PNG"})
         for (const int channels : {1, 2, 3, 4}) {
             const Image image = patterned_u8({13, 7}, channels);
@@ -47,7 +47,7 @@ TEST_F(PictureFile, bytes_come_back_from_every_lossless_format_of_bytes) {
         }
 }
 
-TEST_F(PictureFile, bytes_come_back_from_wider_files_as_v_over_255) {
+TEST_F(PictureFile, bytes_in_wider_files_are_read_as_v_over_255) {
     for (const auto& [name, depth] : {std::pair{"a.png", SampleDepth::u16},
                                       {"a.tif", SampleDepth::u16},
                                       {"a.tif", SampleDepth::f32},
@@ -69,7 +69,7 @@ TEST_F(PictureFile, bytes_become_the_nearest_half) {
         EXPECT_EQ(double(read.f32()[i]), nearest_half(double(i) / 255.0)) << i;
 }
 
-TEST_F(PictureFile, floats_come_back_from_every_format_of_floats) {
+TEST_F(PictureFile, floats_survive_every_float_format) {
     for (const auto& [name, depth] :
          {std::pair{"a.exr", SampleDepth::half}, {"a.exr", SampleDepth::f32}, {"a.tif", SampleDepth::f32}})
         for (const int channels : {1, 2, 3, 4}) {
@@ -78,7 +78,7 @@ TEST_F(PictureFile, floats_come_back_from_every_format_of_floats) {
         }
 }
 
-TEST_F(PictureFile, every_bit_of_a_float_comes_back) {
+TEST_F(PictureFile, every_bit_of_a_float_survives) {
     Image image({12, 1}, 4, SampleType::f32);
     const uint32_t bits[] = {0x7fc00000u, 0xffc00000u, 0x7fffffffu, 0x7fc12345u, 0x7f800000u, 0xff800000u,
                              0x80000000u, 0x00000001u, 0x807fffffu, 0x7f7fffffu, 0x00800000u, 0x7f812345u};
@@ -140,7 +140,7 @@ TEST_F(PictureFile, the_last_row_of_an_image_is_the_first_of_the_file) {
     }
 }
 
-TEST_F(PictureFile, a_jpeg_is_near) {
+TEST_F(PictureFile, a_jpeg_is_close_to_the_original) {
     for (const int channels : {1, 3}) {
         Image image({64, 48}, channels, SampleType::u8);
         for (size_t i = 0; i < image.samples(); ++i)
@@ -167,7 +167,7 @@ TEST_F(PictureFile, radiance_keeps_eight_bits_of_the_largest_channel) {
     }
 }
 
-TEST_F(PictureFile, radiance_never_makes_nonsense_of_what_it_cannot_hold) {
+TEST_F(PictureFile, radiance_clamps_values_out_of_range) {
     constexpr float inf = std::numeric_limits<float>::infinity();
     Image image({3, 3}, 3, SampleType::f32);
     std::ranges::fill(image.f32(), 1.0f);
@@ -223,7 +223,7 @@ TEST_F(PictureFile, sixteen_bits_are_v_over_65535) {
               (std::vector<float>{float(0x1234 / 65535.0), 1.0f, float(1 / 65535.0)}));
 }
 
-TEST_F(PictureFile, gamma_and_broken_profiles_change_nothing_and_are_not_spoken_of) {
+TEST_F(PictureFile, gamma_and_broken_profiles_are_ignored_silently) {
     const std::string rows("\0\x10\x80\xf0\x40", 5);
     const Image plain = *read_picture(put("plain.png", hand_made_png(1, 1, 8, 6, rows)));
     const std::string chatty = png_chunk("gAMA", big_endian_32(100000)) +
@@ -241,7 +241,7 @@ TEST_F(PictureFile, gamma_and_broken_profiles_change_nothing_and_are_not_spoken_
               (std::vector<uint8_t>{0x10, 0x80, 0xf0, 0x40}));
 }
 
-TEST_F(PictureFile, the_orientation_of_a_camera_is_not_acted_on) {
+TEST_F(PictureFile, the_exif_orientation_is_ignored) {
     Image image({48, 16}, 3, SampleType::u8);
     for (size_t i = 0; i < image.samples(); ++i)
         image.u8()[i] = uint8_t(i / image.row_bytes() * 12);
@@ -255,7 +255,7 @@ TEST_F(PictureFile, the_orientation_of_a_camera_is_not_acted_on) {
     EXPECT_EQ(*read, plain);
 }
 
-TEST_F(PictureFile, other_formats_are_told_by_their_content) {
+TEST_F(PictureFile, other_formats_are_detected_by_content) {
     const fs::path pgm = put("grey.picture", std::string("P5 2 2 255\n\1\2\3\4", 15));
     Result<Image> read = read_picture(pgm);
     ASSERT_TRUE(read) << read.error().message;
@@ -276,7 +276,7 @@ TEST_F(PictureFile, other_formats_are_told_by_their_content) {
     EXPECT_EQ(*read, patterned_u8({3, 3}, 3));
 }
 
-TEST_F(PictureFile, one_pixel_is_a_picture) {
+TEST_F(PictureFile, a_picture_may_have_one_pixel) {
     for (const char* name : {"a.png", "a.tif", "a.exr", "a.jpg", "a.hdr"}) {
         const Image read = written_and_read(in_folder(name), patterned_u8({1, 1}, 3), natural_depth(name));
         EXPECT_EQ(read.extent, (Extent{1, 1})) << name;

@@ -33,7 +33,7 @@ protected:
     }
 };
 
-TEST_F(PictureStreamTest, bands_make_the_file_of_the_whole) {
+TEST_F(PictureStreamTest, bands_make_the_file_of_the_whole_picture) {
     for (const char* name : {"a.png", "a.jpg", "a.tif", "a.exr", "a.hdr"})
         for (const SampleType type : {SampleType::u8, SampleType::f32})
             for (const bool alpha : {false, true}) {
@@ -55,7 +55,7 @@ TEST_F(PictureStreamTest, bands_make_the_file_of_the_whole) {
             }
 }
 
-TEST_F(PictureStreamTest, sixteen_bits_too) {
+TEST_F(PictureStreamTest, bands_of_sixteen_bits_make_the_same_file) {
     const Image picture = patterned_f32(k_extent, 4);
     const PictureFormat format{SampleDepth::u16, {}};
     ASSERT_TRUE(write_picture(in_folder("a.png"), picture, format));
@@ -63,7 +63,7 @@ TEST_F(PictureStreamTest, sixteen_bits_too) {
     EXPECT_EQ(bytes_of("b.png"), bytes_of("a.png"));
 }
 
-TEST_F(PictureStreamTest, what_is_given_up_leaves_nothing) {
+TEST_F(PictureStreamTest, a_cancelled_stream_leaves_no_file) {
     for (const char* name : {"a.png", "a.jpg", "a.tif", "a.exr", "a.hdr"}) {
         {
             auto stream = PictureStream::create(in_folder(name), k_extent, false, {natural_depth(name), {}});
@@ -75,7 +75,7 @@ TEST_F(PictureStreamTest, what_is_given_up_leaves_nothing) {
     }
 }
 
-TEST_F(PictureStreamTest, a_folder_that_is_not_there_is_told) {
+TEST_F(PictureStreamTest, a_missing_folder_is_an_error) {
     const auto stream = PictureStream::create(in_folder("no/a.png"), k_extent, false, {});
     ASSERT_FALSE(stream);
     EXPECT_EQ(stream.error().code, ErrorCode::write);
@@ -83,7 +83,7 @@ TEST_F(PictureStreamTest, a_folder_that_is_not_there_is_told) {
               "cannot write '" + in_folder("no/a.png").string() + "': No such file or directory");
 }
 
-TEST_F(PictureStreamTest, sides_end_where_the_format_does) {
+TEST_F(PictureStreamTest, sizes_beyond_the_format_are_refused) {
     EXPECT_TRUE(PictureStream::check_extent("a.jpg", {65500, 1}));
     EXPECT_TRUE(PictureStream::check_extent("a.png", {1, 1'000'000}));
     const auto refused = PictureStream::check_extent("a.JPG", {1, 65501});

@@ -1,5 +1,5 @@
-// What the picture tests share: a folder of their own, pictures to write, and a PNG writer of their own, so
-// that the reader is not tested with what the writer thinks.
+// Helpers of the picture tests: a folder of their own, pictures to write, and a PNG writer of their own, so
+// that the reader is not tested with our writer's mistakes.
 #pragma once
 
 #include "media/image.hpp"

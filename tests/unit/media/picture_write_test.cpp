@@ -47,7 +47,7 @@ std::string exr_text(const std::string& file, const std::string& name) {
     return file.substr(size + 4, uint8_t(file[size]) | size_t(uint8_t(file[size + 1])) << 8);
 }
 
-TEST_F(PictureWrite, names_end_in_a_format) {
+TEST_F(PictureWrite, the_extension_selects_the_format) {
     for (const char* name :
          {"a.png", "a.jpg", "a.jpeg", "a.tif", "a.tiff", "a.exr", "a.hdr", "a.b.PNG", "d/a.Exr"})
         EXPECT_TRUE(check_picture_name(name)) << name;
@@ -65,7 +65,7 @@ TEST_F(PictureWrite, names_end_in_a_format) {
         ".exr or .hdr");
 }
 
-TEST_F(PictureWrite, a_depth_that_the_format_has_not_is_refused) {
+TEST_F(PictureWrite, unsupported_depths_are_refused) {
     const Result<void> checked = check_picture_format("a.png", SampleDepth::half);
     ASSERT_FALSE(checked);
     EXPECT_EQ(checked.error().code, ErrorCode::usage);
@@ -98,7 +98,7 @@ TEST_F(PictureWrite, a_picture_without_pixels_or_over_the_limit_is_refused) {
     EXPECT_EQ(files(), 0u);
 }
 
-TEST_F(PictureWrite, an_unwritable_place_is_said_with_its_reason) {
+TEST_F(PictureWrite, an_unwritable_place_gives_the_reason) {
     put("file", "x");
     for (const char* name : k_all_names) {
         const fs::path missing = in_folder("missing") / name, in_file = in_folder("file") / name;
@@ -116,7 +116,7 @@ TEST_F(PictureWrite, an_unwritable_place_is_said_with_its_reason) {
     EXPECT_EQ(files(), 2u);
 }
 
-TEST_F(PictureWrite, a_full_disk_leaves_nothing_new_and_the_old_as_it_was) {
+TEST_F(PictureWrite, a_full_disk_leaves_no_new_file_and_keeps_the_old) {
     for (const char* name : k_all_names)
         ASSERT_TRUE(write_picture(in_folder(name), patterned_u8({4, 4}, 3), natural(name)));
     for (const std::string prefix : {"", "new-"})
@@ -132,7 +132,7 @@ TEST_F(PictureWrite, a_full_disk_leaves_nothing_new_and_the_old_as_it_was) {
     EXPECT_EQ(files(), std::size(k_all_names));
 }
 
-TEST_F(PictureWrite, metadata_travels_as_text) {
+TEST_F(PictureWrite, metadata_are_stored_as_text) {
     const std::string long_text(70000, 'x');
     const PictureFormat bytes{SampleDepth::u8,
                               {{"scene", "shaders/caf\xc3\xa9.glsl"}, {"time", "1.5"}, {"log", long_text}}};
@@ -161,7 +161,7 @@ TEST_F(PictureWrite, metadata_travels_as_text) {
         EXPECT_TRUE(read_picture(in_folder(name))) << name;
 }
 
-TEST_F(PictureWrite, metadata_of_any_length_is_no_obstacle) {
+TEST_F(PictureWrite, metadata_of_any_length_is_written) {
     for (const char* name : k_all_names)
         for (const size_t length : {0u, 65000u, 65520u, 65536u, 200000u}) {
             const PictureFormat format{natural_depth(name), {{"log", std::string(length, 'x')}}};
@@ -170,7 +170,7 @@ TEST_F(PictureWrite, metadata_of_any_length_is_no_obstacle) {
         }
 }
 
-TEST_F(PictureWrite, no_date_no_machine_the_same_bytes_every_time) {
+TEST_F(PictureWrite, bytes_contain_no_date_or_machine_and_are_repeatable) {
     std::map<std::string, std::string> first;
     const Image image = patterned_u8({40, 30}, 4);
     for (const char* name : k_all_names) {
@@ -187,7 +187,7 @@ TEST_F(PictureWrite, no_date_no_machine_the_same_bytes_every_time) {
     }
 }
 
-TEST_F(PictureWrite, a_png_has_no_chunk_that_bends_its_colours) {
+TEST_F(PictureWrite, a_png_has_no_chunk_that_changes_its_colours) {
     ASSERT_TRUE(write_picture(in_folder("a.png"), patterned_u8({4, 4}, 4)));
     const std::string file = bytes_of(in_folder("a.png"));
     for (const char* chunk : {"gAMA", "cHRM", "sRGB", "iCCP", "tIME"})

@@ -10,7 +10,7 @@ TEST(Resample, keeps_samples_of_the_same_rate) {
     EXPECT_EQ(resampled(sound.samples, 44100, 44100), sound.samples);
 }
 
-TEST(Resample, a_sine_stays_a_sine) {
+TEST(Resample, a_sine_is_unchanged) {
     for (const int rate : {8000, 11025, 22050, 32000, 44101, 48000, 96000, 192000}) {
         const double hertz = 3000.0;
         const SoundData wanted = sine(hertz, 0.5, 0.5);
@@ -23,13 +23,13 @@ TEST(Resample, a_sine_stays_a_sine) {
     }
 }
 
-TEST(Resample, what_is_above_half_the_new_rate_goes) {
+TEST(Resample, frequencies_above_half_the_new_rate_are_removed) {
     const std::vector<float> result = resampled(sine(30000.0, 0.5, 0.5, 96000).samples, 96000, 44100);
     for (size_t n = 500; n + 500 < result.size(); ++n)
         ASSERT_LT(std::abs(result[n]), 0.001f);
 }
 
-TEST(Resample, a_constant_stays_and_nothing_stays_nothing) {
+TEST(Resample, constants_and_empty_sounds_are_unchanged) {
     const std::vector<float> result = resampled(std::vector<float>(4800, 0.25f), 48000, 44100);
     EXPECT_EQ(result.size(), 4410u);
     for (size_t n = 50; n + 50 < result.size(); ++n)

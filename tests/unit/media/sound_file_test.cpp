@@ -48,7 +48,7 @@ TEST_F(SoundFile, every_kind_is_decoded_at_its_own_rate) {
     }
 }
 
-TEST_F(SoundFile, wav_that_we_write_reads_back_to_the_bit) {
+TEST_F(SoundFile, written_wav_is_read_back_bit_by_bit) {
     std::mt19937 random(3);
     std::vector<int16_t> samples = {-32768, 32767, 0, -1};
     while (samples.size() < 20000)
@@ -77,14 +77,14 @@ TEST_F(SoundFile, an_empty_wav_is_written_and_has_no_sound) {
     EXPECT_THAT(message_of(in_folder("w.wav")), HasSubstr("there is no sound in it"));
 }
 
-TEST_F(SoundFile, a_wav_that_cannot_be_written_says_so) {
+TEST_F(SoundFile, an_unwritable_wav_is_an_error) {
     const Result<void> written = write_wav(in_folder("none") / "w.wav", 44100, {});
     ASSERT_FALSE(written);
     EXPECT_EQ(written.error().code, ErrorCode::write);
     EXPECT_THAT(written.error().message, HasSubstr("No such file or directory"));
 }
 
-TEST_F(SoundFile, cut_anywhere_it_is_no_sound) {
+TEST_F(SoundFile, truncated_files_are_refused) {
     for (const Kind& kind : k_kinds) {
         const std::string whole =
             bytes_of(write_encoded(in_folder(kind.name), sine(441.0, 0.5, 0.2), kind.format));
@@ -100,7 +100,7 @@ TEST_F(SoundFile, cut_anywhere_it_is_no_sound) {
     }
 }
 
-TEST_F(SoundFile, a_wav_from_a_pipe_does_not_know_its_length) {
+TEST_F(SoundFile, a_wav_from_a_pipe_is_read_to_its_end) {
     std::string wav = bytes_of(write_encoded(in_folder("p.wav"), sine(441.0, 0.5, 0.2), k_kinds[0].format));
     const size_t frames = read_sound(in_folder("p.wav"))->frames();
     wav.replace(4, 4, "\xff\xff\xff\xff");
@@ -110,7 +110,7 @@ TEST_F(SoundFile, a_wav_from_a_pipe_does_not_know_its_length) {
     EXPECT_EQ(sound->frames(), frames);
 }
 
-TEST_F(SoundFile, damage_does_no_harm) {
+TEST_F(SoundFile, damaged_files_do_not_crash) {
     std::mt19937 random(5);
     for (const Kind& kind : k_kinds) {
         const std::string whole =
@@ -127,7 +127,7 @@ TEST_F(SoundFile, damage_does_no_harm) {
     }
 }
 
-TEST_F(SoundFile, what_is_wrong_is_said) {
+TEST_F(SoundFile, errors_are_reported) {
     const auto in = [&](const std::string& name) { return "'" + in_folder(name).string() + "'"; };
     EXPECT_EQ(message_of(in_folder("none.ogg")), "cannot read " + in("none.ogg") + ": no such file");
     EXPECT_EQ(message_of(in_folder("")), "cannot read " + in("") + ": it is a directory");

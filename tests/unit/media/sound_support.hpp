@@ -1,4 +1,4 @@
-// What the sound tests share: a folder of their own and sounds to analyse and to write.
+// Helpers of the sound tests: a folder of their own and sounds to analyse and to write.
 #pragma once
 
 #include "media/sound_file.hpp"

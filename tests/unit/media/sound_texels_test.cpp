@@ -19,7 +19,7 @@ TEST(SoundTexels, every_pair_of_bytes_is_the_nearest_sample) {
     }
 }
 
-TEST(SoundTexels, what_a_sound_pass_packs_comes_back) {
+TEST(SoundTexels, packed_samples_are_decoded) {
     // The site's packing: floor((0.5 + 0.5 s) 65536)
     for (const double s : {-1.0, -0.5, -0.001, 0.0, 0.25, 0.999}) {
         const double v = std::floor((0.5 + 0.5 * s) * 65536.0);
@@ -28,7 +28,7 @@ TEST(SoundTexels, what_a_sound_pass_packs_comes_back) {
     }
 }
 
-TEST(SoundTexels, nothing_is_nothing) {
+TEST(SoundTexels, no_texels_give_no_samples) {
     EXPECT_TRUE(decode_sound_texels({}).empty());
 }
 

@@ -22,7 +22,7 @@ SoundData white_noise(double seconds) {
     return sound;
 }
 
-TEST(Spectrum, a_sine_stands_in_its_bin) {
+TEST(Spectrum, a_sine_is_in_its_bin) {
     for (const int bin : {3, 46, 200, 511}) {
         Spectrum spectrum(sine(bin * k_bin, 0.01, 2.0));
         EXPECT_EQ(loudest_bin(spectrum.at(1.5)), bin);
@@ -44,7 +44,8 @@ TEST(Spectrum, height_is_decibels_below_full_scale) {
     EXPECT_EQ(faint.at(1.5)[100], 0);
 }
 
-/// What the specification of AnalyserNode says, word by word, for a call every sixtieth of a second.
+/// Computes AnalyserNode's spectrum word by word as its specification does, for a call every sixtieth of a
+/// second.
 std::vector<double> plain_analyser(const SoundData& sound, int steps) {
     std::vector<double> smoothed(512, 0.0);
     for (int step = 0; step <= steps; ++step) {
@@ -65,7 +66,7 @@ std::vector<double> plain_analyser(const SoundData& sound, int steps) {
     return smoothed;
 }
 
-TEST(Spectrum, is_what_the_specification_says) {
+TEST(Spectrum, matches_the_web_audio_specification) {
     const SoundData sound = white_noise(0.5);
     Spectrum spectrum(sound);
     const SignalBytes bytes = spectrum.at(6.0 / 60.0);
@@ -76,7 +77,7 @@ TEST(Spectrum, is_what_the_specification_says) {
     }
 }
 
-TEST(Spectrum, a_frame_alone_is_the_frame_in_a_sequence) {
+TEST(Spectrum, a_single_frame_equals_the_frame_of_a_sequence) {
     const SoundData sound = white_noise(4.0);
     Spectrum in_order(sound), backwards(sound);
     std::vector<SignalBytes> frames;
@@ -90,7 +91,7 @@ TEST(Spectrum, a_frame_alone_is_the_frame_in_a_sequence) {
     }
 }
 
-TEST(Spectrum, fades_after_the_sound_by_a_fifth_a_step) {
+TEST(Spectrum, fades_by_a_fifth_per_step_after_the_sound) {
     Spectrum spectrum(sine(100.0 * k_bin, 0.01, 1.0));
     const int before = spectrum.at(1.2)[100], after = spectrum.at(1.2 + 6.0 / 60.0)[100];
     EXPECT_NEAR(before - after, 255.0 / 70.0 * -20.0 * 6.0 * std::log10(0.8), 1.01);
@@ -119,7 +120,7 @@ TEST(Spectrum, overdriven_samples_are_clipped) {
     EXPECT_EQ(Spectrum(sound).at(0.5)[600], 0);
 }
 
-TEST(Spectrum, silence_is_nothing_and_the_middle) {
+TEST(Spectrum, silence_has_no_spectrum_and_a_centred_wave) {
     Spectrum spectrum(SoundData{44100, 2, std::vector<float>(88200, 0.0f)});
     for (const double time : {-1.0, 0.0, 0.5, 1.0, 100.0, double(NAN), double(INFINITY)}) {
         const SignalBytes bytes = spectrum.at(time);
@@ -148,7 +149,7 @@ TEST(Spectrum, bins_are_in_hertz_at_any_rate) {
     }
 }
 
-TEST(SilentSignal, is_the_site_s) {
+TEST(SilentSignal, equals_shadertoys) {
     // From the formulas, computed elsewhere
     struct Sample {
         double time;

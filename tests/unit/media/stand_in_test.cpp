@@ -9,7 +9,7 @@
 
 namespace tidemark::image::stand_in_test {
 
-TEST(StandIn, has_the_size_and_channels_that_are_asked_for) {
+TEST(StandIn, has_the_requested_size_and_channels) {
     for (int channels = 1; channels <= 4; ++channels) {
         const Image picture = make_stand_in_picture("a.png", {48, 32}, channels);
         EXPECT_EQ(picture.extent, (Extent{48, 32}));
@@ -32,7 +32,7 @@ TEST(StandIn, has_the_size_and_channels_that_are_asked_for) {
     }
 }
 
-TEST(StandIn, a_name_gives_its_bytes_again_and_another_name_others) {
+TEST(StandIn, a_name_is_repeatable_and_names_differ) {
     EXPECT_EQ(make_stand_in_picture("a", {64, 64}, 3), make_stand_in_picture("a", {64, 64}, 3));
     EXPECT_NE(make_stand_in_picture("a", {64, 64}, 3), make_stand_in_picture("b", {64, 64}, 3));
     EXPECT_NE(make_stand_in_cube("a", 8, 3), make_stand_in_cube("b", 8, 3));
@@ -70,7 +70,7 @@ TEST(StandIn, a_picture_tiles) {
     for (int x = 0; x + 1 < 128; ++x)
         inside = std::max(inside, step(picture, x, x + 1));
     EXPECT_LE(step(picture, 127, 0), inside);
-    EXPECT_GT(step(picture, 64, 0), 2.0 * step(picture, 127, 0)); // and it is no constant
+    EXPECT_GT(step(picture, 64, 0), 2.0 * step(picture, 127, 0)); // and it is not constant
 }
 
 TEST(StandIn, a_volume_tiles_in_depth) {

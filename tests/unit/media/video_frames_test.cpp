@@ -15,7 +15,7 @@ namespace tidemark::image::video_frames_test {
 
 using testing::HasSubstr;
 
-TEST(VideoTimes, are_read_from_what_ffprobe_prints) {
+TEST(VideoTimes, are_parsed_from_the_output_of_ffprobe) {
     const auto times = parse_video_times("packet|pts=0|dts=-512|duration=512|flags=K_\n"
                                          "packet|pts=1024|dts=0|duration=512|flags=__\n"
                                          "packet|pts=512|dts=512|duration=512|flags=__\n"
@@ -27,7 +27,7 @@ TEST(VideoTimes, are_read_from_what_ffprobe_prints) {
     EXPECT_DOUBLE_EQ(times->duration(), 0.1);
 }
 
-TEST(VideoTimes, packets_that_are_not_shown_do_not_count_and_dts_stands_in_for_pts) {
+TEST(VideoTimes, hidden_packets_are_skipped_and_dts_replaces_missing_pts) {
     const auto times = parse_video_times("packet|pts=-1|dts=-1|duration=1|flags=KD\n"
                                          "packet|pts=N/A|dts=3|duration=N/A|flags=K_\n"
                                          "packet|pts=N/A|dts=5|duration=N/A|flags=__\n"
@@ -39,7 +39,7 @@ TEST(VideoTimes, packets_that_are_not_shown_do_not_count_and_dts_stands_in_for_p
     EXPECT_TRUE(times->guessed);
 }
 
-TEST(VideoTimes, the_decoder_s_own_times_stand_in_for_guessed_ones) {
+TEST(VideoTimes, the_decoders_times_replace_guessed_times) {
     VideoTimes times{{64, 48}, 1.0 / 25.0, {0, 1, 2}, 3, true};
     set_starts(times, {2, 1, 3, 3});
     EXPECT_EQ(times.starts, (std::vector<int64_t>{1, 2, 3}));
@@ -51,7 +51,7 @@ TEST(VideoTimes, the_decoder_s_own_times_stand_in_for_guessed_ones) {
     EXPECT_EQ(showinfo_start(" pts:7"), std::nullopt);
 }
 
-TEST(VideoTimes, a_picture_on_its_side_is_turned) {
+TEST(VideoTimes, a_rotated_video_is_turned_upright) {
     const auto times =
         parse_video_times("packet|pts=0|dts=0|duration=1|flags=K_\n"
                           "stream|width=64|height=48|time_base=1/25\nside_data|rotation=-90\n");
@@ -59,7 +59,7 @@ TEST(VideoTimes, a_picture_on_its_side_is_turned) {
     EXPECT_EQ(times->extent, (Extent{48, 64}));
 }
 
-TEST(VideoTimes, nonsense_is_refused) {
+TEST(VideoTimes, malformed_output_is_refused) {
     const std::string packet = "packet|pts=0|dts=0|duration=1|flags=K_\n";
     const auto error = [](const std::string& text) {
         const auto times = parse_video_times(text);
@@ -180,7 +180,7 @@ struct Codec {
     std::vector<std::string> encoder;
 };
 
-TEST_F(Video, the_frame_is_that_of_the_time_in_every_format_forwards_backwards_and_by_jumps) {
+TEST_F(Video, the_frame_matches_the_time_in_every_format_and_direction) {
     const std::vector<Codec> codecs = {
         {"a.mkv", k_lossless},
         {"b_frames.mp4", {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-bf", "3", "-g", "12", "-qp", "4"}},
@@ -204,7 +204,7 @@ TEST_F(Video, the_frame_is_that_of_the_time_in_every_format_forwards_backwards_a
     }
 }
 
-TEST_F(Video, goes_round_at_its_end) {
+TEST_F(Video, loops_at_its_end) {
     VideoFrames video = opened(make("a.mp4", {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-qp", "4"}));
     EXPECT_EQ(frame_at(video, 2.0 + 5.0 / 30.0), 5);
     EXPECT_EQ(frame_at(video, 200.0 + 59.5 / 30.0), 59);
@@ -240,7 +240,7 @@ TEST_F(Video, a_name_may_look_like_an_option_or_an_address) {
     fs::current_path(before);
 }
 
-TEST_F(Video, a_play_list_names_no_other_file) {
+TEST_F(Video, a_play_list_cannot_open_other_files) {
     make("a.mkv", k_lossless, 3);
     for (const auto& [name, text] :
          {std::pair<std::string, std::string>{"list.ffconcat", "ffconcat version 1.0\nfile a.mkv\n"},
@@ -251,7 +251,7 @@ TEST_F(Video, a_play_list_names_no_other_file) {
     }
 }
 
-TEST_F(Video, what_is_wrong_is_said) {
+TEST_F(Video, errors_are_reported) {
     const auto message = [](const fs::path& path) {
         const Result<VideoFrames> video = VideoFrames::open(path);
         return video ? "no error" : video.error().message;
@@ -296,7 +296,7 @@ TEST_F(Video, a_damaged_or_shortened_file_gives_frames_or_a_message) {
     }
 }
 
-TEST_F(Video, a_file_that_was_cut_is_no_video) {
+TEST_F(Video, truncated_files_are_refused) {
     const std::pair<std::string, std::vector<std::string>> kinds[] = {
         {"a.mkv", k_lossless},
         {"a.webm", {"-c:v", "libvpx", "-b:v", "1M"}},
@@ -317,7 +317,7 @@ TEST_F(Video, a_file_that_was_cut_is_no_video) {
     }
 }
 
-TEST_F(Video, a_child_in_the_middle_of_its_work_is_ended_with_its_owner) {
+TEST_F(Video, a_busy_decoder_ends_with_its_owner) {
     const fs::path path = make("a.mkv", k_lossless, 200);
     {
         VideoFrames video = opened(path);

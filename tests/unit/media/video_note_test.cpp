@@ -1,16 +1,16 @@
-// A note is found behind the video that it was written for, and behind no other bytes.
+// A note is found after the video that it was written for, and after no other bytes.
 #include "media/video_output.hpp"
 
 #include <gtest/gtest.h>
 
 namespace tidemark::image::video_note_test {
 
-TEST(VideoNote, comes_back) {
+TEST(VideoNote, is_read_back) {
     for (const std::string note : {"", "frame=1", "a\nb\0c"})
         EXPECT_EQ(note_at_end("video" + note_box("video", note)), note);
 }
 
-TEST(VideoNote, every_byte_counts) {
+TEST(VideoNote, a_change_of_any_byte_is_detected) {
     const std::string file = "video" + note_box("video", "note");
     for (size_t i = 0; i < file.size(); ++i) {
         std::string damaged = file;

@@ -64,7 +64,7 @@ TEST(VolumeFile, floats_keep_their_bits) {
     EXPECT_EQ(std::memcmp(volume->bytes.data(), samples.data(), samples.size()), 0);
 }
 
-TEST(VolumeFile, every_truncation_and_every_addition_is_refused) {
+TEST(VolumeFile, truncated_and_extended_files_are_refused) {
     const std::string file = Header{.channels = 4}.bytes() + counting(96);
     ASSERT_EQ(message_of(file), "no error");
     for (size_t length = 0; length < file.size(); ++length)
@@ -73,7 +73,7 @@ TEST(VolumeFile, every_truncation_and_every_addition_is_refused) {
               "cannot read 'v.bin': 2x3x4 texels of 4 channels need 96 bytes of samples, but it has 97");
 }
 
-TEST(VolumeFile, what_is_wrong_is_said) {
+TEST(VolumeFile, errors_are_reported) {
     const std::string samples = counting(24);
     EXPECT_EQ(message_of("PNG"), "cannot read 'v.bin': it is not a ShaderToy volume: it does not start with "
                                  "\"BIN\" and a zero byte");
@@ -96,7 +96,7 @@ TEST(VolumeFile, sizes_whose_product_overflows_are_refused) {
         EXPECT_THAT(message_of(Header{size, size, size}.bytes()), HasSubstr("the limit is 512"));
 }
 
-TEST(VolumeFile, arbitrary_headers_do_no_harm) {
+TEST(VolumeFile, arbitrary_headers_do_not_crash) {
     std::mt19937 random(1);
     const std::string file = Header{}.bytes() + counting(24);
     for (int i = 0; i < 20000; ++i) {

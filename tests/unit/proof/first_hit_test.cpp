@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace tidemark::ir::first_hit_test {
+namespace tidemark::proof::first_hit_test {
 
 using Verdict = FirstHit::Verdict;
 
@@ -27,7 +27,7 @@ void expect_hit(const FirstHit& hit, double where) {
     EXPECT_LT(hit.where.width(), 1e-2 * where);
 }
 
-TEST(FirstHit, of_a_sphere_is_where_the_distance_is_the_threshold) {
+TEST(FirstHit, of_a_sphere_is_at_the_threshold_distance) {
     expect_hit(hit_of("length(p) - 1.0", 0), 3 - 1.001);
     expect_hit(hit_of("length(p) - 1.0", 0.6f), 3 - std::sqrt(1.001 * 1.001 - 0.36));
     const FirstHit beside = hit_of("length(p) - 1.0", 1.5f);
@@ -35,7 +35,7 @@ TEST(FirstHit, of_a_sphere_is_where_the_distance_is_the_threshold) {
     EXPECT_EQ(beside.where.high, 20);
 }
 
-TEST(FirstHit, is_found_where_the_distance_goes_through_an_index) {
+TEST(FirstHit, is_found_if_the_distance_depends_on_an_index) {
     expect_hit(hit_of("length(p) - 1.0", 0, 20,
                       "for (int i = 0; i < 99; ++i) { vec3 p = ro + rd * t, q = p;\n"
                       "for (int k = 0; k < 3; ++k) q[k] = abs(p[(k + 1) % 3]);\n"
@@ -43,14 +43,14 @@ TEST(FirstHit, is_found_where_the_distance_goes_through_an_index) {
                3 - 1.001);
 }
 
-TEST(FirstHit, is_the_first_one_though_the_march_steps_over_it) {
+TEST(FirstHit, is_found_even_if_the_march_oversteps) {
     // A thin sheet, a step of 0.5 beyond it.
     const std::string march =
         "for (int i = 0; i < 40; ++i) { t += 0.5; if (map(ro + rd * t) < 0.0) break; if (t > 19.0) break; }";
     expect_hit(hit_of("min(abs(p.z + 2.2) - 0.01, 5.0 - p.z)", 0, 20, march), 0.79);
 }
 
-TEST(FirstHit, is_found_behind_jumps_of_a_repeated_space) {
+TEST(FirstHit, is_found_after_jumps_of_a_repeated_space) {
     // Between the cells, at a way of 1, it falls from 2.5 to 0.5.
     expect_hit(hit_of("length(vec3(p.xy, mod(p.z - 2.0, 4.0) - 1.0)) - 0.5", 0), 2 - 0.501);
     expect_hit(hit_of("p.z < 1.5 ? 1.0 : max(3.0 - p.z, -9.0)", 0), 6 - 0.001);
@@ -72,8 +72,8 @@ TEST(FirstHit, with_lattice_points_that_are_a_difference_is_decided) {
     EXPECT_LT(hit.where.width(), 1e-3);
 }
 
-/// At the start the lattice's plane itself belongs to another cell than all behind it.
-TEST(FirstHit, is_decided_though_the_ray_begins_at_a_jump) {
+/// At the start the lattice's plane itself belongs to another cell than all points beyond it.
+TEST(FirstHit, is_decided_even_if_the_ray_starts_at_a_jump) {
     const FirstHit hit =
         hit_of("5.0 + p.z + 0.3 * fract(sin(floor(-p.z) * 91.7) * 4311.3)", 0, 20,
                "for (int i = 0; i < 100; ++i) { float d = map(ro - rd * t); if (d < 0.001 || t > "
@@ -83,14 +83,14 @@ TEST(FirstHit, is_decided_though_the_ray_begins_at_a_jump) {
     EXPECT_LT(hit.where.width(), 1e-3);
 }
 
-TEST(FirstHit, is_found_behind_the_cut_of_an_angle_and_between_halves) {
+TEST(FirstHit, is_found_after_the_cut_of_an_angle_and_with_round) {
     // At a way of 4 the angle jumps from pi to -pi.
     expect_hit(hit_of("min(5.0 - p.z, abs(atan(1.0 - p.z, -1.0)) - 1.0)", 0), 8 - 0.001);
     expect_hit(hit_of("length(vec3(p.xy, p.z - 0.5 - 4.0 * round((p.z - 0.5) / 4.0))) - 0.5", 0.25f),
                3.5 - std::sqrt(0.501 * 0.501 - 0.0625));
 }
 
-TEST(FirstHit, needs_less_than_the_threshold_where_the_text_does) {
+TEST(FirstHit, uses_the_strictness_of_the_comparison_in_the_text) {
     const std::string march = "for (int i = 0; i < 100; ++i) { float d = map(ro + rd * t);"
                               "if (d LEAVES 0.5 || t > 20.0) break; t += 0.1 * d; }";
     const auto leaves = [&](const char* how) {
@@ -102,7 +102,7 @@ TEST(FirstHit, needs_less_than_the_threshold_where_the_text_does) {
     expect_hit(leaves("<="), 5.5);
 }
 
-TEST(FirstHit, is_nothing_where_the_field_is_no_number) {
+TEST(FirstHit, nan_fields_have_no_hit) {
     // NaN up to z = 1: no comparison holds there, and none ends the march.
     expect_hit(hit_of("5.0 - p.z + 0.0 * sqrt(p.z - 1.0)", 0), 8 - 0.001);
     const std::string march =
@@ -112,7 +112,7 @@ TEST(FirstHit, is_nothing_where_the_field_is_no_number) {
     EXPECT_EQ(left.reason, FirstHit::Reason::not_finite);
 }
 
-TEST(FirstHit, of_a_pole_is_where_the_field_falls_to_minus_infinity) {
+TEST(FirstHit, of_a_pole_is_at_minus_infinity) {
     expect_hit(hit_of("1.0 / (1.0 - p.z)", 0), 4);
 }
 
@@ -121,7 +121,7 @@ TEST(FirstHit, is_narrow_however_long_the_ray_is) {
     expect_hit(hit, 3 - 1.001);
 }
 
-TEST(FirstHit, of_a_ray_that_begins_below_the_surface_is_its_start) {
+TEST(FirstHit, of_a_ray_starting_below_the_surface_is_its_start) {
     const FirstHit inside = hit_of("p.z + 3.0 > 0.5 ? 1.0 : -2.0", 0, 0);
     EXPECT_EQ(inside.verdict, Verdict::hit);
     EXPECT_EQ(inside.where.high, 0);
@@ -129,7 +129,7 @@ TEST(FirstHit, of_a_ray_that_begins_below_the_surface_is_its_start) {
 }
 
 /// A march that begins at NaN or at an infinity proves nothing: it has no place to begin with.
-TEST(FirstHit, of_a_ray_that_begins_nowhere_is_not_known) {
+TEST(FirstHit, of_a_ray_with_a_non_finite_start_is_undecided) {
     for (const char* start : {"0.0 / iTime", "1.0 / iTime", "-1.0 / iTime"}) {
         const FirstHit hit =
             hit_of("length(p) - 1.0", 0, 20, "t = " + std::string(start) + ";" + k_sphere_tracing);
@@ -140,8 +140,8 @@ TEST(FirstHit, of_a_ray_that_begins_nowhere_is_not_known) {
     EXPECT_EQ(hit_of("length(p) - 1.0", 1.5f, k_infinity).verdict, Verdict::undecided);
 }
 
-/// Where nothing ends it, the march goes on until its place is infinite or NaN.
-TEST(FirstHit, is_looked_for_up_to_the_last_place_that_is_a_number) {
+/// Unless something ends it, the march goes on until its place is infinite or NaN.
+TEST(FirstHit, is_searched_up_to_the_last_finite_place) {
     const Function function =
         marcher("length(p) - 1.0", "for (int i = 0; i < 200; ++i) { float d = map(ro + rd * t);"
                                    "if (d < 0.001) break; t += d; }");
@@ -156,7 +156,7 @@ TEST(FirstHit, is_looked_for_up_to_the_last_place_that_is_a_number) {
     EXPECT_EQ(first_hit(slice, slice.end(march)).verdict, Verdict::none);
 }
 
-TEST(FirstHit, is_left_open_where_nothing_is_known) {
+TEST(FirstHit, is_undecided_for_grazing_rays_and_unknown_fields) {
     const FirstHit grazing = hit_of("length(p) - 1.0", 1.001f);
     EXPECT_NE(grazing.verdict, Verdict::hit);
     const FirstHit unknown = hit_of("texture(iChannel0, p.xz).r - 0.5", 0);
@@ -164,4 +164,4 @@ TEST(FirstHit, is_left_open_where_nothing_is_known) {
     EXPECT_EQ(unknown.where.low, 0);
 }
 
-} // namespace tidemark::ir::first_hit_test
+} // namespace tidemark::proof::first_hit_test

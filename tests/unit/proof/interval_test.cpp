@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace tidemark::ir::interval_test {
+namespace tidemark::proof::interval_test {
 
 constexpr int k_intervals = 10'000; ///< of each function, five numbers in each
 
@@ -168,7 +168,7 @@ bool is_defined(const Case& function, std::array<Exact, 3>& operands) {
     return function.name != "pow" || mpfr_sgn(operands[0].get()) >= 0;
 }
 
-TEST(Interval, contains_what_the_function_makes_of_every_number_in_it) {
+TEST(Interval, contains_the_function_values_of_all_its_numbers) {
     Numbers numbers;
     for (const Case& function : cases())
         for (int i = 0; i < k_intervals; ++i) {
@@ -194,7 +194,7 @@ TEST(Interval, contains_what_the_function_makes_of_every_number_in_it) {
         }
 }
 
-TEST(Interval, is_narrow_where_the_operand_is) {
+TEST(Interval, is_narrow_for_narrow_operands) {
     const Interval a{0.7, 0.7000001};
     for (const Interval& b : {sin(a), cos(a), sqrt(a), fract(a), square(a), increasing(std::exp, a)})
         EXPECT_LT(b.width(), 1e-6);
@@ -207,7 +207,7 @@ TEST(Interval, a_root_of_a_sum_of_squares_is_defined_at_zero) {
     EXPECT_FALSE(sqrt(square({-1, 1}) + square({-1, 1})).partial);
 }
 
-/// Else a choice of 0 or 1 times a number is no number of the text's, and a hash of it another one.
+/// If it were widened, 0 or 1 times a number would not be a number of the text, and its hash would differ.
 TEST(Interval, an_exact_product_is_not_widened) {
     EXPECT_TRUE((Interval{0, 0} * Interval{-3, 5}).point());
     EXPECT_TRUE((Interval{1, 1} * Interval{0.1, 0.1}).point());
@@ -216,7 +216,7 @@ TEST(Interval, an_exact_product_is_not_widened) {
 }
 
 /// Else its power is not defined.
-TEST(Interval, a_quotient_has_no_other_sign_than_its_operands) {
+TEST(Interval, a_quotient_has_the_sign_of_its_operands) {
     EXPECT_EQ((Interval{0, 1} / Interval{2, 3}).low, 0);
     EXPECT_EQ((Interval{0, 1} / Interval{-3, -2}).high, 0);
     EXPECT_EQ((Interval{-1, 0} / Interval{2, 3}).high, 0);
@@ -238,7 +238,7 @@ TEST(Interval, the_smaller_of_a_number_and_nan_may_be_the_number) {
     EXPECT_EQ(maximum(root, Interval{-3, -3}).low, -3);
 }
 
-TEST(Interval, a_quotient_beside_its_pole_is_bounded_on_one_side) {
+TEST(Interval, a_quotient_next_to_its_pole_is_bounded_on_one_side) {
     const Interval beside = Interval{1, 2} / Interval{0, 4};
     EXPECT_NEAR(beside.low, 0.25, 1e-12);
     EXPECT_EQ(beside.high, k_infinity);
@@ -249,14 +249,14 @@ TEST(Interval, a_quotient_beside_its_pole_is_bounded_on_one_side) {
 }
 
 /// One number, so that a hash of it is the text's own.
-TEST(Interval, a_whole_multiple_of_a_piece_within_it_is_one_number) {
+TEST(Interval, the_multiple_below_an_interval_within_one_step_is_a_point) {
     EXPECT_TRUE(whole_multiple({7.25, 7.5}, {2, 2}).point());
     EXPECT_EQ(whole_multiple({7.25, 7.5}, {2, 2}).low, 6);
     EXPECT_EQ(whole_multiple({-0.5, -0.25}, {1, 1}).low, -1);
     EXPECT_EQ(whole_multiple({5.5, 6, false, true}, {3, 3}).high, 3);
 }
 
-TEST(Interval, an_angle_keeps_to_its_side_of_the_cut) {
+TEST(Interval, an_angle_stays_on_its_side_of_the_cut) {
     const Interval left{-2, -1};
     EXPECT_GT(atan2({0, 0.1, false, false, true}, left).low, 3);
     EXPECT_LT(atan2({-0.1, 0, false, true}, left).high, -3);
@@ -272,4 +272,4 @@ TEST(Interval, an_open_end_is_not_beyond_the_step) {
     EXPECT_EQ(modulo({5.5, 6}, {3, 3}).low, 0);
 }
 
-} // namespace tidemark::ir::interval_test
+} // namespace tidemark::proof::interval_test

@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace tidemark::ir {
+namespace tidemark::proof {
 
 inline std::string shader(const std::string& functions, const std::string& main) {
     return "#version 450 core\n"
@@ -36,7 +36,7 @@ inline Function marcher(const std::string& field, const std::string& march) {
 inline const std::string k_sphere_tracing =
     "for (int i = 0; i < 100; ++i) { float d = map(ro + rd * t); if (d < 0.001 || t > 20.0) break; t += d; }";
 
-/// Where that pixel has entered the first of the loops.
+/// Returns the evaluator of a pixel that has entered the first of the loops.
 inline FloatEvaluator entered(const Function& function, const std::vector<MarchingLoop>& loops, float x,
                               float time = 0) {
     FloatEvaluator evaluator(function);
@@ -50,4 +50,4 @@ inline FloatEvaluator entered(const Function& function, const std::vector<Marchi
     return evaluator;
 }
 
-} // namespace tidemark::ir
+} // namespace tidemark::proof

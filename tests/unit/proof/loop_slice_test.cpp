@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace tidemark::ir::loop_slice_test {
+namespace tidemark::proof::loop_slice_test {
 
 struct Sliced {
     Function function;
@@ -45,7 +45,7 @@ size_t count(const LoopSlice& slice, Op op) {
     return sum;
 }
 
-TEST(LoopSlice, leaves_out_what_the_distance_does_not_need) {
+TEST(LoopSlice, leaves_out_code_unused_by_the_distance) {
     const Sliced with_glow = sliced("vec2 map(vec3 p) { return vec2(length(p) - 1.0, exp(p.x) + tan(p.y)); }",
                                     "for (int i = 0; i < 99; ++i) { vec2 d = map(ro + rd * t); glow += d.y;\n"
                                     "if (d.x < 0.001 || t > 20.0) break; t += d.x; }\n"
@@ -57,7 +57,7 @@ TEST(LoopSlice, leaves_out_what_the_distance_does_not_need) {
     EXPECT_EQ(count(with_glow.slice, Op::sqrt), 1u);
 }
 
-TEST(LoopSlice, computes_once_what_does_not_change_along_the_ray) {
+TEST(LoopSlice, hoists_values_constant_along_the_ray) {
     const Sliced turning =
         sliced("float map(vec3 p) { float s = sin(iTime), c = cos(iTime); p.xz = mat2(c, s, -s, c) * p.xz;\n"
                "return length(p - vec3(0.2, 0.0, 0.1 * s)) - 1.0; }",
@@ -70,7 +70,7 @@ TEST(LoopSlice, computes_once_what_does_not_change_along_the_ray) {
     EXPECT_EQ(count(turning.slice, Op::sqrt, invariants), 0u);
 }
 
-TEST(LoopSlice, keeps_what_a_turn_writes_and_reads_again) {
+TEST(LoopSlice, keeps_memory_written_and_read_in_an_iteration) {
     const Sliced stack =
         sliced("float map(vec3 p) { float parts[4]; for (int i = 0; i < 4; ++i) parts[i] = float(i) * 0.1;\n"
                "float d = 9.0; for (int i = 0; i < 4; ++i)\n"
@@ -81,7 +81,7 @@ TEST(LoopSlice, keeps_what_a_turn_writes_and_reads_again) {
     expect_faithful(stack);
 }
 
-TEST(LoopSlice, follows_loops_and_ways_within_a_turn) {
+TEST(LoopSlice, follows_loops_and_branches_in_an_iteration) {
     expect_faithful(sliced(
         "float map(vec3 p) { float d = p.z > 0.5 ? 0.1 : length(p) - 0.2, a = 0.3;\n"
         "for (int i = 0; i < 5; ++i) { if (i == 3) continue; d -= a * sin(p.x * 3.0 + iTime); a *= 0.5; }\n"
@@ -92,7 +92,7 @@ TEST(LoopSlice, follows_loops_and_ways_within_a_turn) {
                            "d = map(ro + t * rd); t += i == 1 ? 0.5 * d : d; }"));
 }
 
-TEST(LoopSlice, of_which_the_text_leaves_the_loop_before_it_measures_has_no_distance) {
+TEST(LoopSlice, loops_left_before_measuring_have_no_distance) {
     const Sliced short_ray = sliced("float map(vec3 p) { return length(p) - 1.0; }",
                                     "for (int i = 0; i < 99; ++i) { if (t > 1.5) break;\n"
                                     "float d = map(ro + rd * t); if (d < 0.001) break; t += d; }");
@@ -102,4 +102,4 @@ TEST(LoopSlice, of_which_the_text_leaves_the_loop_before_it_measures_has_no_dist
     EXPECT_FALSE(march.distance({1.75, 2.0}, Care::quick));
 }
 
-} // namespace tidemark::ir::loop_slice_test
+} // namespace tidemark::proof::loop_slice_test

@@ -4,7 +4,7 @@
 
 #include <bit>
 
-namespace tidemark::ir::marching_loop_test {
+namespace tidemark::proof::marching_loop_test {
 
 using Kind = MarchingLoop::Kind;
 
@@ -51,14 +51,14 @@ TEST(MarchingLoop, is_found_in_the_forms_that_authors_write) {
                 Kind::fixed_step, 1);
 }
 
-TEST(MarchingLoop, is_found_where_the_distance_goes_through_an_index) {
+TEST(MarchingLoop, is_found_if_the_distance_depends_on_an_index) {
     expect_loop("for (int i = 0; i < 99; ++i) { vec3 p = ro + rd * t, q = p;\n"
                 "for (int k = 0; k < 3; ++k) q[k] = abs(p[(k + 1) % 3]);\n"
                 "float d = map(q); if (d < 1e-3) break; t += d; }",
                 Kind::sphere_tracing, 1);
 }
 
-TEST(MarchingLoop, is_found_where_steps_grow_with_the_way_or_from_turn_to_turn) {
+TEST(MarchingLoop, is_found_with_growing_steps) {
     expect_loop("t = 0.1; for (int i = 0; i < 400; ++i) { if (map(ro + rd * t) < 0.0) break; t *= 1.02; }",
                 Kind::fixed_step, 1);
     expect_loop(
@@ -76,7 +76,7 @@ TEST(MarchingLoop, is_found_where_steps_grow_with_the_way_or_from_turn_to_turn) 
                 Kind::fixed_step, 1);
 }
 
-TEST(MarchingLoop, may_have_a_threshold_that_grows_each_turn) {
+TEST(MarchingLoop, may_have_a_threshold_that_grows_each_iteration) {
     expect_loop("float eps = 0.001; for (int i = 0; i < 99; ++i) { float d = map(ro + rd * t);\n"
                 "if (d < eps || t > 9.0) break; t += 0.5 * d; eps *= 1.1; }",
                 Kind::sphere_tracing, 1);
@@ -91,14 +91,14 @@ TEST(MarchingLoop, may_have_a_threshold_that_grows_each_turn) {
                 Kind::sphere_tracing, 1);
 }
 
-TEST(MarchingLoop, may_go_on_to_do_nothing_where_it_has_come_to_its_end) {
+TEST(MarchingLoop, may_idle_after_its_end) {
     expect_loop("float d = 1.0, eps = 0.001; for (int i = 0; i < 99; ++i) if (d > eps && t < 9.0) {\n"
                 "d = map(ro + rd * t); eps = 0.001 * exp(0.1 * t); t += 0.5 * d; }",
                 Kind::sphere_tracing, 1);
     expect_loop("float d = 1.0, glow = 0.0; for (int i = 0; i < 99; ++i) { if (d < 0.001) continue;\n"
                 "d = map(ro + rd * t); glow += exp(-d); t += 0.5 * d; } t += glow;",
                 Kind::sphere_tracing, 1);
-    // What is left out is not all that the condition looks at.
+    // The condition reads more than the part that is left out.
     EXPECT_TRUE(loops_of("float d = 1.0; for (int i = 0; i < 99; ++i) { if (d > 0.001)\n"
                          "{ d = map(ro + rd * t); t += 0.5 * d; } else d += 0.1; }")
                     .empty());
@@ -144,7 +144,7 @@ TEST(MarchingLoop, is_not_that_of_a_shadow_after_a_march_of_another_form) {
                                 "t += before * (before > 0.1 ? 0.2 : 0.1); p = ro + rd * t; }\n";
     EXPECT_TRUE(loops_of(unknown).empty());
     EXPECT_TRUE(loops_of(unknown + "ro = p; float s = 0.0; " + shadow).empty());
-    // A sum of octaves, counted in floats, is no march; what follows it may be the view's.
+    // A sum of octaves, counted in floats, is not a march; the loop after it may be the view's.
     EXPECT_EQ(
         loops_of("float high = 0.0; for (float k = 0.0; k < 5.0; ++k) high += sin(k * iTime); ro.y = high;\n"
                  "float s = 0.0; " +
@@ -153,7 +153,7 @@ TEST(MarchingLoop, is_not_that_of_a_shadow_after_a_march_of_another_form) {
         1u);
 }
 
-TEST(MarchingLoop, tells_whether_the_code_after_it_goes_back) {
+TEST(MarchingLoop, detects_a_refinement_after_the_loop) {
     const auto goes_back = [](const std::string& step, const std::string& after) {
         const auto loops =
             loops_of("float before = 0.0, dt = 0.01 + 0.01 * iTime; for (int i = 0; i < 400; ++i) {\n"
@@ -172,7 +172,7 @@ TEST(MarchingLoop, tells_whether_the_code_after_it_goes_back) {
     EXPECT_FALSE(goes_back("t += 0.01;", "t = length(ro + rd * t);"));
 }
 
-TEST(MarchingLoop, may_go_on_after_its_counter_has_ended_it) {
+TEST(MarchingLoop, may_continue_in_the_code_after_its_last_iteration) {
     const std::string march = "for (int i = 0; i < 4; ++i) { float d = map(ro + rd * t);\n"
                               "if (d < 1e-3) break; t += 0.5 * d; }";
     for (const auto& [field, hits] :
@@ -188,7 +188,7 @@ TEST(MarchingLoop, may_go_on_after_its_counter_has_ended_it) {
     }
 }
 
-TEST(MarchingLoop, knows_how_often_it_turns) {
+TEST(MarchingLoop, has_the_number_of_iterations) {
     const auto turns = [](const std::string& head) {
         const auto loops = loops_of("int n = 0; float h = 0.0, eps = 1e-3; " + head +
                                     " { float d = map(ro + rd * t); if (d < eps) break; t += d; }");
@@ -216,8 +216,8 @@ TEST(MarchingLoop, with_a_threshold_that_shrinks_is_not_faithful) {
     EXPECT_FALSE(is_faithful(slice_of(function, loops[0]), at_entry, followed));
 }
 
-/// What counts the way behind the test is a turn late there.
-TEST(MarchingLoop, carries_what_its_distance_is_made_of_alone) {
+/// At the test, a distance that is summed up after it lags by one iteration.
+TEST(MarchingLoop, carries_only_inputs_of_its_distance) {
     const std::string march = "vec3 p = ro, go = vec3(iTime, 2.0 * iTime, 0.1 + iTime);\n"
                               "for (int i = 0; i < 100; ++i) { p += go; if (map(p) < 0.0) break; t += 0.1; }";
     expect_loop(march, Kind::fixed_step, 3);
@@ -230,14 +230,14 @@ TEST(MarchingLoop, carries_what_its_distance_is_made_of_alone) {
     EXPECT_NEAR(slice.parameter(followed.turns.back()) * slice.unit(), 2.1, 1e-4);
 }
 
-TEST(MarchingLoop, tells_where_the_ray_ends_and_in_which_line_it_is_tested) {
+TEST(MarchingLoop, has_the_end_of_the_ray_and_the_line_of_the_test) {
     const auto loops = loops_of(k_sphere_tracing);
     ASSERT_EQ(loops.size(), 1u);
     EXPECT_NE(loops[0].far, k_no_value);
     EXPECT_EQ(loops[0].line, 9);
 }
 
-TEST(MarchingLoop, hits_where_it_is_near_not_where_it_is_far_from_everything) {
+TEST(MarchingLoop, hits_at_the_exit_near_the_surface_only) {
     const std::string march =
         "for (int i = 0; i < 99; ++i) { float d = map(ro + rd * t);\nif (d > 10.0) { t = 99.0; break; }\n"
         "if (d <= 0.01) break;\nt += d * 0.9; }";
@@ -250,7 +250,7 @@ TEST(MarchingLoop, hits_where_it_is_near_not_where_it_is_far_from_everything) {
     EXPECT_EQ(std::bit_cast<float>(threshold.immediate), 0.01f);
 }
 
-TEST(MarchingLoop, is_not_what_only_adds_up) {
+TEST(MarchingLoop, is_not_a_loop_that_only_sums) {
     // Counts samples, adds up a density, and looks how far it has come.
     EXPECT_TRUE(
         loops_of("for (float i = 0.0; i < 4.0 + min(iTime, 0.0); ++i) t += map(ro + i * rd);").empty());
@@ -263,7 +263,7 @@ TEST(MarchingLoop, is_not_what_only_adds_up) {
             .empty());
 }
 
-TEST(MarchingLoop, that_remembers_more_than_its_place_is_not_faithful) {
+TEST(MarchingLoop, with_state_other_than_its_place_is_not_faithful) {
     for (const char* march :
          {"int seen = 0; for (int i = 0; i < 99; ++i) {\n"
           "float d = map(ro + rd * t) + 0.1 * float(seen); if (d < 1e-3) break; t += 0.5 * d; ++seen; }",
@@ -281,4 +281,4 @@ TEST(MarchingLoop, that_remembers_more_than_its_place_is_not_faithful) {
     }
 }
 
-} // namespace tidemark::ir::marching_loop_test
+} // namespace tidemark::proof::marching_loop_test

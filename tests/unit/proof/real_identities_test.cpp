@@ -2,7 +2,7 @@
 #include "ir_support.hpp"
 #include "proof/function_builder.hpp"
 
-namespace tidemark::ir::real_identities_test {
+namespace tidemark::proof::real_identities_test {
 
 /// Bounds of an expression in x and y over [0.1, 0.9] and [0.2, 0.8], which intervals see no relation
 /// between.
@@ -25,7 +25,7 @@ void expect_same(const std::string& by_hand, double low, double high) {
     EXPECT_NEAR(found.high, high, 1e-6) << by_hand;
 }
 
-TEST(RealIdentities, parts_of_a_number_are_seen) {
+TEST(RealIdentities, fractional_parts_are_recognised) {
     expect_same("x - floor(x)", 0.1, 0.9);
     expect_same("x - fract(x)", 0, 0);
     expect_same("x - 1.0 * floor(x / 1.0)", 0.1, 0.9);
@@ -34,29 +34,29 @@ TEST(RealIdentities, parts_of_a_number_are_seen) {
     expect_same("x * x", 0.01, 0.81);
 }
 
-TEST(RealIdentities, interpolation_by_hand_is_seen) {
+TEST(RealIdentities, handwritten_mix_is_recognised) {
     expect_same("1.0 + x * (3.0 - 1.0)", 1.2, 2.8);
     expect_same("y + x * (2.0 - y)", 0.38, 1.88);
     expect_same("y * (1.0 - x) + 2.0 * x", 0.38, 1.88);
     expect_same("x * 2.0 + (1.0 - x) * y", 0.38, 1.88);
 }
 
-TEST(RealIdentities, smooth_steps_by_hand_are_seen) {
+TEST(RealIdentities, handwritten_smoothstep_is_recognised) {
     expect_same("x * x * (3.0 - 2.0 * x)", 0.028, 0.972);
     expect_same("x * x * (3.0 - x * 2.0)", 0.028, 0.972);
     expect_same("x * x * x * (x * (x * 6.0 - 15.0) + 10.0)", 0.00856, 0.99144);
     expect_same("x * x * x * (10.0 + x * (6.0 * x - 15.0))", 0.00856, 0.99144);
 }
 
-TEST(RealIdentities, the_smaller_by_hand_is_seen) {
+TEST(RealIdentities, handwritten_min_is_recognised) {
     expect_same("(x < y ? x : y)", 0.1, 0.8);
     expect_same("(x > y ? x : y)", 0.2, 0.9);
 }
 
-TEST(RealIdentities, what_only_looks_like_one_is_none) {
+TEST(RealIdentities, similar_expressions_are_not_rewritten) {
     expect_same("x - floor(y)", 0.1, 0.9);
     expect_same("x * x * (3.0 - 2.0 * y)", 0.01 * 1.4, 0.81 * 2.6);
     expect_same("y + x * (2.0 - x)", 0.2 + 0.1 * 1.1, 0.8 + 0.9 * 1.9);
 }
 
-} // namespace tidemark::ir::real_identities_test
+} // namespace tidemark::proof::real_identities_test

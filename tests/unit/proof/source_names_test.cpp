@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace tidemark::ir::source_names_test {
+namespace tidemark::proof::source_names_test {
 
 using Kind = Assignment::Kind;
 
@@ -22,7 +22,7 @@ std::vector<Assignment> on_line(const Function& function, int line) {
     return result;
 }
 
-TEST(SourceNames, are_kept_only_where_they_are_asked_for) {
+TEST(SourceNames, are_kept_only_on_request) {
     EXPECT_TRUE(compiled("", "float a = iTime;\ncolor = vec4(a);").names.assignments.empty());
     EXPECT_FALSE(named("", "float a = iTime;\ncolor = vec4(a);").names.assignments.empty());
 }
@@ -55,7 +55,7 @@ TEST(SourceNames, members_have_the_names_of_their_struct) {
     EXPECT_EQ(found[1].values.size(), 3u);
 }
 
-TEST(SourceNames, what_a_loop_carries_is_named_at_its_head) {
+TEST(SourceNames, loop_carried_values_are_named_at_the_loop_head) {
     const Function function = named(
         "", "float t = 0.0;\nfor (int i = 0; i < int(iTime); ++i)\n    t += 0.1 * iTime;\ncolor = vec4(t);");
     const auto head = on_line(function, 8);
@@ -72,7 +72,7 @@ TEST(SourceNames, what_a_loop_carries_is_named_at_its_head) {
     EXPECT_EQ(step[0].kind, Kind::computed);
 }
 
-TEST(SourceNames, an_element_is_told_by_its_index) {
+TEST(SourceNames, an_element_has_its_index) {
     const auto found = on_line(
         named("", "float a[4];\na[int(iTime)] = 2.0 * iTime;\ncolor = vec4(a[int(gl_FragCoord.x)]);"), 8);
     ASSERT_EQ(found.size(), 1u);
@@ -82,7 +82,7 @@ TEST(SourceNames, an_element_is_told_by_its_index) {
     EXPECT_EQ(found[0].stride, 1u);
 }
 
-TEST(SourceNames, an_inlined_function_knows_its_callers) {
+TEST(SourceNames, an_inlined_function_lists_its_callers) {
     const Function function = named("float half_of(float a) { float b = 0.5 * a; return b + 1.0; }",
                                     "float x = half_of(iTime);\nx += half_of(x);\ncolor = vec4(x);");
     std::vector<int> lines;
@@ -96,4 +96,4 @@ TEST(SourceNames, an_inlined_function_knows_its_callers) {
     EXPECT_THAT(lines, testing::ElementsAre(7, 8));
 }
 
-} // namespace tidemark::ir::source_names_test
+} // namespace tidemark::proof::source_names_test

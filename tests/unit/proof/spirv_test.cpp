@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::ir::spirv_test {
+namespace tidemark::proof::spirv_test {
 
 TEST(Spirv, a_text_becomes_one_function_without_calls) {
     const Function function =
@@ -24,22 +24,22 @@ TEST(Spirv, instructions_have_the_lines_of_the_text) {
     EXPECT_TRUE(found);
 }
 
-TEST(Spirv, what_the_compiler_refuses_is_said_with_its_line) {
+TEST(Spirv, compiler_errors_have_their_line) {
     const auto refused = compile(shader("", "color = nothing;"));
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().message, testing::HasSubstr("0:7: 'nothing' : undeclared identifier"));
 }
 
-TEST(Spirv, what_cannot_be_followed_is_said_with_its_line) {
+TEST(Spirv, unsupported_code_is_named_with_its_line) {
     const auto doubles = compile(shader("", "double a = iTime;\ncolor = vec4(float(a));"));
     ASSERT_FALSE(doubles);
     EXPECT_THAT(doubles.error().message, testing::HasSubstr("numbers of other than 32 bits"));
 }
 
-TEST(Spirv, words_that_are_no_module_are_refused) {
+TEST(Spirv, invalid_modules_are_refused) {
     const std::vector<uint32_t> words(100, 0x00030011);
     EXPECT_FALSE(read_spirv(words));
     EXPECT_TRUE(read_spirv({}));
 }
 
-} // namespace tidemark::ir::spirv_test
+} // namespace tidemark::proof::spirv_test

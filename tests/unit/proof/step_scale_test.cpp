@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace tidemark::ir::step_scale_test {
+namespace tidemark::proof::step_scale_test {
 
 StepScale scale_of(const std::string& field, float x, uint64_t most = 2'000) {
     const Function function = marcher(field, k_sphere_tracing);
@@ -24,14 +24,14 @@ void expect_scale(const StepScale& scale, double exact) {
     EXPECT_LE(scale.unsafe, exact * 1.06);
 }
 
-TEST(StepScale, of_a_distance_is_1_and_goes_with_its_slope) {
+TEST(StepScale, of_a_distance_is_1_and_of_others_the_inverse_slope) {
     expect_scale(scale_of("length(p) - 1.0", 0), 1);
     expect_scale(scale_of("2.0 * (length(p) - 1.0)", 0), 0.5);
     expect_scale(scale_of("0.4 * (length(p) - 1.0)", 0), 2.5);
 }
 
-TEST(StepScale, is_of_the_worst_place_wherever_that_is) {
-    // Between 1 and 1.5 in front of the hit the distance is three times the way.
+TEST(StepScale, is_that_of_the_worst_place) {
+    // From 1.5 to 1 before the hit the field is three times the distance.
     expect_scale(scale_of("(p.z < 0.5 || p.z > 1.0 ? 1.0 : 3.0) * (2.0 - p.z)", 0), 1.0 / 3);
     expect_scale(scale_of("(p.z < -2.5 ? 9.0 : 1.0) * (2.0 - p.z)", 0), 1.0 / 9);
 }
@@ -50,9 +50,9 @@ TEST(StepScale, holds_on_a_ray_that_passes_a_crest) {
     EXPECT_GE(scale.unsafe, least * (1 - 1e-3));
 }
 
-TEST(StepScale, is_not_known_where_the_field_cannot_be_bounded) {
+TEST(StepScale, is_0_for_unbounded_fields) {
     const StepScale scale = scale_of("p.z < 0.0 ? (2.0 - p.z) / abs(p.z + 1.0) : 2.0 - p.z", 0);
     EXPECT_EQ(scale.safe, 0);
 }
 
-} // namespace tidemark::ir::step_scale_test
+} // namespace tidemark::proof::step_scale_test

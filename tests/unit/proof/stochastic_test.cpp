@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace tidemark::ir::stochastic_test {
+namespace tidemark::proof::stochastic_test {
 
 Samples of(float a, float b, float c) {
     return {Point<float>{a, 0}, Point<float>{b, 0}, Point<float>{c, 0}};
@@ -37,7 +37,7 @@ double mean_digits(const Function& function, float time = 0) {
     return sum / k_seeds;
 }
 
-TEST(Stochastic, digits_are_those_that_samples_have_in_common) {
+TEST(Stochastic, digits_are_the_common_digits_of_samples) {
     EXPECT_EQ(digits(of(2, 2, 2)), k_most_digits);
     EXPECT_EQ(digits(of(-1, 0, 1)), 0);
     EXPECT_EQ(digits(of(-1, 5, 1)), 0);
@@ -45,7 +45,7 @@ TEST(Stochastic, digits_are_those_that_samples_have_in_common) {
     EXPECT_NEAR(digits(of(1, 1.001f, 0.999f)), 2.605, 0.001);
 }
 
-TEST(Stochastic, what_is_not_finite_has_no_digits_unless_all_agree) {
+TEST(Stochastic, non_finite_samples_have_digits_only_if_equal) {
     constexpr float k_nan = std::numeric_limits<float>::quiet_NaN(),
                     k_infinity = std::numeric_limits<float>::infinity();
     EXPECT_EQ(digits(of(k_nan, k_nan, k_nan)), 0);
@@ -64,7 +64,7 @@ TEST(Stochastic, exact_operations_stay_exact) {
     EXPECT_EQ(digits(stochastic(function, 1, 2.5f)), k_most_digits);
 }
 
-TEST(Stochastic, a_result_is_one_of_the_two_floats_around_it) {
+TEST(Stochastic, a_result_is_one_of_the_two_nearest_floats) {
     const Function function = compiled("", "color = vec4(iTime / 3.0);");
     const float below = 1.0f / 3, above = std::nextafter(below, 0.0f); // 1/3 lies between them
     bool saw_below = false, saw_above = false;
@@ -78,7 +78,7 @@ TEST(Stochastic, a_result_is_one_of_the_two_floats_around_it) {
 }
 
 /// 1 + x is rounded to 2^-23 at most: of x so many digits are left.
-TEST(Stochastic, a_cancellation_costs_what_it_must) {
+TEST(Stochastic, a_cancellation_loses_the_expected_digits) {
     const Function function = compiled("", "color = vec4((1.0 + iTime) - 1.0);");
     for (const float x : {1.2345e-2f, 1.2345e-4f, 1.2345e-6f})
         EXPECT_NEAR(mean_digits(function, x), std::log10(x / 0x1p-23), 1) << x;
@@ -94,7 +94,7 @@ TEST(Stochastic, rumps_polynomial_has_no_digit) {
 }
 
 /// J.-M. Muller, Arithmétique des ordinateurs (1989): tends to 6, and in any floating point to 100.
-TEST(Stochastic, mullers_recurrence_loses_a_digit_a_turn) {
+TEST(Stochastic, mullers_recurrence_loses_a_digit_per_iteration) {
     const auto at = [](int turns) {
         return mean_digits(
             compiled("", "float x = 5.5 + iTime, y = 61.0 / 11.0;\n"
@@ -109,14 +109,14 @@ TEST(Stochastic, mullers_recurrence_loses_a_digit_a_turn) {
     EXPECT_GT(at(20), 6); // it is 100 now, and sure of it
 }
 
-TEST(Stochastic, a_seed_gives_the_same_again) {
+TEST(Stochastic, a_seed_is_repeatable) {
     const Function function = compiled("", "color = vec4(sin(iTime) / 3.0);");
     const Samples first = stochastic(function, 5, 1), again = stochastic(function, 5, 1);
     for (size_t i = 0; i < k_samples; ++i)
         EXPECT_EQ(first[i].real, again[i].real);
 }
 
-TEST(Lockstep, each_part_is_what_it_is_alone) {
+TEST(Lockstep, each_component_equals_its_own_evaluation) {
     const Function function =
         compiled("", "float a = iTime;\nfor (int i = 0; i < 9; ++i) a = mod(sin(a * 7.3) * 3.0, 0.7);\n"
                      "color = vec4(a);");
@@ -129,7 +129,7 @@ TEST(Lockstep, each_part_is_what_it_is_alone) {
         EXPECT_EQ(all.samples[i].real, samples[i].real);
 }
 
-TEST(Lockstep, all_go_the_way_of_the_float) {
+TEST(Lockstep, branches_follow_the_float_value) {
     // In float the sum stays 1.
     const Function function = compiled(
         "", "float a = 1.0;\nfor (int i = 0; i < 9; ++i) a += iTime;\ncolor = vec4(a > 1.0 ? 2.0 : a);");
@@ -139,7 +139,7 @@ TEST(Lockstep, all_go_the_way_of_the_float) {
     EXPECT_LT(all.in_double.real, 1.1);
 }
 
-TEST(Lockstep, a_condition_that_double_decides_otherwise_can_be_seen) {
+TEST(Lockstep, a_condition_that_differs_in_double_is_detected) {
     Lockstep condition = LockstepSystem::constant(1, Scalar::boolean);
     EXPECT_FALSE(condition.double_differs() || condition.rounding_decides());
     condition.in_double.bits = 0;
@@ -148,4 +148,4 @@ TEST(Lockstep, a_condition_that_double_decides_otherwise_can_be_seen) {
     EXPECT_TRUE(condition.rounding_decides());
 }
 
-} // namespace tidemark::ir::stochastic_test
+} // namespace tidemark::proof::stochastic_test

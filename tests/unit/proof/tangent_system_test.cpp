@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace tidemark::ir::tangent_system_test {
+namespace tidemark::proof::tangent_system_test {
 
 constexpr int k_pieces = 2'000; ///< of each operation
 
@@ -86,7 +86,7 @@ constexpr Named k_operations[] = {
     {Op::remainder, 2}, {Op::sign, 1},     {Op::round, 1},    {Op::nearest_rest, 2},
 };
 
-TEST(TangentSystem, has_the_mean_value_theorem) {
+TEST(TangentSystem, satisfies_the_mean_value_theorem) {
     Pieces pieces;
     for (const Named& operation : k_operations)
         for (int i = 0; i < k_pieces; ++i) {
@@ -113,7 +113,7 @@ TEST(TangentSystem, has_no_slope_where_a_value_jumps) {
     EXPECT_EQ(tangent_of(Op::atan2, 2, {{-0.1, -1, 0}, {1, 0, 0}}, {0, 0.2}).slope.low, -k_infinity);
 }
 
-TEST(TangentSystem, has_the_slopes_beside_the_jumps_if_asked_for) {
+TEST(TangentSystem, has_one_sided_slopes_at_jumps_on_request) {
     TangentSystem system;
     system.jumps_aside = true;
     const Tangent wide{{0.2, 3.4}, {-1, 2}}, three{{3, 3}, {}}, none{};
@@ -135,4 +135,4 @@ TEST(TangentSystem, has_the_slopes_beside_the_jumps_if_asked_for) {
     EXPECT_EQ(slope(Op::select, either, three, wide).high, k_infinity);
 }
 
-} // namespace tidemark::ir::tangent_system_test
+} // namespace tidemark::proof::tangent_system_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace tidemark::ir::texels_test {
+namespace tidemark::proof::texels_test {
 
 constexpr int k_width = 7, k_height = 5;
 
@@ -60,7 +60,7 @@ double by_hand(double u, double v, const Texels& texture, uint32_t component) {
 
 constexpr std::array k_wraps{Texels::Wrap::repeat, Texels::Wrap::clamp, Texels::Wrap::mirror};
 
-TEST(Texels, are_filtered_as_by_hand) {
+TEST(Texels, are_filtered_as_calculated_by_hand) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> anywhere(-3, 3);
     for (const Texels::Wrap wrap : k_wraps)
@@ -76,7 +76,7 @@ TEST(Texels, are_filtered_as_by_hand) {
         }
 }
 
-TEST(Texels, of_a_box_are_bounded) {
+TEST(Texels, of_a_box_have_bounds) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> part(0, 1);
     for (const Texels::Wrap wrap : k_wraps)
@@ -104,7 +104,7 @@ TEST(Texels, of_a_narrow_box_have_narrow_bounds) {
     EXPECT_LT(texture.look_up({}, box).width(), 1e-5);
 }
 
-TEST(Texels, of_a_whole_picture_are_its_extremes) {
+TEST(Texels, of_a_whole_picture_have_its_extremes_as_bounds) {
     const std::array<Interval, 2> everywhere{everything(), {0, 1}};
     const Texels texture = texels(Texels::Wrap::repeat);
     const Interval all = texture.look_up({}, everywhere);
@@ -142,7 +142,7 @@ TEST(Texels, lie_between_their_levels) {
     EXPECT_FALSE(with_levels(Texels::Mipmaps::linear).chooses_level(lookup));
 }
 
-TEST(Texels, of_a_level_that_the_device_chooses_may_be_any) {
+TEST(Texels, of_an_implicit_level_include_all_levels) {
     const auto at = [](Texels::Mipmaps mipmaps, const Lookup& lookup, UnnamedLevel unnamed) {
         return with_levels(mipmaps).look_up(lookup, std::array<Interval, 3>{}, unnamed);
     };
@@ -169,7 +169,7 @@ TEST(Texels, are_fetched_by_their_indices) {
     EXPECT_EQ(texture.look_up(size, std::array<Interval, 1>{{{0, 0}}}).low, k_height);
 }
 
-TEST(Texels, of_a_cube_are_those_of_the_face) {
+TEST(Texels, of_a_cube_come_from_the_face) {
     Texels cube;
     cube.kind = Texels::Kind::cube;
     std::vector<float> rgba;
@@ -190,11 +190,11 @@ TEST(Texels, of_a_cube_are_those_of_the_face) {
     EXPECT_GE(at(0.9, 0.9, 0.1, 0.2).high, 2);
 }
 
-TEST(Texels, that_are_no_numbers_are_not_known) {
+TEST(Texels, non_finite_texels_make_the_result_partial) {
     Texels texture;
     texture.levels.push_back({{1, 1, 1}, {NAN, 0, 0, 0}});
     EXPECT_TRUE(texture.look_up({}, std::array<Interval, 2>{{{0, 0}, {0, 0}}}).partial);
     EXPECT_TRUE(look_up({}, {.sampler = "iChannel0"}, std::array<Interval, 2>{{{0, 0}, {0, 0}}}).partial);
 }
 
-} // namespace tidemark::ir::texels_test
+} // namespace tidemark::proof::texels_test

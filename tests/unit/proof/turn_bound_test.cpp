@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::ir::turn_bound_test {
+namespace tidemark::proof::turn_bound_test {
 
 const std::string k_long_steps = "for (int i = 0; i < 200; ++i) { float d = map(ro + rd * t); "
                                  "if (d < 0.001 || t > 20.0) break; t += 0.7 * d; }";
@@ -27,7 +27,7 @@ Bounded bounded(const std::string& field, const std::string& text, float x) {
     return {most_turns(slice, slice.end(march), *loops[0].turns, 2000), march.turns.size()};
 }
 
-TEST(TurnBound, is_above_what_a_march_needs_and_not_far) {
+TEST(TurnBound, is_a_tight_bound_of_the_iterations) {
     for (const std::string& text : {k_sphere_tracing, k_long_steps})
         for (const float x : {0.0f, 0.5f, 0.9f, 1.2f, 3.0f}) {
             const Bounded found = bounded("length(p) - 1.0", text, x);
@@ -37,7 +37,7 @@ TEST(TurnBound, is_above_what_a_march_needs_and_not_far) {
         }
 }
 
-TEST(TurnBound, is_known_for_the_other_forms_of_a_march) {
+TEST(TurnBound, exists_for_the_other_forms_of_a_march) {
     for (const std::string text :
          {"float d = 1.0; for (int i = 0; i < 200 && d > 1e-3 && t < 9.0; ++i) { d = map(ro + t * rd); t += "
           "d; "
@@ -53,7 +53,7 @@ TEST(TurnBound, is_known_for_the_other_forms_of_a_march) {
 }
 
 /// A march that crawls along a surface, or steps through a thin one, is not bounded.
-TEST(TurnBound, is_not_known_where_steps_may_be_too_short_or_too_long) {
+TEST(TurnBound, is_missing_for_too_short_or_too_long_steps) {
     EXPECT_FALSE(bounded("0.0011 + 0.0001 * sin(p.z)", k_sphere_tracing, 0).most);
     EXPECT_FALSE(bounded("length(p) - 1.0",
                          "for (int i = 0; i < 5; ++i) { float d = map(ro + rd * t); "
@@ -63,13 +63,13 @@ TEST(TurnBound, is_not_known_where_steps_may_be_too_short_or_too_long) {
     EXPECT_FALSE(bounded("3.0 * (length(p) - 0.1)", k_sphere_tracing, 0).most);
 }
 
-TEST(TurnBound, is_not_known_of_a_ray_that_begins_nowhere) {
+TEST(TurnBound, is_missing_for_a_non_finite_start) {
     for (const char* start : {"0.0 / iTime", "1.0 / iTime", "-1.0 / iTime"})
         EXPECT_FALSE(bounded("length(p) - 1.0", "t = " + std::string(start) + ";" + k_sphere_tracing, 0).most)
             << start;
 }
 
-TEST(TurnBound, is_that_of_all_rays_of_an_area) {
+TEST(TurnBound, holds_for_all_rays_of_an_area) {
     const Function function = marcher("length(p) - 1.0", k_sphere_tracing);
     const auto loops = find_marching_loops(function);
     ASSERT_EQ(loops.size(), 1u);
@@ -86,8 +86,8 @@ TEST(TurnBound, is_that_of_all_rays_of_an_area) {
     }
 }
 
-/// Where x is below 0 the march begins at NaN, and takes all turns.
-TEST(TurnBound, is_not_known_where_a_ray_of_the_area_may_begin_nowhere) {
+/// If x is below 0 the march begins at NaN and takes all iterations.
+TEST(TurnBound, is_missing_if_a_ray_of_the_area_may_have_a_non_finite_start) {
     const Function function = marcher("length(p) - 1.0", "t = sqrt(gl_FragCoord.x);" + k_sphere_tracing);
     const auto loops = find_marching_loops(function);
     ASSERT_EQ(loops.size(), 1u);
@@ -105,4 +105,4 @@ TEST(TurnBound, is_not_known_where_a_ray_of_the_area_may_begin_nowhere) {
     EXPECT_EQ(follow(one, function, loops[0]).turns.size(), 100u);
 }
 
-} // namespace tidemark::ir::turn_bound_test
+} // namespace tidemark::proof::turn_bound_test

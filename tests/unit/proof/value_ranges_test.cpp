@@ -2,7 +2,7 @@
 #include "ir_support.hpp"
 #include "proof/value_ranges.hpp"
 
-namespace tidemark::ir::value_ranges_test {
+namespace tidemark::proof::value_ranges_test {
 
 struct Colour {
     Interval range;
@@ -41,7 +41,7 @@ TEST(ValueRanges, follow_operations) {
     expect_range(red_of("color.x = texture(iChannel0, vec2(iTime)).x + 2.0;"), 0, 3);
 }
 
-TEST(ValueRanges, name_the_operation_that_leaves_its_domain) {
+TEST(ValueRanges, name_operations_that_leave_their_domain) {
     const Colour root = red_of("float x = iTime - 1.0; color.x = 2.0 * sqrt(x) + 1.0;");
     ASSERT_EQ(root.op(), Op::sqrt);
     EXPECT_NEAR(root.doubt->operands.at(0).low, -1, 1e-6);
@@ -51,7 +51,7 @@ TEST(ValueRanges, name_the_operation_that_leaves_its_domain) {
     EXPECT_EQ(red_of("color.x = normalize(vec2(iTime, 0.0)).x;").op(), Op::inverse_sqrt);
 }
 
-TEST(ValueRanges, know_what_a_condition_keeps_out) {
+TEST(ValueRanges, use_conditions) {
     for (const char* guarded : {"float x = iTime - 1.0; if (x > 0.0) color.x = sqrt(x);",
                                 "float x = iTime - 1.0; color.x = x > 0.0 ? sqrt(x) : 0.0;",
                                 "float x = iTime - 1.0; if (!(x < 0.0)) color.x = sqrt(x);",
@@ -67,7 +67,7 @@ TEST(ValueRanges, know_what_a_condition_keeps_out) {
     EXPECT_TRUE(red_of("float x = iTime > 50.0 ? 1.0 : -1.0; color.x = 1.0 / x;").doubt);
 }
 
-TEST(ValueRanges, come_to_an_end_in_loops) {
+TEST(ValueRanges, converge_in_loops) {
     expect_range(
         red_of("float s = 0.0; for (int i = 0; i < 64; ++i) if (i > 3) s = 1.0 / float(i); color.x = s;"), 0,
         0.25);
@@ -85,7 +85,7 @@ TEST(ValueRanges, come_to_an_end_in_loops) {
             "float t = 0.0; for (int i = 0; i < 9; ++i) { if (t > 20.0) break; t += 1.0 / (iTime - 50.0); }\n"
             "color.x = exp(-t);")
             .doubt);
-    // What it is about to be divided by is only known when the loop is.
+    // The divisor is only known once the loop is analysed.
     EXPECT_FALSE(
         red_of(
             "float c = 8.0, s = 0.0; for (int i = 0; i < 5; ++i) { s = 0.5 * s + pow(sin(iTime) + 1.0, c);\n"
@@ -93,7 +93,7 @@ TEST(ValueRanges, come_to_an_end_in_loops) {
             .doubt);
 }
 
-TEST(ValueRanges, know_of_memory_what_was_ever_in_it) {
+TEST(ValueRanges, of_memory_include_every_stored_value) {
     expect_range(red_of("float a[4]; for (int i = 0; i < 4; ++i) a[i] = float(i) + 1.0;\n"
                         "color.x = a[int(gl_FragCoord.x) & 3];"),
                  0, 4);
@@ -102,4 +102,4 @@ TEST(ValueRanges, know_of_memory_what_was_ever_in_it) {
                     .doubt);
 }
 
-} // namespace tidemark::ir::value_ranges_test
+} // namespace tidemark::proof::value_ranges_test

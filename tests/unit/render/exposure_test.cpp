@@ -6,7 +6,7 @@
 
 namespace tidemark::render::exposure_test {
 
-TEST(Expose, one_sample_is_the_frame_itself) {
+TEST(Expose, one_sample_equals_the_frame) {
     const ExposedFrame frame = expose({}, FrameState{.frame = 30});
     ASSERT_EQ(frame.samples.size(), 1u);
     EXPECT_EQ(frame.samples[0].x, 0);
@@ -30,7 +30,7 @@ TEST(Expose, samples_stay_within_a_pixel_and_their_mean_is_its_middle) {
     }
 }
 
-/// Of 64 evenly spread ones as many lie in each strip of a pixel, however it is turned: 1/8 of them in 1/8.
+/// Each strip of a pixel, across or upright, holds its share of 64 samples: an eighth of them in 1/8.
 TEST(Expose, samples_lie_evenly_along_both_axes) {
     std::vector<int> columns(8), rows(8);
     for (const Sample& sample : expose({.samples = 64}, {}).samples) {
@@ -41,7 +41,7 @@ TEST(Expose, samples_lie_evenly_along_both_axes) {
     EXPECT_THAT(rows, ::testing::Each(::testing::AllOf(::testing::Ge(6), ::testing::Le(10))));
 }
 
-TEST(Expose, the_shutter_is_open_from_the_frames_own_time_on) {
+TEST(Expose, the_shutter_opens_at_the_frames_time) {
     const ExposedFrame frame = expose({.samples = 4, .shutter = 0.5}, FrameState{.frame = 10, .fps = 10});
     EXPECT_TRUE(frame.moving);
     EXPECT_NEAR(frame.samples.front().inputs.time, 1.00625, 1e-12);

@@ -35,7 +35,7 @@ TEST(ParseDate, leap_years) {
     EXPECT_FALSE(parse_date("1900-02-29"));
 }
 
-TEST(ParseDate, what_is_no_date) {
+TEST(ParseDate, invalid_dates) {
     for (const std::string text :
          {"", "2024", "2024-12", "2024-12-", "2024-13-01", "2024-00-01", "2024-12-00", "2024-12-32",
           "2024-04-31", "-5-01-01", "2024-12-31T", "2024-12-31T24:00:00", "2024-12-31T23:60:00",
@@ -52,7 +52,7 @@ TEST(ParseDate, what_is_no_date) {
     }
 }
 
-TEST(LocalDate, is_the_clock_on_the_wall) {
+TEST(LocalDate, is_the_local_time) {
     const std::time_t before = std::time(nullptr);
     const Date date = local_date();
     const std::time_t after = std::time(nullptr);
@@ -69,7 +69,7 @@ TEST(LocalDate, is_the_clock_on_the_wall) {
     EXPECT_LT(date.seconds, 86401);
 }
 
-TEST(Later, the_clock_goes_on) {
+TEST(Later, adds_seconds_to_the_time_of_day) {
     EXPECT_EQ(later({2024, 0, 1, 43200}, 0), (Date{2024, 0, 1, 43200}));
     EXPECT_EQ(later({2024, 0, 1, 43200}, 0.125), (Date{2024, 0, 1, 43200.125}));
     EXPECT_EQ(later({2024, 0, 1, 43200}, 43199.75), (Date{2024, 0, 1, 86399.75}));
@@ -91,7 +91,7 @@ TEST(Later, midnight_ends_days_months_and_years) {
     EXPECT_EQ(later({1, 0, 1, 0}, -1e300).month >= 0, true);
 }
 
-TEST(InputsOfFrame, the_date_goes_on_with_the_time) {
+TEST(InputsOfFrame, the_date_advances_with_the_time) {
     EXPECT_EQ(inputs_of_frame(90, 30).date, (Date{2024, 0, 1, 43203}));
     EXPECT_EQ(inputs_of_frame(60 * 43200, 60).date, (Date{2024, 0, 2, 0}));
 }
@@ -138,7 +138,7 @@ TEST(ValueOf, has_the_components_of_its_type) {
     }
 }
 
-TEST(ValueOf, is_of_the_frame_the_pass_and_its_channels) {
+TEST(ValueOf, depends_on_frame_pass_and_channels) {
     FrameInputs inputs;
     inputs.time = 0.1;
     inputs.mouse = {2, 3, -1, 0};

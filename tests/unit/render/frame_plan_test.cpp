@@ -36,7 +36,7 @@ scene::Scene scene_of(size_t passes) {
     return scene;
 }
 
-TEST(PlanFrame, a_pass_reads_what_its_program_kept) {
+TEST(PlanFrame, a_pass_reads_the_active_channels_of_its_program) {
     scene::Scene scene = scene_of(1);
     const FramePlan plan = plan_frame(
         scene, Reflections{with({"iTime", "iChannel9", "iChannel3", "iChannel0", "iChannelTime"})}, 0);
@@ -46,16 +46,16 @@ TEST(PlanFrame, a_pass_reads_what_its_program_kept) {
     EXPECT_FALSE(plan.feedback);
 }
 
-TEST(PlanFrame, a_program_without_channels_reads_none) {
+TEST(PlanFrame, a_program_without_channels_reads_no_channel) {
     const FramePlan plan =
         plan_frame(scene_of(1), Reflections{with({"iChannel10", "iChannelResolution"})}, 0);
     EXPECT_THAT(plan.passes[0].channels, ElementsAre());
 }
 
-TEST(PlanFrame, a_size_that_is_asked_for_needs_the_texture_that_knows_it) {
+TEST(PlanFrame, a_read_resolution_needs_the_texture_of_its_channel) {
     scene::Scene scene = scene_of(2);
     scene.passes[1].channels[0] = reads(0);
-    scene.passes[1].channels[1].input = scene::Noise{}; // whoever chose it
+    scene.passes[1].channels[1].input = scene::Noise{}; // by default, and stated in the text
     scene.passes[1].channels[2].input = scene::Noise{};
     scene.passes[1].channels[2].where = {"a.glsl", 1};
     for (const char* name : {"iChannelResolution", "iChannelTime"}) {
@@ -98,7 +98,7 @@ TEST(PlanFrame, passes_are_drawn_in_the_scene_s_order) {
     EXPECT_THAT(plan.passes[2].channels, ElementsAre(1));
 }
 
-TEST(PlanFrame, a_pass_that_nobody_reads_is_not_drawn) {
+TEST(PlanFrame, an_unread_pass_is_not_drawn) {
     scene::Scene scene = scene_of(3);
     scene.passes[2].channels[0] = reads(0);
     scene.passes[2].channels[1] = reads(1); // but its program does not
@@ -119,7 +119,7 @@ TEST(PlanFrame, only_a_pass_that_reads_itself_has_two_textures) {
     EXPECT_TRUE(plan.feedback);
 }
 
-TEST(PlanFrame, a_buffer_has_mipmaps_when_a_reader_filters_between_them) {
+TEST(PlanFrame, a_buffer_has_mipmaps_if_a_reader_filters_with_mipmaps) {
     scene::Scene scene = scene_of(2);
     scene.passes[1].channels[0] = reads(0);
     scene.passes[1].channels[0].sampling.mipmaps = scene::Mipmaps::linear;
@@ -128,13 +128,13 @@ TEST(PlanFrame, a_buffer_has_mipmaps_when_a_reader_filters_between_them) {
     EXPECT_FALSE(plan_frame(scene, Reflections{with({}), with({"iChannel0"})}, 1).targets[0].mipmaps);
 }
 
-TEST(FrameRef, what_stands_before_is_this_frame_s) {
+TEST(FrameRef, earlier_passes_are_read_from_this_frame) {
     EXPECT_EQ(frame_ref(2, 1), FrameRef::current);
     EXPECT_EQ(frame_ref(1, 1), FrameRef::previous);
     EXPECT_EQ(frame_ref(1, 2), FrameRef::previous);
 }
 
-TEST(PlanFrame, an_extra_pass_is_drawn_although_nobody_reads_it) {
+TEST(PlanFrame, an_extra_pass_is_drawn_without_readers) {
     const Reflections programs{with({}), with({})};
     EXPECT_EQ(plan_frame(scene_of(2), programs, 1).passes.size(), 1u);
     EXPECT_EQ(plan_frame(scene_of(2), programs, 1, {.passes = true}).passes.size(), 2u);
@@ -143,7 +143,7 @@ TEST(PlanFrame, an_extra_pass_is_drawn_although_nobody_reads_it) {
         << "one that did not link";
 }
 
-TEST(PlanFrame, extra_channels_have_a_texture_although_no_program_reads_them) {
+TEST(PlanFrame, extra_channels_have_a_texture_without_readers) {
     const FramePlan plan = plan_frame(scene_of(1), Reflections{with({})}, 0, {.channels = true});
     EXPECT_THAT(plan.passes[0].channels, ElementsAre(0, 1, 2, 3));
 }
@@ -157,7 +157,7 @@ TEST(PlanFrame, extra_textures_and_mipmaps_are_those_of_buffers) {
     EXPECT_FALSE(plan.targets[1].two_textures || plan.targets[1].mipmaps);
 }
 
-TEST(PlanFrame, what_a_pass_discards_is_of_an_earlier_frame) {
+TEST(PlanFrame, discarded_pixels_come_from_an_earlier_frame) {
     const Reflections programs{with({}), with({"iChannel0"})};
     scene::Scene scene = scene_of(2);
     scene.passes[1].channels[0] = reads(0);

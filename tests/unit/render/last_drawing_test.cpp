@@ -19,12 +19,12 @@ LastDrawing drawn_from(PassInputs inputs, Generation generation) {
     return last;
 }
 
-TEST(LastDrawing, before_the_first_frame_nothing_is_there) {
+TEST(LastDrawing, holds_nothing_before_the_first_frame) {
     EXPECT_FALSE(LastDrawing().holds({}, 0));
     EXPECT_FALSE(LastDrawing().holds(reads(1), 0));
 }
 
-TEST(LastDrawing, what_reads_nothing_is_drawn_once) {
+TEST(LastDrawing, a_pass_without_inputs_is_drawn_once) {
     EXPECT_TRUE(drawn_from({}, 1).holds({}, 1));
 }
 
@@ -36,27 +36,27 @@ TEST(LastDrawing, holds_while_uniforms_and_channels_are_the_same) {
     EXPECT_FALSE(last.holds(reads(1.5, {4, 7}), 4));
 }
 
-TEST(LastDrawing, a_target_that_was_cleared_or_made_anew_holds_nothing) {
+TEST(LastDrawing, a_cleared_or_recreated_target_holds_nothing) {
     EXPECT_FALSE(drawn_from(reads(1), 4).holds(reads(1), 5));
 }
 
-TEST(LastDrawing, a_pass_that_reads_itself_is_never_done) {
+TEST(LastDrawing, a_pass_that_reads_itself_is_always_redrawn) {
     // It reads generation 4 of its own target and makes generation 5, which it reads next.
     EXPECT_FALSE(drawn_from(reads(1, {4}), 5).holds(reads(1, {5}), 5));
 }
 
-TEST(LastDrawing, a_nan_is_the_same_number_as_long_as_its_bits_are) {
+TEST(LastDrawing, nan_is_compared_by_its_bits) {
     EXPECT_TRUE(drawn_from(reads(k_nan), 1).holds(reads(k_nan), 1));
     EXPECT_FALSE(drawn_from(reads(k_nan), 1).holds(reads(-k_nan), 1));
     EXPECT_FALSE(drawn_from(reads(k_nan), 1).holds(reads(0), 1));
 }
 
-TEST(LastDrawing, zero_has_a_sign) {
+TEST(LastDrawing, the_sign_of_zero_counts) {
     EXPECT_TRUE(drawn_from(reads(-0.0), 1).holds(reads(-0.0), 1));
     EXPECT_FALSE(drawn_from(reads(0.0), 1).holds(reads(-0.0), 1)); // 1 / x tells them apart
 }
 
-TEST(LastDrawing, numbers_are_compared_one_by_one) {
+TEST(LastDrawing, numbers_are_compared_individually) {
     const PassInputs two{{UniformNumbers{1, 2}}, {}};
     EXPECT_FALSE(drawn_from(two, 1).holds({{UniformNumbers{1, 3}}, {}}, 1));
     EXPECT_FALSE(drawn_from(two, 1).holds(reads(1), 1));

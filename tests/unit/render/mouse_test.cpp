@@ -43,7 +43,7 @@ TEST(Mouse, a_drag_within_the_first_frame_is_still_a_click) {
     EXPECT_EQ(mouse.uniform(), glm::vec4(35, 50, 30, 40));
 }
 
-TEST(Mouse, a_release_keeps_xy_and_turns_z) {
+TEST(Mouse, a_release_keeps_xy_and_negates_z) {
     Mouse mouse;
     mouse.press(30, 40);
     mouse.frame_drawn();
@@ -55,7 +55,7 @@ TEST(Mouse, a_release_keeps_xy_and_turns_z) {
     EXPECT_EQ(mouse.uniform(), glm::vec4(35, 50, -30, -40)) << "no button, no movement";
 }
 
-TEST(Mouse, a_click_within_one_frame_is_seen) {
+TEST(Mouse, a_click_within_one_frame_is_kept) {
     Mouse mouse;
     mouse.press(30, 40);
     mouse.release();
@@ -70,7 +70,7 @@ TEST(Mouse, moving_without_a_press_does_nothing) {
     EXPECT_EQ(mouse.uniform(), glm::vec4(0));
 }
 
-TEST(Mouse, a_second_press_begins_anew) {
+TEST(Mouse, a_second_press_starts_a_new_drag) {
     Mouse mouse;
     mouse.press(30, 40);
     mouse.frame_drawn();

@@ -30,7 +30,7 @@ const OrbitCamera k_cameras[] = {
     camera(90, -89.9, 5, {0, 7, 0}),
 };
 
-TEST(OrbitCamera, at_zero_stands_on_z_and_looks_along_minus_z) {
+TEST(OrbitCamera, at_zero_is_on_z_and_looks_along_minus_z) {
     const OrbitCamera still = camera(0, 0, 10);
     expect_near(column(still, 0), {1, 0, 0}, 0);
     expect_near(column(still, 1), {0, 1, 0}, 0);
@@ -39,7 +39,7 @@ TEST(OrbitCamera, at_zero_stands_on_z_and_looks_along_minus_z) {
     EXPECT_EQ(still.matrix()[3][3], 1);
 }
 
-TEST(OrbitCamera, azimuth_turns_eastward_and_elevation_lifts) {
+TEST(OrbitCamera, azimuth_rotates_eastward_and_elevation_raises) {
     expect_near(column(camera(90, 0, 10), 3), {10, 0, 0}, 1e-5);
     expect_near(column(camera(180, 0, 10), 3), {0, 0, -10}, 1e-5);
     expect_near(column(camera(0, 30, 10), 3), {0, 5, std::sqrt(75.0)}, 1e-5);
@@ -81,7 +81,7 @@ TEST(OrbitCamera, a_drag_over_the_window_s_height_is_half_a_circle) {
 
 TEST(OrbitCamera, a_drag_to_the_right_moves_the_scene_to_the_right) {
     OrbitCamera turned = camera(0, 0, 10);
-    turned.turn(1, 0, 360); // the camera goes west: what is in front of the target moves right in its view
+    turned.turn(1, 0, 360); // the camera goes west: things nearer than the target move right in its view
     EXPECT_LT(column(turned, 3).x, 0);
     turned = camera(0, 0, 10);
     turned.turn(0, 1, 360); // up: the camera goes down
@@ -116,7 +116,7 @@ TEST(OrbitCamera, the_poles_are_not_reached) {
     EXPECT_EQ(turned.elevation, -89.9);
 }
 
-TEST(OrbitCamera, a_notch_goes_a_tenth_nearer_and_back) {
+TEST(OrbitCamera, a_wheel_step_moves_a_tenth_nearer_and_back) {
     OrbitCamera zoomed = camera(0, 0, 10);
     zoomed.zoom(1);
     EXPECT_DOUBLE_EQ(zoomed.distance, 9);
@@ -135,8 +135,8 @@ TEST(OrbitCamera, the_distance_has_bounds) {
     EXPECT_EQ(zoomed.distance, 1e6);
 }
 
-/// Where a point is seen: the offset from the middle of the picture in pixels, for a ray that goes through
-/// (offset / height, -1) as ShaderToy's scenes make it.
+/// Returns a point's offset from the middle of the picture in pixels, for a ray that goes through
+/// (offset / height, -1), as ShaderToy's scenes make it.
 glm::dvec2 seen_at(const OrbitCamera& camera, glm::dvec3 point, double height) {
     const glm::dvec4 local = glm::inverse(glm::dmat4(camera.matrix())) * glm::dvec4(point, 1);
     return glm::dvec2(local) / -local.z * height;
@@ -152,7 +152,7 @@ TEST(OrbitCamera, a_pan_keeps_the_point_under_the_pointer) {
     }
 }
 
-TEST(OrbitCamera, a_pan_turns_nothing) {
+TEST(OrbitCamera, a_pan_keeps_the_orientation) {
     OrbitCamera panned = camera(30, 20, 10);
     const glm::mat3 axes(panned.matrix());
     panned.pan(40, -25, 360);
@@ -172,14 +172,14 @@ TEST(ParseCamera, azimuth_elevation_distance) {
     EXPECT_EQ(parse_camera("0,-90,1")->elevation, -89.9);
 }
 
-TEST(OrbitMotion, is_exactly_none_at_the_start) {
+TEST(OrbitMotion, is_exactly_zero_at_the_start) {
     const OrbitMotion motion = motion_of(OrbitCamera{});
     EXPECT_EQ(motion.turn, glm::dvec2(0));
     EXPECT_EQ(motion.distance, 1);
     EXPECT_EQ(motion.pan, glm::dvec3(0));
 }
 
-TEST(OrbitMotion, turns_the_short_way_round) {
+TEST(OrbitMotion, rotates_by_the_shorter_angle) {
     EXPECT_NEAR(motion_of(camera(350, 20, 10)).turn.x, glm::radians(-40.0), 1e-12);
     EXPECT_NEAR(motion_of(camera(200, 65, 10)).turn.x, glm::radians(170.0), 1e-12);
     EXPECT_NEAR(motion_of(camera(200, 65, 10)).turn.y, glm::radians(45.0), 1e-12);
@@ -197,7 +197,7 @@ TEST(OrbitMotion, pans_along_the_first_heading) {
                 1e-6);
 }
 
-TEST(ParseCamera, what_is_no_camera) {
+TEST(ParseCamera, invalid_cameras) {
     for (const std::string text :
          {"",        "1",         "1,2",           "1,2,",          "1,2,3,",
           "1,2,3,4", "1,2,x",     "x,2,3",         " 1,2,3",        "1, 2,3",

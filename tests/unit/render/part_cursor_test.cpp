@@ -33,7 +33,7 @@ Counts counts_of(const std::vector<Part>& parts, const std::vector<PassArea>& ar
 
 const std::vector<PassArea> k_areas{{0, {97, 61}, 1}, {3, {64, 64}, 6}, {4, {1, 200}, 1}, {7, {97, 61}, 1}};
 
-TEST(PartCursorTest, every_pixel_of_every_pass_is_taken_once_whatever_the_sizes) {
+TEST(PartCursorTest, every_pixel_is_taken_once_for_all_sizes) {
     const std::vector<std::vector<size_t>> sizes{{1}, {16}, {97 * 4}, {500, 17, 9000, 40}, {size_t{1} << 40}};
     for (const auto& wanted : sizes)
         for (const auto& [place, counts] : counts_of(all_parts(PartCursor(k_areas), wanted), k_areas))
@@ -50,7 +50,7 @@ TEST(PartCursorTest, passes_and_faces_keep_their_order) {
                                             testing::Pair(3, 5), testing::Pair(4, 0), testing::Pair(7, 0)));
 }
 
-TEST(PartCursorTest, parts_begin_at_blocks_and_are_no_larger_than_asked_for) {
+TEST(PartCursorTest, parts_start_at_blocks_within_the_requested_size) {
     for (const size_t wanted : {16u, 100u, 400u, 2000u})
         for (const Part& part : all_parts(PartCursor(k_areas), {wanted})) {
             EXPECT_EQ(part.area.x % k_block_side, 0);
@@ -59,7 +59,7 @@ TEST(PartCursorTest, parts_begin_at_blocks_and_are_no_larger_than_asked_for) {
         }
 }
 
-TEST(PartCursorTest, large_ones_are_whole_rows_up_to_a_multiple_of_64) {
+TEST(PartCursorTest, large_parts_are_whole_rows_up_to_a_multiple_of_64) {
     PartCursor cursor({{0, {100, 300}, 1}});
     EXPECT_EQ(cursor.take(1000)->area, (Rectangle{0, 0, {100, 8}}));
     EXPECT_EQ(cursor.take(15'000)->area, (Rectangle{0, 8, {100, 120}}));
@@ -75,14 +75,14 @@ TEST(PartCursorTest, columns_are_shared_out_evenly) {
         EXPECT_EQ(cursor.take(390)->area, area);
 }
 
-TEST(PartCursorTest, what_is_ahead_is_the_largest_part) {
+TEST(PartCursorTest, ahead_is_the_largest_next_part) {
     PartCursor cursor({{2, {100, 50}, 1}});
     EXPECT_EQ(cursor.ahead(), (Part{2, 0, {0, 0, {100, 50}}}));
     cursor.take(40);
     EXPECT_EQ(cursor.ahead(), (Part{2, 0, {8, 0, {92, 4}}})) << "100 columns in 13 parts of 8 at most";
 }
 
-TEST(PartCursorTest, a_pass_is_left_out_and_counts_as_done) {
+TEST(PartCursorTest, a_skipped_pass_counts_as_done) {
     PartCursor cursor({{0, {10, 10}, 1}, {1, {10, 10}, 1}, {2, {10, 20}, 1}});
     EXPECT_TRUE(cursor.begins_pass());
     EXPECT_EQ(cursor.share(), 0);
@@ -110,7 +110,7 @@ TEST(PartCursorTest, the_share_grows_with_each_part) {
     EXPECT_EQ(cursor.share(), 1);
 }
 
-TEST(PartCursorTest, a_frame_of_nothing_is_whole) {
+TEST(PartCursorTest, an_empty_frame_is_complete) {
     PartCursor cursor({});
     EXPECT_EQ(cursor.ahead(), std::nullopt);
     EXPECT_EQ(cursor.share(), 1);

@@ -19,7 +19,7 @@ double cost_of(const Part& part, const Cost& of_pixel) {
     return sum;
 }
 
-/// What the parts of a frame take.
+/// Draws a frame and returns the time of each part.
 std::vector<double> draw(PartSize& size, const Cost& of_pixel) {
     PartCursor cursor({{0, k_extent, 1}});
     std::vector<double> took;
@@ -31,7 +31,7 @@ std::vector<double> draw(PartSize& size, const Cost& of_pixel) {
     return took;
 }
 
-TEST(PartSizeTest, a_quick_frame_is_a_handful_of_parts) {
+TEST(PartSizeTest, a_fast_frame_has_few_parts) {
     PartSize size;
     EXPECT_LE(draw(size, [](int) { return 1e-6; }).size(), 7u);
     EXPECT_LE(draw(size, [](int) { return 1e-6; }).size(), 2u) << "the second knows";
@@ -55,7 +55,7 @@ TEST(PartSizeTest, no_part_is_smaller_than_a_block) {
     EXPECT_EQ(size.pixels({0, 0, {4, 0, {636, 4}}}), 16u);
 }
 
-TEST(PartSizeTest, what_the_rows_took_before_is_known_before_they_are_drawn_again) {
+TEST(PartSizeTest, costs_of_rows_are_kept_for_the_next_frame) {
     const Cost sky_and_sea = [](int row) { return row < 200 ? 2e-2 : 1e-6; };
     const Cost sea_and_sky = [](int row) { return row < 200 ? 1e-6 : 2e-2; };
     for (const Cost& cost : {sky_and_sea, sea_and_sky}) {
@@ -66,14 +66,14 @@ TEST(PartSizeTest, what_the_rows_took_before_is_known_before_they_are_drawn_agai
     }
 }
 
-TEST(PartSizeTest, a_frame_that_gets_slow_everywhere_is_felt_in_its_first_part_alone) {
+TEST(PartSizeTest, only_the_first_part_of_a_suddenly_slow_frame_is_slow) {
     PartSize size;
     draw(size, [](int) { return 1e-4; });
     const auto took = draw(size, [](int) { return 1e-2; });
     EXPECT_EQ(std::ranges::count_if(took, [](double ms) { return ms > 50; }), 1);
 }
 
-TEST(PartSizeTest, doubt_begins_with_a_small_part) {
+TEST(PartSizeTest, doubted_sizes_start_with_a_small_part) {
     PartSize size;
     draw(size, [](int) { return 1e-5; });
     size.doubt(k_extent.pixels() / 16);
@@ -85,7 +85,7 @@ TEST(PartSizeTest, doubt_begins_with_a_small_part) {
     EXPECT_EQ(size.pixels({0, 0, {0, 0, k_extent}}), 256u);
 }
 
-TEST(PartSizeTest, what_is_left_over_of_a_row_says_nothing_of_the_next_rows) {
+TEST(PartSizeTest, the_rest_of_a_row_does_not_change_the_estimate) {
     PartSize size;
     size.drew({0, 0, {0, 0, {640, 64}}}, k_extent, 2);
     const size_t before = size.pixels({0, 0, {0, 64, {640, 296}}});
@@ -93,7 +93,7 @@ TEST(PartSizeTest, what_is_left_over_of_a_row_says_nothing_of_the_next_rows) {
     EXPECT_EQ(size.pixels({0, 0, {0, 68, {640, 292}}}), before);
 }
 
-TEST(PartSizeTest, another_height_forgets_no_more_than_it_must) {
+TEST(PartSizeTest, a_new_height_keeps_the_costs_of_common_rows) {
     PartSize size;
     size.drew({0, 0, {0, 0, {640, 100}}}, {640, 100}, 6400);
     size.drew({0, 0, {0, 0, {320, 8}}}, {320, 50}, 1);

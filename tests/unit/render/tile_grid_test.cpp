@@ -30,7 +30,7 @@ TEST(TileGridTest, tiles_cover_each_pixel_once_from_even_origins) {
         }
 }
 
-TEST(TileGridTest, bands_run_from_the_top_and_what_is_left_over_is_there) {
+TEST(TileGridTest, bands_start_at_the_top_with_the_remainder) {
     const TileGrid grid({100, 70}, {64, 32});
     EXPECT_EQ(grid.columns(), 2);
     EXPECT_EQ(grid.bands(), 3);
@@ -39,7 +39,7 @@ TEST(TileGridTest, bands_run_from_the_top_and_what_is_left_over_is_there) {
     EXPECT_EQ(grid.at(1, 2), (Tile{64, 0, {36, 32}}));
 }
 
-TEST(TileGridTest, what_4k_holds_is_drawn_whole) {
+TEST(TileGridTest, pictures_up_to_4k_are_drawn_whole) {
     for (const Extent whole : {Extent{1, 1}, {640, 360}, {3840, 2160}, {4096, 2160}, {16384, 540}})
         EXPECT_EQ(tile_for(whole, 16, k_limit), std::nullopt) << whole.width;
 }
@@ -67,7 +67,7 @@ TEST(TileGridTest, bands_fit_into_memory_and_tiles_into_the_driver) {
     EXPECT_EQ(tile_for({1'000'000, 1000}, 16, k_limit), (Extent{k_limit, 4}));
 }
 
-TEST(TileGridTest, sides_that_are_asked_for_are_even_and_within_the_limit) {
+TEST(TileGridTest, requested_sides_are_even_and_within_the_limit) {
     EXPECT_EQ(*tile_of_side(2, k_limit), (Extent{2, 2}));
     EXPECT_EQ(*tile_of_side(k_limit, k_limit), (Extent{k_limit, k_limit}));
     for (const int side : {-2, 0, 1, 7, k_limit + 2}) {

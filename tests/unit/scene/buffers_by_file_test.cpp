@@ -68,7 +68,7 @@ TEST_F(BuffersByFile, a_cycle_is_named) {
                                     "'a.glsl': "));
 }
 
-TEST_F(BuffersByFile, in_a_folder_they_stand_beside_the_passes) {
+TEST_F(BuffersByFile, in_a_folder_are_added_to_the_passes) {
     save("image.glsl", reads("blur.glsl"));
     save("buffer_a.glsl", reads("blur.glsl"));
     save("blur.glsl", "#iChannel1 \"image.glsl\"\n" + reads("buffer_a.glsl"));
@@ -78,14 +78,14 @@ TEST_F(BuffersByFile, in_a_folder_they_stand_beside_the_passes) {
     EXPECT_EQ(input(scene, 0, 1), ChannelInput(PassOutput{2}));
 }
 
-TEST_F(BuffersByFile, of_the_same_name_have_names_of_their_own) {
+TEST_F(BuffersByFile, of_the_same_name_get_distinct_names) {
     save("a.glsl", "#iChannel1 \"y/b.glsl\"\n" + reads("x/b.glsl"));
     save("x/b.glsl", k_main_image);
     save("y/b.glsl", k_main_image);
     EXPECT_THAT(names_of(load("a.glsl")), ElementsAre("b.glsl", "y/b.glsl", "Image"));
 }
 
-TEST_F(BuffersByFile, that_cannot_be_read_are_placed_where_they_are_named) {
+TEST_F(BuffersByFile, unreadable_files_are_reported_at_their_directive) {
     save("a.glsl", "\n" + reads("b.glsl"));
     EXPECT_EQ(refusal("a.glsl"), "a.glsl:2: error: cannot read 'b.glsl': no such file");
     save("b.glsl", "// empty");
@@ -105,7 +105,7 @@ TEST_F(BuffersByFile, knobs_of_the_same_name_are_one_knob) {
     EXPECT_THAT(refusal("a.glsl"), naming("b.glsl:1: error:", "knob", "'k'", "a.glsl:1: note:"));
 }
 
-TEST_F(BuffersByFile, a_chain_has_an_end) {
+TEST_F(BuffersByFile, chains_have_a_limit) {
     for (int i = 0; i < 100; ++i)
         save(std::to_string(i) + ".glsl", reads(std::to_string(i + 1) + ".glsl"));
     EXPECT_THAT(refusal("0.glsl"), naming("63.glsl:1: error:", "more than 64"));
@@ -133,7 +133,7 @@ TEST_F(BuffersByFile, the_faces_of_a_cubemap_by_a_wildcard) {
     EXPECT_THAT(faces_of(), ElementsAre(path() / "cross.png"));
 }
 
-TEST_F(BuffersByFile, each_says_for_itself_that_it_wants_keys) {
+TEST_F(BuffersByFile, each_file_requests_keyboard_helpers_separately) {
     save("a.glsl", reads("b.glsl"));
     save("b.glsl", "#iKeyboard\n" + k_main_image);
     const Scene scene = load("a.glsl");

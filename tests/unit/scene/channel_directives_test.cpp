@@ -14,7 +14,7 @@ Channel channel_0(std::string_view text) {
     return directives ? directives->channels[0] : Channel{};
 }
 
-TEST(ChannelDirectives, an_undeclared_channel_reads_noise_as_shadertoy_samples_it) {
+TEST(ChannelDirectives, an_undeclared_channel_reads_noise_with_shadertoys_sampling) {
     const auto directives = read("void mainImage() {}");
     ASSERT_TRUE(directives);
     for (const Channel& channel : directives->channels) {
@@ -25,7 +25,7 @@ TEST(ChannelDirectives, an_undeclared_channel_reads_noise_as_shadertoy_samples_i
     EXPECT_TRUE(directives->knobs.empty());
 }
 
-TEST(ChannelDirectives, each_number_is_a_channel_of_its_own) {
+TEST(ChannelDirectives, each_number_is_a_separate_channel) {
     const auto directives =
         read("#iChannel0 \"0.png\"\n#iChannel1 '1.png'\n#iChannel2 \"2.png\"\n#iChannel3 \"3.png\"");
     ASSERT_TRUE(directives);
@@ -36,7 +36,7 @@ TEST(ChannelDirectives, each_number_is_a_channel_of_its_own) {
     }
 }
 
-TEST(ChannelDirectives, a_picture_is_sampled_as_the_extension_samples_it) {
+TEST(ChannelDirectives, a_picture_has_the_sampling_of_the_extension) {
     EXPECT_EQ(channel_0("#iChannel0 \"a.png\"").sampling, k_extension);
 }
 
@@ -47,16 +47,18 @@ TEST(ChannelDirectives, noise_by_name) {
     EXPECT_EQ(channel.where, (SourceLocation{"dir/a.glsl", 2, 0}));
 }
 
-TEST(ChannelDirectives, names_are_relative_to_the_file_that_says_them) {
+TEST(ChannelDirectives, names_are_relative_to_the_file_of_the_directive) {
     const auto input = [](std::string_view text) { return std::get<Picture>(channel_0(text).input).file; };
     EXPECT_EQ(input("#iChannel0 \"../textures/a.png\""), "textures/a.png");
     EXPECT_EQ(input("#iChannel0 \"/abs/a.png\""), "/abs/a.png");
     EXPECT_EQ(input("#iChannel0 \"file://a.png\""), "dir/a.png");
     EXPECT_EQ(input("#iChannel0 \"file:///abs/a.png\""), "/abs/a.png");
-    EXPECT_EQ(input(R"(#iChannel0 "a \"b\" \c.png")"), "dir/a \"b\" c.png");
+    EXPECT_EQ(input(R"(#iChannel0 "a \"b\" \\c.png")"), "dir/a \"b\" \\c.png");
+    EXPECT_EQ(input(R"(#iChannel0 "sub\c.png")"), "dir/sub\\c.png")
+        << "the file is looked for, and the hint names sub/c.png";
 }
 
-TEST(ChannelDirectives, nothing_is_downloaded) {
+TEST(ChannelDirectives, urls_are_refused) {
     EXPECT_THAT(refusal("\n#iChannel0 \"https://x.org/a.png\""),
                 naming("dir/a.glsl:2: error:", "'https://x.org/a.png'"));
 }
@@ -98,7 +100,7 @@ TEST(ChannelDirectives, every_magnification_filter_and_wrap_mode) {
     }
 }
 
-TEST(ChannelDirectives, parameters_of_noise_change_only_what_they_name) {
+TEST(ChannelDirectives, parameters_of_noise_change_only_their_own_setting) {
     Sampling expected = k_texture_sampling;
     expected.wrap = Wrap::clamp;
     EXPECT_EQ(channel_0("#iChannel0 \"noise\"\n#iChannel0::WrapMode \"Clamp\"").sampling, expected);
@@ -115,7 +117,7 @@ TEST(ChannelDirectives, the_type_is_a_plain_texture_or_a_cubemap) {
               "dir/a.glsl:1:13: error: Type \"Cubemap\": give Texture2D or CubeMap");
 }
 
-TEST(ChannelDirectives, a_file_is_what_its_extension_says) {
+TEST(ChannelDirectives, the_extension_selects_the_kind_of_input) {
     const auto input = [](const std::string& name) { return channel_0("#iChannel0 \"" + name + "\"").input; };
     for (const char* name : {"a.mp3", "a.ogg", "a.WAV", "a.flac"})
         EXPECT_EQ(input(name), ChannelInput(Music{std::string("dir/") + name}));
@@ -127,7 +129,7 @@ TEST(ChannelDirectives, a_file_is_what_its_extension_says) {
     EXPECT_EQ(channel_0("#iChannel0 \"keyboard\"").sampling, k_keyboard_sampling);
 }
 
-TEST(ChannelDirectives, a_pass_is_left_to_who_knows_the_passes) {
+TEST(ChannelDirectives, names_of_passes_stay_unbound) {
     for (const std::string name : {"self", "buffer_a", "Buffer A", "blur.glsl", "../b.frag"}) {
         const auto directives = read("#iChannel2 \"file://" + name + "\"");
         ASSERT_TRUE(directives);
@@ -141,7 +143,7 @@ TEST(ChannelDirectives, may_run_over_lines_and_around_comments) {
     EXPECT_EQ(channel.sampling.minify, Filter::nearest);
 }
 
-TEST(ChannelDirectives, values_that_there_are_not) {
+TEST(ChannelDirectives, invalid_values) {
     EXPECT_THAT(refusal("#iChannel0::MinFilter \"nearest\""),
                 naming("dir/a.glsl:1:13: error: MinFilter \"nearest\":", "MipMapNearest"));
     EXPECT_EQ(refusal("#iChannel0::MagFilter \"NearestMipMapLinear\""),
@@ -152,13 +154,13 @@ TEST(ChannelDirectives, values_that_there_are_not) {
                 naming("dir/a.glsl:2:13: error:", "'Filter'", "MinFilter"));
 }
 
-TEST(ChannelDirectives, channels_that_there_are_not) {
+TEST(ChannelDirectives, invalid_channel_numbers) {
     for (const std::string name : {"iChannel10", "iChannel", "iChannel00", "iChannelA"})
         EXPECT_EQ(refusal("#" + name + " \"a.png\""),
                   "dir/a.glsl:1: error: #" + name + ": the channels are iChannel0 to iChannel9");
 }
 
-TEST(ChannelDirectives, what_is_missing_is_said) {
+TEST(ChannelDirectives, missing_parts_are_reported) {
     EXPECT_THAT(refusal("#iChannel0 noise\n"),
                 naming("dir/a.glsl:1:12: error:", "needs quotes", "\"noise\""));
     EXPECT_THAT(refusal("#iChannel0"),
@@ -174,13 +176,13 @@ TEST(ChannelDirectives, what_is_missing_is_said) {
     EXPECT_THAT(refusal("#iChannel0 \"\""), naming("dir/a.glsl:1: error:", "is empty"));
 }
 
-TEST(ChannelDirectives, vflip_turns_a_picture_over) {
+TEST(ChannelDirectives, vflip_sets_the_flag) {
     EXPECT_TRUE(channel_0("#iChannel0 \"a.png\"").sampling.vflip);
     EXPECT_FALSE(channel_0("#iChannel0 \"a.png\"\n#iChannel0::VFlip \"false\"").sampling.vflip);
     EXPECT_NE(refusal("#iChannel0::VFlip \"no\"").find("give true or false"), std::string::npos);
 }
 
-TEST(ChannelDirectives, a_name_without_quotes_is_shown_with_them) {
+TEST(ChannelDirectives, a_name_without_quotes_is_suggested_with_quotes) {
     EXPECT_EQ(refusal("\n#iChannel2 file://a/b.png // x"),
               "dir/a.glsl:2:12: error: the name needs quotes: #iChannel2 \"file://a/b.png\"");
 }

@@ -1,4 +1,4 @@
-// What the tests of directives share: a text in a file of its own, read.
+// Helpers of the tests of directives: they read a text as a file of its own.
 #pragma once
 
 #include "scene/directives.hpp"
@@ -14,7 +14,7 @@ inline Result<Directives> read(std::string_view text, std::string_view file = "d
     return take_directives(mapped);
 }
 
-/// What is wrong with `text`, as a person reads it.
+/// Returns the error message for `text`.
 inline std::string refusal(std::string_view text) {
     const auto directives = read(text);
     return directives ? "it was read" : to_string(directives.error());

@@ -1,4 +1,4 @@
-// Where directives are found, and what stays of the text.
+// Places where directives are found, and the text that is left.
 #include "directives_support.hpp"
 #include "support/naming.hpp"
 
@@ -20,21 +20,21 @@ TEST(Directives, are_blanked_out_and_move_no_line) {
     EXPECT_EQ(rest("#iUniform float a = 1.0"), "\n");
 }
 
-TEST(Directives, in_comments_are_none) {
+TEST(Directives, in_comments_are_ignored) {
     const std::string text = "// #iUniform bool a\n/* #iKeyboard */\n";
     EXPECT_EQ(rest(text), text);
 }
 
-TEST(Directives, that_the_preprocessor_knows_are_left_alone) {
+TEST(Directives, of_the_preprocessor_are_unchanged) {
     const std::string text = "#define A 1\n#if A\n#endif\n# iUniform bool a\n#pragma x\n#";
     EXPECT_EQ(rest(text), text + "\n");
 }
 
-TEST(Directives, strict_compatibility_is_what_we_do_anyway) {
+TEST(Directives, strict_compatibility_is_accepted_and_removed) {
     EXPECT_EQ(rest("#StrictCompatibility\na"), "\na\n");
 }
 
-TEST(Directives, we_do_not_have_are_said_and_left_out) {
+TEST(Directives, unsupported_directives_are_removed_with_a_warning) {
     const auto directives = read("#iVertex \"default\"\n#iVertex \"a.glsl\"\n#iFirstPersonControls\n");
     ASSERT_TRUE(directives);
     EXPECT_TRUE(directives->moves_view);
@@ -44,7 +44,7 @@ TEST(Directives, we_do_not_have_are_said_and_left_out) {
     EXPECT_THAT(refusal("#iVertex 1"), naming("dir/a.glsl:1:10: error:", "name in quotes", "'1'"));
 }
 
-TEST(Directives, the_keyboard_asks_for_helpers) {
+TEST(Directives, keyboard_requests_the_helpers) {
     EXPECT_FALSE(read("a;")->keyboard_helpers);
     EXPECT_TRUE(read("a;\n#iKeyboard")->keyboard_helpers);
     EXPECT_EQ(rest("#iKeyboard\na"), "\na\n");
@@ -61,7 +61,7 @@ TEST(Directives, a_size_is_two_numbers_of_pixels) {
     EXPECT_TRUE(read("a;")->sizes.empty());
 }
 
-TEST(Directives, a_size_that_is_none_is_refused_at_its_place) {
+TEST(Directives, an_invalid_size_is_refused_at_its_place) {
     for (const std::string text : {"800", "800x", "x450", "0x450", "800x450x2", "800x-1", "32768x1", "1.5x2",
                                    "0x10x20", "800x450#iKeyboard"})
         EXPECT_EQ(
@@ -72,7 +72,7 @@ TEST(Directives, a_size_that_is_none_is_refused_at_its_place) {
                 naming("dir/a.glsl:1:7: error:", "a size", "800x450", "the end of the line"));
 }
 
-TEST(Directives, under_an_if_are_another_hosts_in_a_text_of_shadertoy) {
+TEST(Directives, under_an_if_are_ignored_in_a_shadertoy_text) {
     text::MappedText mapped;
     const std::string text = "#ifdef VSCODE\n#iChannel0 \"x.png\"\n#endif\n#iChannel1 \"y.png\"\n";
     mapped.append(text, "dir/a.glsl", 1);
@@ -83,7 +83,7 @@ TEST(Directives, under_an_if_are_another_hosts_in_a_text_of_shadertoy) {
     EXPECT_EQ(mapped.text(), "#ifdef VSCODE\n#iChannel0 \"x.png\"\n#endif\n\n");
 }
 
-TEST(Directives, of_an_included_file_are_placed_there) {
+TEST(Directives, of_an_included_file_have_its_place) {
     text::MappedText mapped;
     mapped.append("a;", "scenes/main.glsl", 1);
     mapped.append("\n#iChannel0 \"t.png\"\n#iUniform float k = 1.0\n", "lib/b.glsl", 5);

@@ -85,12 +85,12 @@ TEST_F(Export, files_have_the_names_of_the_passes) {
     EXPECT_EQ(split_project(case_file("odd.json"), "x.json")->at(2).bytes, "#define B 0.5\r");
 }
 
-TEST_F(Export, a_list_of_passes_stays_a_list) {
+TEST_F(Export, a_list_of_passes_survives) {
     const std::string text = R"([{"type":"image","code":"a"},{"code":"b","type":"common"}])";
     EXPECT_EQ(Json::parse(there_and_back(text, "d")).dump(), Json::parse(text).dump());
 }
 
-TEST_F(Export, what_cannot_be_taken_apart) {
+TEST_F(Export, invalid_projects_are_not_split) {
     const auto refused = [](const std::string& text) {
         return to_string(split_project(text, "x.json").error());
     };
@@ -99,7 +99,7 @@ TEST_F(Export, what_cannot_be_taken_apart) {
                 naming("x.json: error:", "pass 1", "'image.glsl'", "scene.json"));
 }
 
-TEST_F(Export, what_cannot_be_put_together) {
+TEST_F(Export, invalid_folders_are_not_joined) {
     const auto refused = [&] {
         return plain(to_string(join_project(path(), Bounds(path(), false)).error()));
     };
@@ -163,7 +163,7 @@ TEST_F(Export, live_inputs_stay_live) {
     EXPECT_EQ(input(again, 0, 1), ChannelInput(Video{}));
 }
 
-TEST_F(Export, more_buffers_than_shadertoy_has) {
+TEST_F(Export, too_many_buffers_are_refused) {
     std::string image = k_main_image;
     for (int i = 0; i < 4; ++i)
         save(std::to_string(i) + ".glsl",
@@ -175,6 +175,13 @@ TEST_F(Export, more_buffers_than_shadertoy_has) {
     const auto refused = make_project(load("0.glsl"), warnings_);
     ASSERT_FALSE(refused);
     EXPECT_THAT(plain(to_string(refused.error())), naming("'0.glsl'"));
+}
+
+TEST_F(Export, knobs_become_constants_of_their_types) {
+    save("a.glsl", "#iUniform float a = 2\n#iUniform int n = 3\n#iUniform color3 c = color3(1, 0.5, 0)\n"
+                   "uniform bool plain;\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(c * a, n); }\n");
+    EXPECT_EQ(knobs_as_constants(load("a.glsl")),
+              "const float a = 2.0;\nconst int n = 3;\nconst vec3 c = vec3(1, 0.5, 0);\n");
 }
 
 } // namespace tidemark::scene::export_test

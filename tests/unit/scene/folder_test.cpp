@@ -36,7 +36,7 @@ TEST_F(Folder, every_pass_by_our_names) {
     EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
-TEST_F(Folder, files_that_make_a_scene_are_known_by_name) {
+TEST_F(Folder, files_of_a_scene_are_recognised_by_name) {
     for (const char* name : {"image.glsl", "Buffer B.frag", "common.glsl", "Common.glsl", "scene.json",
                              "lib.glsl", "image.png", "notes.txt", ".image.glsl.swp"})
         save(name, "");
@@ -48,7 +48,7 @@ TEST_F(Folder, files_that_make_a_scene_are_known_by_name) {
     EXPECT_THAT(scene_files_in(path() / "missing"), IsEmpty());
 }
 
-TEST_F(Folder, a_pass_that_no_other_reads_is_told) {
+TEST_F(Folder, an_unread_pass_is_warned_about) {
     save("Buffer A.glsl", "#iChannel0 \"self\"\n" + k_main_image);
     save("image.glsl", k_main_image);
     const Scene scene = load();
@@ -57,7 +57,7 @@ TEST_F(Folder, a_pass_that_no_other_reads_is_told) {
                 naming("Buffer A.glsl: warning:", "'Buffer A'", "#iChannel0"));
 }
 
-TEST_F(Folder, names_in_the_wild) {
+TEST_F(Folder, other_file_names_of_passes_are_recognised) {
     save("Buffer A.glsl", k_main_image);
     save("BufB.frag", k_main_image);
     save("buf_c.fs", k_main_image);
@@ -77,14 +77,14 @@ TEST_F(Folder, two_files_for_one_pass_are_an_error) {
               "tidemark: error: 'Image.frag' and 'image.glsl' are both the pass 'Image': rename one");
 }
 
-TEST_F(Folder, a_pass_that_is_not_here_and_one_that_is_empty) {
+TEST_F(Folder, missing_and_empty_passes_are_errors) {
     save("image.glsl", "\n#iChannel0 \"buffer_b\"\n" + k_main_image);
     EXPECT_THAT(refusal(), naming("image.glsl:2: error:", "'Buffer B'", "'buffer_b.glsl'", "blur.glsl"));
     save("buffer_b.glsl", "// nothing yet\n");
     EXPECT_THAT(refusal(), naming("'buffer_b.glsl'", "is empty"));
 }
 
-TEST_F(Folder, common_that_a_pass_includes_stands_there_once) {
+TEST_F(Folder, common_included_by_a_pass_is_pasted_once) {
     save("common.glsl", "int c;\n");
     save("buffer_a.glsl", "#include \"common.glsl\"\n" + k_main_image);
     save("image.glsl", k_main_image);
@@ -103,7 +103,7 @@ TEST_F(Folder, an_image_that_a_buffer_reads_becomes_a_buffer) {
     EXPECT_EQ(input(scene, 2, 0), ChannelInput(PassOutput{1}));
 }
 
-TEST_F(Folder, with_a_project_that_says_what_the_passes_read) {
+TEST_F(Folder, with_a_project_file_uses_its_inputs) {
     save("scene.json", R"({"renderpass":[
         {"type":"image","code":{"file":"picture.glsl"},"inputs":[
             {"channel":0,"src":"own.png"},{"channel":1,"src":"Buffer A","sampler":{"filter":"nearest"}}]},
@@ -133,12 +133,12 @@ TEST_F(Folder, with_a_project_that_says_what_the_passes_read) {
     EXPECT_EQ(load("scene.json").passes.size(), 2u) << "its scene.json means the folder";
 }
 
-TEST_F(Folder, a_project_whose_code_is_missing) {
+TEST_F(Folder, a_project_with_missing_code_is_an_error) {
     save("scene.json", R"({"renderpass":[{"type":"image"}]})");
     EXPECT_EQ(refusal(), "tidemark: error: cannot read 'image.glsl': no such file");
 }
 
-TEST_F(Folder, what_lies_outside_is_refused) {
+TEST_F(Folder, files_outside_the_folder_are_refused) {
     save("s/image.glsl", "\n#iChannel0 \"../secret.png\"\n" + k_main_image);
     EXPECT_THAT(refusal("s"), naming("s/image.glsl:2: error:", "'secret.png'", "lies outside", "'s'"));
     save("s/image.glsl", "\n\n#include \"../secret.glsl\"\n" + k_main_image);
@@ -155,7 +155,7 @@ TEST_F(Folder, what_lies_outside_is_refused) {
     EXPECT_THAT(refusal("s"), testing::StartsWith("s/scene.json: error: 'a.png' lies outside"));
 }
 
-TEST_F(Folder, a_link_leads_out_as_a_path_does) {
+TEST_F(Folder, links_out_of_the_folder_are_refused) {
     save("s/image.glsl", "#include \"l.glsl\"\n" + k_main_image);
     save("secret.glsl", "int secret;\n");
     std::filesystem::create_symlink("../secret.glsl", path() / "s/l.glsl");
@@ -169,7 +169,7 @@ TEST_F(Folder, a_link_leads_out_as_a_path_does) {
                 testing::StartsWith("s/image.glsl:1: error: 'textures/etc/passwd' lies outside"));
 }
 
-TEST_F(Folder, textures_and_lib_beside_it_are_open_and_a_scene_may_be_a_link) {
+TEST_F(Folder, sibling_folders_textures_and_lib_are_allowed_and_a_scene_may_be_a_link) {
     save("textures/t.png", "");
     save("lib/l.glsl", "int l;\n");
     save("s/a.glsl", "#include \"../lib/l.glsl\"\n#iChannel0 \"../textures/t.png\"\n" + k_main_image);

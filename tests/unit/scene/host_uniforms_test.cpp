@@ -10,7 +10,7 @@ namespace tidemark::scene::host_uniforms_test {
 static_assert(host_uniform(HostValue::relative_mouse).name.empty());
 static_assert(find_host_uniform("iTime")->value == HostValue::time);
 
-TEST(HostUniforms, have_a_name_of_their_own_each) {
+TEST(HostUniforms, have_distinct_names) {
     std::set<std::string_view> names;
     for (const HostUniform& row : k_host_uniforms) {
         if (!row.name.empty()) {
@@ -31,12 +31,12 @@ TEST(HostUniforms, have_a_name_of_their_own_each) {
     EXPECT_EQ(find_host_uniform("iTimes", true), nullptr);
 }
 
-TEST(HostUniforms, have_a_script_unless_the_sound_pass_sets_them) {
+TEST(HostUniforms, have_a_script_unless_for_the_sound_pass_only) {
     for (const HostUniform& row : k_host_uniforms)
         EXPECT_EQ(row.script.empty(), !row.image) << row.name;
 }
 
-TEST(HostUniforms, that_follow_the_clock_have_a_range_over_time) {
+TEST(HostUniforms, following_the_clock_have_a_range_over_time) {
     for (const HostUniform& row : k_host_uniforms) {
         const bool ranges = row.over_time.kind != RangeOverTime::Kind::constant;
         EXPECT_EQ(ranges, row.follows == Follows::clock) << row.name;
@@ -45,7 +45,7 @@ TEST(HostUniforms, that_follow_the_clock_have_a_range_over_time) {
     }
 }
 
-TEST(HostUniforms, of_an_array_have_a_width_for_each_element) {
+TEST(HostUniforms, arrays_have_a_component_count_per_element) {
     EXPECT_EQ(component_count(host_uniform(HostValue::channel_time)), 1);
     EXPECT_EQ(component_count(host_uniform(HostValue::channel_resolution)), 3);
     EXPECT_EQ(component_count(host_uniform(HostValue::camera)), 16);

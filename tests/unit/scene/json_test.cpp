@@ -62,7 +62,7 @@ std::string buffer(std::string_view name, std::string_view id, std::string_view 
            R"(}],"inputs":[)" + std::string(inputs) + "]}";
 }
 
-TEST_F(Json, every_wrapping_is_the_same_project) {
+TEST_F(Json, every_wrapping_gives_the_same_project) {
     const std::string bare = R"({"ver":"0.1","info":{},"renderpass":[)" + std::string(k_image) + "]}";
     for (const std::string& json :
          {bare, "[" + bare + "]", R"({"Shader":)" + bare + "}", R"({"Shader":[)" + bare + "]}",
@@ -75,7 +75,7 @@ TEST_F(Json, every_wrapping_is_the_same_project) {
     }
 }
 
-TEST_F(Json, passes_go_by_output_and_are_drawn_in_the_order_of_the_list) {
+TEST_F(Json, passes_are_found_by_output_and_drawn_in_list_order) {
     const auto scene = load(project(std::string(k_image) + "," + buffer("Buf B", "258") + "," +
                                     buffer("", "\"4dXGR8\"", R"({"channel":1,"ctype":"buffer","id":258})")));
     ASSERT_TRUE(scene) << to_string(scene.error());
@@ -84,7 +84,7 @@ TEST_F(Json, passes_go_by_output_and_are_drawn_in_the_order_of_the_list) {
     EXPECT_EQ(scene->passes[1].channels[0].input, ChannelInput(Unbound{}));
 }
 
-TEST_F(Json, several_commons_stand_in_the_order_of_the_list_and_lines_are_the_passes_own) {
+TEST_F(Json, several_commons_keep_the_order_of_the_list_and_their_line_numbers) {
     const auto scene =
         load(project(std::string(k_image) + R"(,{"type":"common","name":"","code":"int a;\r\nint b;"},)"
                                             R"({"type":"common","name":"","code":"int c;"})"));
@@ -96,7 +96,7 @@ TEST_F(Json, several_commons_stand_in_the_order_of_the_list_and_lines_are_the_pa
     EXPECT_EQ(scene->image().text.lines().locate(1), (SourceLocation{file + ":Image", 1, 0}));
 }
 
-TEST_F(Json, kinds_stand_in_the_order_of_drawing) {
+TEST_F(Json, passes_are_sorted_in_drawing_order) {
     const auto scene =
         load(project(R"({"type":"sound","code":"vec2 mainSound(float t){}"},)" + std::string(k_image) +
                      R"(,{"type":"cubemap","code":"mainCubemap"},)" + buffer("Buffer @", "\"odd\"")));
@@ -104,7 +104,7 @@ TEST_F(Json, kinds_stand_in_the_order_of_drawing) {
     EXPECT_THAT(names_of(*scene), ElementsAre("Buffer A", "Cube A", "Image", "Sound"));
 }
 
-TEST_F(Json, inputs_go_by_channel_and_buffers_by_either_kind_of_id) {
+TEST_F(Json, inputs_are_found_by_channel_and_buffers_by_either_id) {
     const auto scene = load(
         project(buffer("a", "257") + "," + buffer("b", "\"XsXGR8\"") + "," +
                 image_with(R"({"channel":3,"ctype":"buffer","id":257,"src":"/media/previz/buffer00.png"},)"
@@ -120,7 +120,7 @@ TEST_F(Json, inputs_go_by_channel_and_buffers_by_either_kind_of_id) {
     EXPECT_THAT(scene->warnings, IsEmpty());
 }
 
-TEST_F(Json, an_input_without_a_type_goes_by_its_id_or_file) {
+TEST_F(Json, an_input_without_a_type_is_identified_by_id_or_file) {
     const auto scene = load(project(image_with(R"({"channel":0,"ctype":null,"id":30},)"
                                                R"({"channel":1,"id":"XdX3Rr"},)"
                                                R"({"channel":2,"id":33,"src":"/presets/tex00.jpg"},)"
@@ -151,7 +151,7 @@ TEST_F(Json, a_cube_pass_reads_itself_under_its_malformed_name) {
         << "black, but a cube";
 }
 
-TEST_F(Json, samplers_are_texts_and_may_be_missing) {
+TEST_F(Json, samplers_may_be_strings_or_missing) {
     const auto scene = load(project(image_with(
         R"({"channel":0,"ctype":"texture","id":30,"sampler":{"filter":"nearest","wrap":"clamp","vflip":"false"}},)"
         R"({"channel":1,"ctype":"texture","id":30},)"
@@ -167,7 +167,7 @@ TEST_F(Json, samplers_are_texts_and_may_be_missing) {
     EXPECT_EQ(channels[3].sampling, k_volume_sampling);
 }
 
-TEST_F(Json, what_is_no_project_is_told_so) {
+TEST_F(Json, other_json_is_refused_with_the_reason) {
     EXPECT_THAT(error_of("<html>"), naming("x.json:1:1: error: this is not JSON:"));
     EXPECT_THAT(error_of(""), naming("x.json: error: this is not JSON:", "is empty"));
     EXPECT_THAT(error_of("{\n \"Shader\": {,}}"), naming("x.json:2:13: error: this is not JSON:", "','"));
@@ -187,7 +187,7 @@ TEST_F(Json, what_is_no_project_is_told_so) {
     EXPECT_THAT(error_of(project(buffer("A", "257"))), naming("x.json: error:", "no Image pass"));
 }
 
-TEST_F(Json, a_pass_that_defines_nothing_is_told_so) {
+TEST_F(Json, a_pass_without_an_entry_point_is_an_error) {
     EXPECT_THAT(error_of(project(R"({"type":"image","code":"int i;"})")), naming("'x.json:Image'"));
     EXPECT_THAT(error_of(project(R"({"type":"image","code":""})")),
                 naming("'x.json'", "'Image'", "is empty"));
@@ -229,7 +229,7 @@ TEST_F(Json, odd_characters_in_code) {
     EXPECT_EQ(scene->image().text.text(), "// \u00e9 \U0001F600 \uFFFD  \nvoid mainImage(){}\n");
 }
 
-TEST_F(Json, every_missing_file_is_one_warning) {
+TEST_F(Json, each_missing_file_gives_one_warning) {
     const std::string wood = R"("ctype":"texture","id":6,"src":"/media/a/1f7dca9c22.jpg"})";
     const auto scene =
         load(project(image_with(R"({"channel":0,)" + wood + R"(,{"channel":1,)" + wood +

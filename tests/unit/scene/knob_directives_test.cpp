@@ -39,7 +39,7 @@ TEST(KnobDirectives, every_type_with_its_default) {
     }
 }
 
-TEST(KnobDirectives, one_number_stands_for_all_components) {
+TEST(KnobDirectives, one_number_sets_all_components) {
     EXPECT_EQ(knob("#iUniform vec3 a = 0.5").value, (KnobValue{0.5, 0.5, 0.5, 0}));
     EXPECT_EQ(knob("#iUniform color3 a = color3(1.0)").value, (KnobValue{1, 1, 1, 0}));
     EXPECT_EQ(knob("#iUniform vec2 a = float(2.0)").value, (KnobValue{2, 2, 0, 0}));
@@ -71,13 +71,13 @@ TEST(KnobDirectives, a_range_of_vectors_may_be_given_by_one_number) {
     EXPECT_EQ(read.range->high, (KnobValue{1, 2, 3, 0}));
 }
 
-TEST(KnobDirectives, without_a_default_the_low_end_of_the_range) {
+TEST(KnobDirectives, default_is_the_low_end_of_the_range) {
     const Knob read = knob("#iUniform float a in { 0.25, 1.0 }");
     EXPECT_EQ(read.value, (KnobValue{0.25}));
     EXPECT_EQ(read.initial, (KnobValue{0.25}));
 }
 
-TEST(KnobDirectives, steps_are_given_and_whole_numbers_have_one) {
+TEST(KnobDirectives, steps_are_parsed_and_integers_have_step_1) {
     EXPECT_EQ(knob("#iUniform float a = 1.0 in { 0.0, 2.0 } step 0.25").step, (KnobValue{0.25}));
     EXPECT_EQ(knob("#iUniform vec2 a = 1.0 step 0.5").step, (KnobValue{0.5, 0.5}));
     EXPECT_EQ(knob("#iUniform int a = 1").step, (KnobValue{1, 1, 1, 1}));
@@ -100,13 +100,13 @@ TEST(KnobDirectives, keep_their_order) {
     EXPECT_EQ(directives->knobs[2].name, "c");
 }
 
-TEST(KnobDirectives, a_name_once) {
+TEST(KnobDirectives, duplicate_names_are_refused) {
     EXPECT_EQ(refusal("#iUniform float a = 1.0\n\n#iUniform int a = 1"),
               "dir/a.glsl:3: error: the knob 'a' is declared twice\n"
               "dir/a.glsl:1: note: first declared here");
 }
 
-TEST(KnobDirectives, types_that_there_are_not) {
+TEST(KnobDirectives, unknown_types) {
     for (const std::string type : {"bool", "mat4", "uint", "Float", "7"})
         EXPECT_EQ(
             refusal("#iUniform " + type + " a = 1"),
@@ -122,7 +122,7 @@ TEST(KnobDirectives, without_default_and_range) {
               "dir/a.glsl:1: error: the knob 'a' needs a default (= VALUE) or a range (in { LOW, HIGH })");
 }
 
-TEST(KnobDirectives, values_of_another_type) {
+TEST(KnobDirectives, values_of_another_type_are_refused) {
     EXPECT_THAT(refusal("#iUniform float a = vec2(1.0, 2.0)"),
                 naming("dir/a.glsl:1:21: error:", "'a'", "one number"));
     EXPECT_EQ(refusal("#iUniform vec3 a = vec2(1.0, 2.0)"),
@@ -144,7 +144,7 @@ TEST(KnobDirectives, whole_numbers_fit_an_int) {
                   "dir/a.glsl:1:19: error: 'a' is an int: " + number + " does not fit");
 }
 
-TEST(KnobDirectives, numbers_that_are_none) {
+TEST(KnobDirectives, invalid_numbers) {
     EXPECT_THAT(refusal("#iUniform float a = b"), naming("dir/a.glsl:1:21: error:", "a number", "'b'"));
     EXPECT_THAT(refusal("#iUniform float a = -"),
                 naming("dir/a.glsl:1:22: error:", "a number", "the end of the file"));
@@ -153,7 +153,7 @@ TEST(KnobDirectives, numbers_that_are_none) {
                   "dir/a.glsl:1:21: error: expected a decimal number but found '" + number + "'");
 }
 
-TEST(KnobDirectives, ranges_that_are_none) {
+TEST(KnobDirectives, invalid_ranges) {
     EXPECT_EQ(refusal("#iUniform float a in 1.0"),
               "dir/a.glsl:1:22: error: expected '{' or '[' but found '1.0'");
     EXPECT_EQ(refusal("#iUniform float a in { 1.0 }"), "dir/a.glsl:1:28: error: expected ',' but found '}'");
@@ -167,7 +167,7 @@ TEST(KnobDirectives, ranges_that_are_none) {
                 naming("dir/a.glsl:1:21: error:", "'a'", "reversed"));
 }
 
-TEST(KnobDirectives, a_bracket_that_is_not_closed_is_said_where_it_stands) {
+TEST(KnobDirectives, an_unclosed_bracket_is_reported_at_its_place) {
     const std::string rest = "\n\nvoid mainImage(out vec4 c, in vec2 p) { c = vec4(a[0]); }\n";
     for (const char* open : {"in { 0.0, 2.0", "in { 0.0,", "in { 0.0", "in {"})
         EXPECT_EQ(refusal("\n#iUniform float a = 1.0 " + std::string(open) + rest),
@@ -184,7 +184,7 @@ TEST(KnobDirectives, a_bracket_that_is_not_closed_is_said_where_it_stands) {
         << "one that is closed may take several lines";
 }
 
-TEST(KnobDirectives, what_is_missing_is_said) {
+TEST(KnobDirectives, missing_parts_are_reported) {
     EXPECT_THAT(refusal("#iUniform float = 1"),
                 naming("dir/a.glsl:1:17: error:", "the name of the uniform", "'='"));
     EXPECT_THAT(refusal("#iUniform"), naming("dir/a.glsl:1:10: error:", "a type", "the end of the file"));
@@ -199,7 +199,7 @@ TEST(KnobDirectives, a_default_outside_of_its_range_is_refused) {
               "dir/a.glsl:2: error: the default of 'a' is 3, outside of its range 0 to 2");
 }
 
-TEST(KnobDirectives, a_misspelled_directive_suggests_the_right_one) {
+TEST(KnobDirectives, a_misspelled_directive_suggests_the_correct_name) {
     EXPECT_EQ(refusal("#iUnifrom float a = 3.0"),
               "dir/a.glsl:1:1: error: there is no directive '#iUnifrom': did you mean '#iUniform'?");
     EXPECT_NE(refusal("#iChanel1 \"a.png\"").find("'#iChannel1'"), std::string::npos);

@@ -37,7 +37,7 @@ TEST(KnobValue, the_default) {
     EXPECT_EQ(parse_knob_value(knob, "default"), knob.initial);
 }
 
-TEST(KnobValue, the_last_setting_decides) {
+TEST(KnobValue, the_last_setting_wins) {
     const Knob knob{.name = "k", .initial = {1}, .value = {2}};
     EXPECT_EQ(value_after(knob, {}), KnobValue{2});
     const std::vector<KnobSetting> settings{{"k", {1, {3}}}, {"other", {1, {4}}}, {"k", {1, {5}}}};
@@ -77,7 +77,7 @@ TEST(GivenValue, other_text_is_an_error_with_the_name_of_the_knob) {
                       "default");
 }
 
-TEST(GivenValue, of_a_knob_is_printed_as_its_value_is) {
+TEST(GivenValue, prints_like_the_value_of_the_knob) {
     for (const char* name : {"float", "vec2", "vec3", "vec4", "color3", "int", "ivec2", "ivec3", "ivec4"}) {
         const Knob knob{.name = "k", .type = find_knob_type(name)->type};
         const KnobValue value{1, -2, 3, 4};
@@ -100,7 +100,7 @@ TEST(GivenValue, keeps_every_bit_of_a_number) {
     }
 }
 
-TEST(GivenValue, must_suit_the_knob) {
+TEST(GivenValue, must_match_the_type_of_the_knob) {
     const auto refused = [](KnobType type, const GivenValue& given) {
         const auto value = value_for({.name = "k", .type = type}, given);
         return value ? "" : value.error().message;
@@ -122,7 +122,7 @@ TEST(GivenValue, may_lie_outside_a_slider) {
     EXPECT_EQ(value_for(knob, {1, {-5}}), KnobValue{-5});
 }
 
-TEST(SetKnob, refuses_a_value_and_keeps_the_old_one) {
+TEST(SetKnob, refuses_invalid_values_and_keeps_the_old_value) {
     std::vector<Knob> knobs{{.name = "k", .value = {7}}};
     EXPECT_FALSE(set_knob(knobs, {"k", {2, {1, 2}}}));
     EXPECT_EQ(knobs[0].value, KnobValue{7});
@@ -148,7 +148,7 @@ TEST(KnobValue, a_constructor) {
     EXPECT_EQ(parsed(KnobType::ivec2, "ivec2(1,2)"), "ivec2(1, 2)");
 }
 
-TEST(KnobValue, one_number_for_all) {
+TEST(KnobValue, one_number_sets_all_components) {
     EXPECT_EQ(parsed(KnobType::vec3, "2"), "vec3(2, 2, 2)");
     EXPECT_EQ(parsed(KnobType::ivec4, "2"), "ivec4(2, 2, 2, 2)");
 }
@@ -159,14 +159,14 @@ TEST(KnobValue, a_colour) {
     EXPECT_EQ(parsed(KnobType::color3, "0.5"), "vec3(0.5, 0.5, 0.5)");
 }
 
-TEST(KnobValue, what_a_number_takes) {
+TEST(KnobValue, invalid_numbers) {
     for (const std::string text : {"", " ", "x", "1x", "1,2", "nan", "inf", "1e999", "0x10", "1,", ",1",
                                    "--1", "+-1", "float(1", "float()", "vec2(1)", "#ffffff", "1 2"})
         EXPECT_EQ(parsed(KnobType::float1, text), "'" + std::string(text == " " ? "" : text) +
                                                       "' is not a value for k (float): give a number");
 }
 
-TEST(KnobValue, what_a_whole_number_takes) {
+TEST(KnobValue, invalid_integers) {
     EXPECT_EQ(parsed(KnobType::int1, "2147483647"), "2147483647");
     EXPECT_EQ(parsed(KnobType::int1, "-2147483648"), "-2147483648");
     for (const std::string text : {"1.5", "2147483648", "-2147483649", "1e10", "x"})
@@ -174,20 +174,20 @@ TEST(KnobValue, what_a_whole_number_takes) {
                   "'" + text + "' is not a value for k (int): give a whole number");
 }
 
-TEST(KnobValue, what_a_vector_takes) {
+TEST(KnobValue, invalid_vectors) {
     EXPECT_THAT(parsed(KnobType::vec2, "1,2,3"), naming("'1,2,3'", "(vec2)", "2 numbers"));
     EXPECT_THAT(parsed(KnobType::vec3, "1,2"), naming("'1,2'", "(vec3)", "3 numbers"));
     EXPECT_THAT(parsed(KnobType::vec4, "1,2,3,4,5"), naming("'1,2,3,4,5'", "(vec4)", "4 numbers"));
     EXPECT_THAT(parsed(KnobType::ivec2, "1,2.5"), naming("'1,2.5'", "(ivec2)", "2 whole numbers"));
 }
 
-TEST(KnobValue, what_a_colour_takes) {
+TEST(KnobValue, invalid_colours) {
     for (const std::string text : {"#", "#fff", "#ff80000", "#gg8000", "#-f8000", "1,2"})
         EXPECT_EQ(parsed(KnobType::color3, text),
                   "'" + text + "' is not a value for k (color3): give 3 numbers, as in 1,2,3 or #rrggbb");
 }
 
-TEST(KnobType, names_and_back) {
+TEST(KnobType, converts_to_names_and_back) {
     for (const char* name : {"float", "vec2", "vec3", "vec4", "color3", "int", "ivec2", "ivec3", "ivec4"}) {
         const KnobTypeInfo* type = find_knob_type(name);
         ASSERT_TRUE(type) << name;

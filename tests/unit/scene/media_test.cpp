@@ -11,7 +11,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-TEST(Media, by_hash_by_old_name_and_by_id) {
+TEST(Media, are_found_by_hash_old_name_and_id) {
     const Media* noise = find_media("/media/a/f735bee5b64ef98879dc.png");
     ASSERT_TRUE(noise);
     EXPECT_EQ(noise->title, "RGBA Noise Medium");
@@ -26,7 +26,7 @@ TEST(Media, by_hash_by_old_name_and_by_id) {
     EXPECT_EQ(find_media_by_id(""), nullptr);
 }
 
-TEST(Media, stand_ins_have_the_kind_and_size_of_what_is_missing) {
+TEST(Media, stand_ins_have_kind_and_size_of_the_missing_file) {
     const auto stand_in = [](MediaKind kind, const Media* media) {
         return substitute_for(kind, media).input;
     };
@@ -37,12 +37,12 @@ TEST(Media, stand_ins_have_the_kind_and_size_of_what_is_missing) {
     EXPECT_EQ(stand_in(MediaKind::video, find_media("vid03.webm")),
               ChannelInput(StandIn{StandIn::Kind::picture, 352, 288, 4}));
     EXPECT_EQ(stand_in(MediaKind::music, nullptr), ChannelInput(Music{}));
-    // A table of other people's projects says "texture" of anything.
+    // Tables of other projects call everything a texture.
     EXPECT_EQ(stand_in(MediaKind::picture, find_media("cube00_0.jpg")),
               ChannelInput(StandIn{StandIn::Kind::picture, 512, 512, 4}));
 }
 
-TEST(Media, what_is_as_good_as_the_missing_has_no_name_to_warn_with) {
+TEST(Media, equivalent_substitutes_give_no_warning) {
     EXPECT_EQ(substitute_for(MediaKind::picture, find_media("tex15.png")).name, "");
     EXPECT_EQ(substitute_for(MediaKind::volume, nullptr).name, "a generated volume of 32x32");
     EXPECT_EQ(substitute_for(MediaKind::music, nullptr).name, "ShaderToy's signal for silence");
@@ -50,7 +50,7 @@ TEST(Media, what_is_as_good_as_the_missing_has_no_name_to_warn_with) {
 
 using MediaFiles = SceneFolder;
 
-TEST_F(MediaFiles, are_found_by_path_by_name_and_by_their_other_name) {
+TEST_F(MediaFiles, are_found_by_path_name_and_alternative_name) {
     save("m/media/a/10eb4fe0aa.jpg", "");
     save("m/tex05.jpg", "");
     const MediaFolder media(path() / "m");
@@ -84,7 +84,7 @@ TEST_F(MediaFiles, cubemaps_have_six_faces_or_one_file) {
     EXPECT_THAT(MediaFolder(path() / "o").find_cubemap("/media/a/488bd403aa.jpg"), SizeIs(6));
 }
 
-TEST_F(MediaFiles, take_the_place_of_what_we_generate) {
+TEST_F(MediaFiles, replace_generated_media) {
     save("m/f735bee5.png", "");
     save("m/a6a1cf7a.mp3", "");
     save("m/27012b4e.bin", "");
@@ -106,7 +106,7 @@ TEST_F(MediaFiles, take_the_place_of_what_we_generate) {
     EXPECT_EQ(input(load("x.json"), 0, 0), ChannelInput(Noise{NoiseKind::rgba_256}));
 }
 
-TEST_F(MediaFiles, have_the_channels_that_the_site_gives_them) {
+TEST_F(MediaFiles, have_shadertoys_channels) {
     save("m/ad56fba9.jpg", "");
     save("x.json", R"([{"type":"image","code":"mainImage","inputs":[
         {"channel":0,"ctype":"texture","src":"/media/a/ad56fba9.jpg"}]}])");

@@ -25,7 +25,7 @@ std::string error_of(const Result<std::string>& result) {
     return result ? "no error" : to_string(result.error());
 }
 
-TEST(PageJson, is_found_in_a_script_whatever_stands_before_it) {
+TEST(PageJson, is_found_anywhere_in_a_script) {
     for (const char* before :
          {"", "var q = '\"'; f(function() { return [{", "var info = {\"a\": {}};\n", "{{{{[[["})
         EXPECT_THAT(projects_in_page("<html><SCRIPT type=x>" + std::string(before) + "var gRes = [" +
@@ -34,7 +34,7 @@ TEST(PageJson, is_found_in_a_script_whatever_stands_before_it) {
             << before;
 }
 
-TEST(PageJson, is_found_in_what_a_page_shows_and_in_attributes) {
+TEST(PageJson, is_found_in_text_and_attributes) {
     const std::string shown = "<html><body><pre>" + with_entities(k_project) + "</pre></body></html>";
     EXPECT_THAT(projects_in_page(shown), ElementsAre(k_project));
     const std::string attribute =
@@ -56,11 +56,11 @@ TEST(PageJson, a_hostile_page_takes_linear_time) {
     EXPECT_THAT(projects_in_page("<script>" + braces), ElementsAre());
 }
 
-TEST(SavedProject, json_stays_as_it_is_where_no_one_is_chosen) {
+TEST(SavedProject, json_is_unchanged_without_a_selection) {
     EXPECT_EQ(*saved_project(" [ 1 ] ", "", "x.json"), " [ 1 ] ");
 }
 
-TEST(SavedProject, one_of_several_is_chosen_by_its_id) {
+TEST(SavedProject, a_project_of_several_is_selected_by_id) {
     const std::string other = R"({"info":{"id":"other1"},"renderpass":[{"code":"o"}]})";
     for (const std::string& list :
          {"[" + other + "," + k_project + "]", "{\"shaders\":[" + other + "," + k_project + "]}",
@@ -77,7 +77,7 @@ TEST(SavedProject, one_of_several_is_chosen_by_its_id) {
               "x: error: this holds 2 projects (other1, abCD12): choose one with `import ID --via FILE`");
 }
 
-TEST(SavedProject, one_that_does_not_say_its_id_is_taken_for_it) {
+TEST(SavedProject, a_project_without_an_id_is_accepted) {
     const std::string passes = R"([{"type":"image","code":"c"}])";
     EXPECT_EQ(parse_json(*saved_project(passes, "abCD12", "x"), "x").value(),
               parse_json(passes, "x").value());
@@ -85,7 +85,7 @@ TEST(SavedProject, one_that_does_not_say_its_id_is_taken_for_it) {
               "x: error: this holds abCD12, but not other1");
 }
 
-TEST(SavedProject, an_address_has_the_id_at_its_end) {
+TEST(SavedProject, an_address_ends_with_the_id) {
     for (const char* address :
          {"abCD12", "https://www.shadertoy.com/view/abCD12", "shadertoy.com/view/abCD12/",
           "https://www.shadertoy.com/embed/abCD12?gui=true&t=10",

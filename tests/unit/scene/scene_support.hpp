@@ -1,4 +1,4 @@
-// What the tests of scenes in files share: a folder to write scenes into, and words for what comes out.
+// Helpers of the tests of scenes in files: a folder to write scenes into, and results as text.
 #pragma once
 
 #include "scene/load_scene.hpp"

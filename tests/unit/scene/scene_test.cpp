@@ -56,7 +56,7 @@ TEST(LoadScene, with_includes_directives_and_pictures) {
                                          folder / "lib/u.png"));
 }
 
-TEST(LoadScene, what_is_no_scene_is_said) {
+TEST(LoadScene, other_files_are_refused_with_the_reason) {
     const TemporaryFolder folder;
     const std::string path = folder / "a.glsl";
     EXPECT_EQ(refusal(path), "tidemark: error: cannot read '" + path + "': no such file");
@@ -70,7 +70,7 @@ TEST(LoadScene, what_is_no_scene_is_said) {
     EXPECT_EQ(refusal(path), "tidemark: error: '" + path + "' is a binary file, not shader text");
 }
 
-TEST(LoadScene, nothing_in_the_file) {
+TEST(LoadScene, an_empty_file_is_refused) {
     const TemporaryFolder folder;
     const std::string path = folder / "a.glsl";
     for (const char* text : {"", "\n \t\r\n", "\xEF\xBB\xBF", "// mainImage", "/* mainImage"}) {
@@ -156,7 +156,7 @@ TEST_F(Overrides, a_knob_gets_its_value_and_keeps_its_default) {
     EXPECT_EQ(scene.knobs[0].value[0], 2.5);
 }
 
-TEST_F(Overrides, a_channel_of_another_pass_is_named_with_it) {
+TEST_F(Overrides, a_channel_of_another_pass_is_selected_by_its_name) {
     Pass buffer;
     buffer.kind = PassKind::buffer;
     buffer.name = "Buffer A";
@@ -171,7 +171,7 @@ TEST_F(Overrides, a_channel_of_another_pass_is_named_with_it) {
               "--channel Buffer A:x=none: give it as N=FILE, N=noise or N=none, N from 0 to 9");
 }
 
-TEST_F(Overrides, a_value_outside_of_the_range_is_taken_with_a_warning) {
+TEST_F(Overrides, a_value_out_of_range_is_accepted_with_a_warning) {
     scene.knobs[0].range = KnobRange{{0}, {2}};
     EXPECT_EQ(message(override_knob(scene, "k=2")), "");
     EXPECT_TRUE(scene.warnings.empty());
@@ -182,7 +182,7 @@ TEST_F(Overrides, a_value_outside_of_the_range_is_taken_with_a_warning) {
     EXPECT_EQ(scene.warnings[0].where.line, 1);
 }
 
-TEST_F(Overrides, a_channel_reads_what_it_is_told) {
+TEST_F(Overrides, a_channel_reads_the_given_input) {
     EXPECT_EQ(message(override_channel(scene, "0=noise")), "");
     EXPECT_EQ(scene.image().channels[0].input, ChannelInput(Noise{}));
     EXPECT_EQ(scene.image().channels[0].sampling, k_texture_sampling);
@@ -200,7 +200,7 @@ TEST_F(Overrides, a_channel_reads_what_it_is_told) {
                 naming("--channel 0=blur.glsl", "'blur.glsl'", "is a pass"));
 }
 
-TEST_F(Overrides, channels_that_there_are_not) {
+TEST_F(Overrides, invalid_channels_are_refused) {
     for (const std::string setting : {"10=noise", "-1=noise", "00=noise", "x=noise", "0="})
         EXPECT_EQ(message(override_channel(scene, setting)),
                   "--channel " + setting + ": give it as N=FILE, N=noise or N=none, N from 0 to 9");

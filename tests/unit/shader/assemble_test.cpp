@@ -55,7 +55,7 @@ TEST(Assemble, the_author_s_text_is_untouched) {
     EXPECT_TRUE(source_of(text).text().ends_with("}\n" + text));
 }
 
-TEST(Assemble, alpha_is_one_and_the_colour_starts_black) {
+TEST(Assemble, alpha_is_1_and_the_initial_colour_is_black) {
     const std::string text = source_of(k_main_image).text();
     EXPECT_EQ(count(text, "    vec4 tidemark_pixel = vec4(0.0, 0.0, 0.0, 1.0);\n"
                           "    vec2 tidemark_at = gl_FragCoord.xy;\n"
@@ -73,7 +73,7 @@ TEST(Assemble, knobs_are_uniforms) {
     EXPECT_EQ(count(text, "uniform float a;\nuniform vec3 b;\nuniform ivec2 c;\n"), 1);
 }
 
-TEST(Assemble, what_the_author_declares_is_not_declared_again) {
+TEST(Assemble, author_declarations_are_not_repeated) {
     const std::string text = source_of("#iUniform float k = 1.0\n"
                                        "uniform vec3 iResolution;\n"
                                        "uniform highp float iTime, k; // iFrame\n"
@@ -87,7 +87,7 @@ TEST(Assemble, what_the_author_declares_is_not_declared_again) {
     EXPECT_EQ(count(text, declaration("int iFrame")), 1) << "named in a comment only";
 }
 
-TEST(Assemble, what_only_looks_like_a_declaration_is_none) {
+TEST(Assemble, inactive_declarations_are_ignored) {
     for (const char* text :
          {"// uniform float iTime;\n", "#define UNIFORM uniform\nfloat t() { return iTime; }\n",
           "#if 0\nuniform float iTime;\n#endif\n", "float uniforms = iTime;\n",
@@ -98,7 +98,7 @@ TEST(Assemble, what_only_looks_like_a_declaration_is_none) {
             << text;
 }
 
-TEST(Assemble, an_unfinished_declaration_ends_at_the_next) {
+TEST(Assemble, an_unfinished_declaration_ends_at_the_next_declaration) {
     const std::string text =
         source_of("uniform float a\n#define B iFrame\nuniform float iTime;" + k_main_image).text();
     EXPECT_EQ(count(text, declaration("int iFrame")), 1);
@@ -112,7 +112,7 @@ TEST(Assemble, the_author_s_version_is_blanked_in_its_place) {
     EXPECT_EQ(count(source.text(), "// mine\n // why\nprecision highp float;\n"), 1);
 }
 
-TEST(Assemble, lines_lead_back_to_their_author) {
+TEST(Assemble, lines_map_to_the_authors_lines) {
     scene::Scene scene;
     scene.passes.resize(1);
     scene.passes[0].text.append("\n\nfirst\n", "main.glsl", 1);
@@ -128,14 +128,14 @@ TEST(Assemble, lines_lead_back_to_their_author) {
     EXPECT_EQ(source.line_count(), count(source.text(), "\n"));
 }
 
-TEST(Assemble, our_main_stands_before_the_author_s_macros) {
+TEST(Assemble, our_main_precedes_the_authors_macros) {
     const ShaderSource source = source_of("#define color nonsense\n" + k_main_image);
     EXPECT_LT(line_of(source, "void main()"), line_of(source, "#define color"));
     EXPECT_LT(line_of(source, "void mainImage(out vec4 fragColor, in vec2 fragCoord);"),
               line_of(source, "void main()"));
 }
 
-TEST(Assemble, our_main_stands_behind_a_main_image_that_is_a_macro) {
+TEST(Assemble, our_main_follows_a_main_image_macro) {
     const ShaderSource source =
         source_of("#define mainImage(O,U) void f(out vec4 O, vec2 U)\nmainImage(o,u){}");
     EXPECT_GT(line_of(source, "void main()"), line_of(source, "#define mainImage"));

@@ -17,7 +17,7 @@ std::string type_of(const std::string& name, const std::vector<std::string>& arg
     return type ? to_string(*type) : "none";
 }
 
-TEST(BuiltinFunctions, each_has_one_row) {
+TEST(BuiltinFunctions, each_function_has_one_row) {
     std::set<std::string_view> names;
     for (const BuiltinFunction& function : builtin_functions()) {
         EXPECT_TRUE(names.insert(function.name).second) << function.name;
@@ -27,7 +27,7 @@ TEST(BuiltinFunctions, each_has_one_row) {
     EXPECT_EQ(find_builtin("texture2D"), nullptr);
 }
 
-TEST(BuiltinFunctions, every_type_of_a_signature_is_one) {
+TEST(BuiltinFunctions, every_type_of_a_signature_exists) {
     for (const BuiltinFunction& function : builtin_functions()) {
         EXPECT_FALSE(overloads_of(function).empty()) << function.name;
         for (const BuiltinOverload& overload : overloads_of(function)) {
@@ -42,7 +42,7 @@ TEST(BuiltinFunctions, every_type_of_a_signature_is_one) {
     }
 }
 
-TEST(BuiltinFunctions, domains_are_of_their_arguments) {
+TEST(BuiltinFunctions, domains_refer_to_existing_arguments) {
     for (const BuiltinFunction& function : builtin_functions()) {
         if (!function.domain)
             continue;
@@ -58,7 +58,7 @@ TEST(BuiltinFunctions, domains_are_of_their_arguments) {
     }
 }
 
-/// What C++ cannot compute is undefined; of numbers that are no borders.
+/// A value that C++ cannot compute is undefined in GLSL too; for numbers that are not borders of the domain.
 TEST(BuiltinFunctions, values_are_numbers_inside_of_the_domain) {
     for (const BuiltinFunction& function : builtin_functions())
         for (const double x : {-1.5, -0.5, 0.0, 0.5, 1.5})
@@ -69,7 +69,7 @@ TEST(BuiltinFunctions, values_are_numbers_inside_of_the_domain) {
             }
 }
 
-TEST(BuiltinFunctions, what_is_undefined_is_told_in_words) {
+TEST(BuiltinFunctions, undefined_arguments_are_described) {
     const auto fault = [](const std::string& name, const Arguments& arguments) {
         const UndefinedWhere* const broken = find_builtin(name)->domain->broken(arguments);
         return broken ? std::string(broken->fault) : "";
@@ -85,7 +85,7 @@ TEST(BuiltinFunctions, what_is_undefined_is_told_in_words) {
     EXPECT_EQ(fault("smoothstep", {1, 1, 2}), "with equal edges");
 }
 
-TEST(BuiltinFunctions, a_call_has_the_type_of_the_overload_that_takes_it) {
+TEST(BuiltinFunctions, a_call_has_the_type_of_its_overload) {
     EXPECT_EQ(type_of("sin", {"vec3"}), "vec3");
     EXPECT_EQ(type_of("sin", {"int"}), "float");
     EXPECT_EQ(type_of("abs", {"ivec2"}), "ivec2");
@@ -103,7 +103,7 @@ TEST(BuiltinFunctions, a_call_has_the_type_of_the_overload_that_takes_it) {
     EXPECT_EQ(type_of("lessThan", {"vec3", "vec3"}), "bvec3");
 }
 
-TEST(BuiltinFunctions, written_arguments_are_those_marked_so) {
+TEST(BuiltinFunctions, written_arguments_are_listed) {
     for (const auto& [name, written] : {std::pair("modf", 0b10u),
                                         {"frexp", 0b10},
                                         {"uaddCarry", 0b100},
@@ -116,7 +116,7 @@ TEST(BuiltinFunctions, written_arguments_are_those_marked_so) {
         EXPECT_EQ(builtin_written_arguments(name), written) << name;
 }
 
-TEST(BuiltinFunctions, what_may_be_left_out_makes_two_overloads) {
+TEST(BuiltinFunctions, optional_arguments_make_two_overloads) {
     EXPECT_EQ(overloads_of(*find_builtin("texture")).size(), 6u);
     EXPECT_TRUE(takes_constants(*find_builtin("textureGather")));
     EXPECT_FALSE(takes_constants(*find_builtin("texture")));

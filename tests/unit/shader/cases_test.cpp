@@ -1,5 +1,5 @@
 // Text in, text out: each tests/cases/glsl/<name>.glsl is loaded as a scene; <name>.expected holds what the
-// driver gets, every line behind the place where it was written, or the error. Lines `//: --define A=1` and
+// driver gets, every line after the place where it was written, or the error. Lines `//: --define A=1` and
 // `//: --set k=2` of a case are options; the prologue is shown where a line `//: --prologue` asks for it.
 // With `//: --precision double` (and `//: --double-hashes`) the text is promoted, and the functions that it
 // calls of ours and the hashes that stay in floats are listed first.
@@ -104,7 +104,7 @@ std::string outcome(const std::string& file, const Options& options) {
 
 class GlslCase : public testing::TestWithParam<std::string> {};
 
-TEST_P(GlslCase, gives_what_is_expected) {
+TEST_P(GlslCase, gives_the_expected_output) {
     const fs::path before = fs::current_path();
     fs::current_path(k_folder);
     const std::string file = GetParam() + ".glsl";

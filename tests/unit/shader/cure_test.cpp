@@ -42,7 +42,7 @@ TEST(Cure, AnArgumentIsKeptInItsDomain) {
     EXPECT_EQ(in_main("acos( u.x )"), "acos( clamp(u.x, -1.0, 1.0) )");
 }
 
-TEST(Cure, ADivisorIsKeptFromZero) {
+TEST(Cure, ADivisorIsKeptAwayFromZero) {
     EXPECT_EQ(in_main("u / u.x"), "u / (u.x + (1.0 - abs(sign(u.x))) * 1e-18)");
     EXPECT_EQ(in_main("u / length(u)"), "u / max(length(u), 1e-18)");
     EXPECT_EQ(in_main("u / dot(u, u.zyx)"), "u / (dot(u, u.zyx) + (1.0 - abs(sign(dot(u, u.zyx)))) * 1e-18)");
@@ -56,7 +56,7 @@ TEST(Cure, ACallIsChosenWhereItIsDefined) {
               "(u.x != u.y ? smoothstep(u.x, u.y, 0.5) : step(u.x, 0.5))");
 }
 
-TEST(Cure, InnerWrapsStandInsideOfOuterOnes) {
+TEST(Cure, InnerWrapsAreInsideOuterWraps) {
     EXPECT_EQ(in_main("sqrt(u.x / u.y)"), "sqrt(max(u.x / (u.y + (1.0 - abs(sign(u.y))) * 1e-18), 0.0))");
     EXPECT_EQ(in_main("log(sqrt(u.x))"), "log(max(sqrt(max(u.x, 0.0)), 1e-30))");
 }
@@ -70,7 +70,7 @@ TEST(Cure, AMacroIsChangedInItsBody) {
               "#define H 0.5\nuniform float u;\nvoid main() { float f = sqrt(max(u - H, 0.0)); }\n");
 }
 
-TEST(Cure, ZeroIsWhereTheValueWasMissing) {
+TEST(Cure, ZeroReplacesAMissingValue) {
     EXPECT_EQ(with_values("void main() { vec3 v, w; v += w; }\n"),
               "void main() { vec3 v = vec3(0.0), w = vec3(0.0); v += w; }\n");
     EXPECT_EQ(with_values("uniform float u;\nvoid f(out float x) { if (u > 0.0) x = 1.0; }\n"
@@ -103,13 +103,13 @@ TEST(Cure, ZeroIsWhereTheValueWasMissing) {
     EXPECT_EQ(with_values(hidden), hidden);
 }
 
-TEST(Cure, OfTwoAroundTheSameWordsTheLaterIsTheOuterOne) {
+TEST(Cure, TheLaterOfTwoEqualWrapsIsTheOuterWrap) {
     const WrittenWord x{{"a.glsl", 1, 1}, "x"};
     const Cure cures[]{{{{x, x, "abs(", ")"}}, ""}, {{{x, x, "max(", ", 1.0)"}}, ""}};
     EXPECT_EQ(cured("x;", "a.glsl", cures), "max(abs(x), 1.0);");
 }
 
-TEST(Cure, ATextThatIsAnotherNowIsRefused) {
+TEST(Cure, AChangedTextIsRefused) {
     const Cure cure{{{{{"a.glsl", 1, 7}, "x"}, {{"a.glsl", 2, 1}, "y"}, "(", ")"}}, ""};
     EXPECT_EQ(cured("float x +\ny;", "a.glsl", std::span(&cure, 1)), "float (x +\ny);");
     EXPECT_EQ(cured("float x +\nz;", "a.glsl", std::span(&cure, 1)), std::nullopt);

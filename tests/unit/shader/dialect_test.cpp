@@ -25,13 +25,13 @@ TEST(Dialects, desktop_first_and_main_before_the_text) {
                                                              "300 es", "330 core, nothing initialised"}));
 }
 
-TEST(Dialects, overloads_of_built_in_functions_are_offered_beside_them_when_all_else_fails) {
+TEST(Dialects, overloads_of_built_in_functions_are_tried_last) {
     const std::vector<std::string> offered = names("float mix(vec2 a) { return a.x; }\n" + k_main_image);
     EXPECT_EQ(offered.front(), "330 core");
     EXPECT_EQ(offered[4], "330 core, built-in functions overloaded");
 }
 
-TEST(Dialects, an_entry_point_that_is_a_macro_is_called_behind_it) {
+TEST(Dialects, a_macro_entry_point_is_called_after_its_definition) {
     EXPECT_EQ(names("#define mainImage(O, U) O = vec4(U, 0, 1)\n").front(), "330 core, main last");
     EXPECT_EQ(names("#if 0\n#define mainImage(O, U)\n#endif\n" + k_main_image).front(), "330 core");
     EXPECT_EQ(names("#define main() mainImage(out vec4 o, in vec2 p)\nvoid main() {}\n").front(), "330 core");
@@ -40,7 +40,7 @@ TEST(Dialects, an_entry_point_that_is_a_macro_is_called_behind_it) {
               "330 core");
 }
 
-TEST(Dialects, a_main_of_the_author_s_own_is_left_in_charge) {
+TEST(Dialects, a_main_by_the_author_is_used) {
     EXPECT_EQ(names("out vec4 c;\nvoid main() { c = vec4(1); }\n").front(),
               "330 core, the author's own main");
     for (const char* dead :
@@ -49,7 +49,7 @@ TEST(Dialects, a_main_of_the_author_s_own_is_left_in_charge) {
         EXPECT_EQ(names(dead + k_main_image).front(), "330 core") << dead;
 }
 
-TEST(Dialects, a_uniform_that_our_main_reads_must_stand_before_it) {
+TEST(Dialects, a_uniform_that_our_main_reads_is_declared_before_our_main) {
     const std::string text =
         "void mainCubemap(out vec4 c, in vec2 p, in vec3 o, in vec3 d) { c = vec4(d, 1); }\n";
     EXPECT_EQ(names(text, scene::PassKind::cubemap).front(), "330 core");
@@ -58,7 +58,7 @@ TEST(Dialects, a_uniform_that_our_main_reads_must_stand_before_it) {
               "330 core, main last");
 }
 
-TEST(Dialects, each_version_has_its_header) {
+TEST(Dialects, each_glsl_version_has_a_header) {
     const scene::Scene scene = scene_of("#ifdef GL_ES\n#endif\n" + k_main_image);
     const auto text = [&](Version version) {
         return assemble(scene, scene.passes[0], {.version = version}).text();
@@ -72,7 +72,7 @@ TEST(Dialects, each_version_has_its_header) {
     EXPECT_TRUE(std::string_view(vertex_shader(Version::core_450)).starts_with("#version 330 core\n"));
 }
 
-TEST(Dialects, only_what_the_text_names_is_provided) {
+TEST(Dialects, only_named_uniforms_are_declared) {
     EXPECT_EQ(count(source_of(k_main_image).text(), "iCh0"), 0);
     EXPECT_EQ(count(source_of(k_main_image).text(), "#define"), 1);
     const std::string text =
@@ -87,7 +87,7 @@ TEST(Dialects, only_what_the_text_names_is_provided) {
               1);
 }
 
-TEST(Dialects, the_sound_pass_has_uniforms_of_its_own) {
+TEST(Dialects, the_sound_pass_has_its_own_uniforms) {
     scene::Scene scene = scene_of("vec2 mainSound(float t) { return vec2(0); }\n");
     scene.passes[0].kind = scene::PassKind::sound;
     const std::string text = assemble(scene, scene.passes[0]).text();
@@ -110,7 +110,7 @@ constexpr auto flat = TextureKind::flat;
 constexpr auto cube = TextureKind::cube;
 constexpr auto volume = TextureKind::volume;
 
-TEST(ChannelKinds, the_channel_that_the_driver_complains_about) {
+TEST(ChannelKinds, are_inferred_from_the_drivers_complaint) {
     const scene::Scene scene = scene_of(k_main_image + "vec4 a() { return texture(iChannel0, vec2(0)); }\n"
                                                        "vec4 b() { return texture(iChannel2, vec3(0)); }\n");
     const auto kinds = kinds_for(scene, k_complaint, "vec4 b()");
@@ -120,7 +120,7 @@ TEST(ChannelKinds, the_channel_that_the_driver_complains_about) {
     EXPECT_THAT(kinds_for(scene, "syntax error", "vec4 b()"), IsEmpty());
 }
 
-TEST(ChannelKinds, what_was_specified_stays) {
+TEST(ChannelKinds, specified_channels_keep_their_kind) {
     scene::Scene scene = scene_of(k_main_image + "vec4 a() { return texture(iChannel0, vec3(0)); }\n");
     scene.passes[0].channels[0].where = {"a.glsl", 1, 0};
     EXPECT_THAT(kinds_for(scene, k_complaint, "vec4 a()"), IsEmpty());
@@ -134,7 +134,7 @@ TEST(ChannelKinds, a_macro_hides_the_channel) {
     EXPECT_EQ(kinds[0], (ChannelKinds{flat, cube, flat, flat}));
 }
 
-TEST(EntryPoints, none_and_several_are_said_clearly) {
+TEST(EntryPoints, missing_and_multiple_entry_points_are_reported) {
     const auto problems = [](const std::string& text) {
         const scene::Scene scene = scene_of(text);
         std::string words;
@@ -182,7 +182,7 @@ TEST(PassReading, characters_that_glsl_lacks_are_named) {
         EXPECT_EQ(problems(fine), "") << fine;
 }
 
-TEST(PassReading, a_text_discards_where_a_pixel_may_come_to_it) {
+TEST(PassReading, reachable_discards_are_detected) {
     const auto discards = [](const std::string& text) {
         const scene::Scene scene = scene_of(text + k_main_image);
         return PassReading(scene, scene.passes[0]).discards();

@@ -35,7 +35,7 @@ std::string in_image(const std::string& lines) {
     return found_in("void mainImage(out vec4 c, in vec2 p) {\n" + lines + "\n}\n");
 }
 
-TEST(Divergence, WhatAllPixelsDoTogetherIsSound) {
+TEST(Divergence, UniformControlFlowPasses) {
     EXPECT_EQ(in_image("c = vec4(dFdx(p.x));"), "");
     EXPECT_EQ(in_image("if (iTime > 1.0)\nc = texture(iChannel0, p);"), "");
     EXPECT_EQ(in_image("for (int i = 0; i < 4; ++i)\nc += texture(iChannel0, p * float(i));"), "");
@@ -43,7 +43,7 @@ TEST(Divergence, WhatAllPixelsDoTogetherIsSound) {
               "");
 }
 
-TEST(Divergence, AConditionThatPixelsAnswerDifferentlyPartsThem) {
+TEST(Divergence, AVaryingConditionDiverges) {
     EXPECT_EQ(in_image("if (p.x > 9.0)\nc = vec4(dFdx(p.x));"), "dFdx@3<2");
     EXPECT_EQ(in_image("if (p.x > 9.0) ;\nelse c = vec4(fwidth(p.x));"), "fwidth@3<2");
     EXPECT_EQ(in_image("c = p.x > 9.0 ? texture(iChannel0, p) : vec4(0);"), "texture@2<2");
@@ -52,13 +52,13 @@ TEST(Divergence, AConditionThatPixelsAnswerDifferentlyPartsThem) {
     EXPECT_EQ(in_image("if (dFdx(p.x) > p.x) c = vec4(0);"), "") << "the condition itself is asked by all";
 }
 
-TEST(Divergence, AVariableCarriesTheDifferenceOn) {
+TEST(Divergence, DivergencePropagatesThroughVariables) {
     EXPECT_EQ(in_image("float d = length(p);\nif (d > 9.0) c = vec4(dFdx(d));"), "dFdx@3<3");
     EXPECT_EQ(in_image("int n = 0; if (p.x > 9.0) n = 1;\nif (n == 1) c = vec4(dFdx(p.x));"), "dFdx@3<3");
     EXPECT_EQ(in_image("vec2 q; q.x = p.x;\nif (q.y > 9.0) c = vec4(dFdx(p.x));"), "dFdx@3<3");
 }
 
-TEST(Divergence, ALoopThatSomePixelsLeavePartsTheRest) {
+TEST(Divergence, ALoopLeftBySomePixelsDiverges) {
     EXPECT_EQ(
         in_image("for (int i = 0; i < 4; ++i) {\nif (p.x > float(i)) break;\nc += texture(iChannel0, p); }"),
         "texture@4<2");
@@ -80,7 +80,7 @@ TEST(Divergence, GoesThroughFunctions) {
               "");
 }
 
-TEST(Divergence, BehindAReturnOrADiscardNotAllAreLeft) {
+TEST(Divergence, CodeAfterAVaryingReturnOrDiscardDiverges) {
     EXPECT_EQ(in_image("if (p.x > 9.0) return;\nc = vec4(dFdx(p.x));"), "dFdx@3|2");
     EXPECT_EQ(in_image("if (p.x > 9.0) discard;\nc = texture(iChannel0, p);"), "texture@3|2");
     EXPECT_EQ(in_image("if (iTime > 1.0) {\nif (p.x > 9.0) return;\n}\nc = vec4(dFdx(p.x));"), "dFdx@5|3");
@@ -91,7 +91,7 @@ TEST(Divergence, BehindAReturnOrADiscardNotAllAreLeft) {
     EXPECT_EQ(in_image("if (p.x > 9.0) { c = vec4(1); }\nelse c = vec4(2);\nc = vec4(dFdx(p.x));"), "");
 }
 
-TEST(Divergence, AnExitPartsThoseWhoMayComeFromIt) {
+TEST(Divergence, AnExitDivergesOnlyReachableCode) {
     EXPECT_EQ(in_image("if (iTime > 1.0) { if (p.x > 9.0) return; }\nelse c = vec4(dFdx(p.x));"), "");
     EXPECT_EQ(in_image("switch (iFrame) {\ncase 0: if (p.x > 9.0) return;\nbreak;\n"
                        "default: c = vec4(dFdx(p.x));\n}"),
@@ -101,7 +101,7 @@ TEST(Divergence, AnExitPartsThoseWhoMayComeFromIt) {
               "dFdx@4|3");
 }
 
-TEST(Divergence, AContinueIsForTheRestOfTheBody) {
+TEST(Divergence, AContinueDivergesTheRestOfTheBody) {
     const std::string loop = "for (int i = 0; i < 4; ++i) {\nc += texture(iChannel0, p);\n"
                              "if (p.x > float(i)) continue;\n";
     EXPECT_EQ(in_image(loop + "}\nc *= dFdx(p.x);"), "");
@@ -112,13 +112,13 @@ TEST(Divergence, AContinueIsForTheRestOfTheBody) {
         << "some have counted further";
 }
 
-TEST(Divergence, ABreakOutOfASwitchLeavesNoLoop) {
+TEST(Divergence, ABreakInASwitchDoesNotLeaveTheLoop) {
     EXPECT_EQ(in_image("for (int i = 0; i < 4; ++i) {\nc += texture(iChannel0, p);\n"
                        "switch (int(p.x)) { case 0: break; default: c *= 2.0; }\n}"),
               "");
 }
 
-TEST(Divergence, AnExitIsOneOfItsFunction) {
+TEST(Divergence, AReturnAffectsItsOwnFunctionOnly) {
     EXPECT_EQ(found_in("float f(float x) { if (x > 9.0) return 1.0; float d = 2.0; return d; }\n"
                        "void mainImage(out vec4 c, in vec2 p) {\nfloat e = f(p.x);\nc = vec4(dFdx(e));\n"
                        "float d = 1.0; if (d > 2.0) c = vec4(dFdy(e)); }\n"),
@@ -140,10 +140,35 @@ TEST(Divergence, AnExitIsOneOfItsFunction) {
         << "a global is seen by all";
 }
 
-TEST(Divergence, TexturesThatChooseNoMipmapNeedNoNeighbour) {
+TEST(Divergence, LookUpsWithoutMipmapsNeedNoNeighbours) {
     EXPECT_EQ(in_image("if (p.x > 9.0)\nc = texture(iChannel1, p) + textureLod(iChannel0, p, 0.0) +\n"
                        "texelFetch(iChannel0, ivec2(p), 0);"),
               "");
+}
+
+/// Whether each found one of mainImage is harmless: h, or not: n.
+std::string harm_in(const std::string& lines) {
+    text::MappedText source;
+    source.append("#version 330 core\nuniform float iTime;\nuniform sampler2D iChannel0;\n", "", 0);
+    source.append("void mainImage(out vec4 c, in vec2 p) {\n" + lines + "\n}\n", "a.glsl", 1);
+    source.append("void main() { vec4 c; mainImage(c, gl_FragCoord.xy); }\n", "", 0);
+    const auto parsed = ParsedText::read(std::move(source), {});
+    EXPECT_TRUE(parsed);
+    std::string result;
+    for (const Divergent& each :
+         find_divergent(**parsed, find_facts(**parsed), [](std::string_view) { return true; }))
+        result += each.harmless ? 'h' : 'n';
+    return result;
+}
+
+TEST(Divergence, CoordinatesFromBeforeTheBranchAreHarmless) {
+    EXPECT_EQ(harm_in("if (p.x > 9.0) c = texture(iChannel0, 2.0 * p + iTime);"), "h");
+    EXPECT_EQ(harm_in("vec2 q = vec2(length(p)); if (p.x > 9.0) c = texture(iChannel0, q.xy / 3.0);"), "h");
+    EXPECT_EQ(harm_in("vec2 q = p; if (p.x > 9.0) { q = p * p; c = texture(iChannel0, q); }"), "n");
+    EXPECT_EQ(harm_in("if (p.x > 9.0) { vec2 q = sin(p); c = texture(iChannel0, q); }"), "n");
+    EXPECT_EQ(harm_in("vec2 q = p; while (q.x > c.x) { c += texture(iChannel0, q); q *= 2.0; }"), "n");
+    EXPECT_EQ(harm_in("if (p.x > 9.0) return; vec2 q = sin(p); c = texture(iChannel0, q);"), "n");
+    EXPECT_EQ(harm_in("if (p.x > 9.0) c = texture(iChannel0, sin(p), -100.0);"), "h");
 }
 
 } // namespace tidemark::glsl::divergence_test

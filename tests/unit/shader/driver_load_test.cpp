@@ -1,4 +1,4 @@
-// What a text may ask of a driver: small ones pass, and whatever grows without bound is seen to.
+// The estimated load of a text on a driver: small texts pass, and unbounded growth is found.
 #include "glsl_support.hpp"
 #include "shader/driver_load.hpp"
 
@@ -100,7 +100,7 @@ TEST(DriverLoad, Blocks) {
     EXPECT_TRUE(load_of("uniform B { vec4 x[10]; };\nvoid main() {}\n").modest());
 }
 
-TEST(DriverLoad, LoopsInEachOther) {
+TEST(DriverLoad, NestedLoops) {
     const auto nested = [](int count) {
         std::string loops;
         for (int i = 0; i < count; ++i)
@@ -117,7 +117,7 @@ TEST(DriverLoad, LoopsInEachOther) {
     EXPECT_EQ(load_of(text + "void main() { float x = f12(1.0); }\n").loops, 12);
 }
 
-TEST(DriverLoad, TheLeastIntByMinusOne) {
+TEST(DriverLoad, DivisionOfTheSmallestIntByMinus1) {
     for (const char* text : {"int x = (-2147483647 - 1) / -1;", "int x = int(0x80000000u) % -1;",
                              "int x = (1 << 31) / ~0;", "int x = (1 << 31) / (0 - 1);"})
         EXPECT_FALSE(load_in_main(text).modest()) << text;
@@ -127,7 +127,7 @@ TEST(DriverLoad, TheLeastIntByMinusOne) {
         load_in_main("uint n = 7u; n = n & 0x7fffffffu; float x = float(n) / 2147483647.0 - 1.0;").modest());
 }
 
-TEST(DriverLoad, OfAScene) {
+TEST(DriverLoad, LoadOfAScene) {
     EXPECT_TRUE(is_modest(scene_of("void mainImage(out vec4 c, in vec2 p) { c = vec4(p, 0, 1); }"),
                           Precision::single));
     EXPECT_FALSE(

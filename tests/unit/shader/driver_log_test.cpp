@@ -73,7 +73,7 @@ TEST(DriverLog, mesa_link) {
               "warning: `color' is never written\n");
 }
 
-TEST(DriverLog, of_mesas_candidates_three_are_kept) {
+TEST(DriverLog, three_of_mesas_candidates_are_kept) {
     EXPECT_EQ(read("0:14(5): error: no matching function for call to `f(int)'; candidates are:\n"
                    "0:14(5): error:    float f(float)\n"
                    "0:14(5): error:    vec2 f(vec2)\n"
@@ -89,7 +89,7 @@ TEST(DriverLog, of_mesas_candidates_three_are_kept) {
               "a.glsl:3:5: error:    float f(float)\n");
 }
 
-TEST(DriverLog, mesas_tokens_in_words) {
+TEST(DriverLog, mesas_token_names_become_words) {
     EXPECT_EQ(read("0:14(5): error: syntax error, unexpected BASIC_TYPE_TOK, expecting '(' or IDENTIFIER\n"
                    "0:15(5): error: syntax error, unexpected $end\n"
                    "0:16(5): error: `IDENTIFIERS' undeclared\n"),
@@ -132,7 +132,7 @@ TEST(DriverLog, notes) {
                                                                "a.glsl:1: note: here\n");
 }
 
-TEST(DriverLog, lines_of_our_own_making_have_no_place) {
+TEST(DriverLog, generated_lines_have_no_place) {
     EXPECT_EQ(read("0:3(5): error: `main' redefined\n0(10) : error C1: x\nERROR: 0:0: y\n"),
               "error: `main' redefined\n"
               "error: C1: x\n"
@@ -157,7 +157,7 @@ TEST(DriverLogColumns, lines_that_the_preprocessor_joins) {
     EXPECT_EQ(place(" /* x\n */ float g = bad; float h = bad2;\n", 1, 27, "bad2"), "2:30");
 }
 
-TEST(DriverLogColumns, behind_a_macro_a_word_is_found_by_its_name_or_not_at_all) {
+TEST(DriverLogColumns, after_a_macro_a_word_is_found_by_name_only) {
     const std::string macros = "#define FOO(x) ((x) + 1.0)\n#define BAR 3.0\n";
     EXPECT_EQ(place(macros + "    float t = FOO(2.0) + bad;\n", 3, 28, "bad"), "3:26");
     EXPECT_EQ(place(macros + "    float w = BAR + bad;\n", 3, 18, "bad"), "3:21");
@@ -171,7 +171,7 @@ TEST(DriverLogColumns, behind_a_macro_a_word_is_found_by_its_name_or_not_at_all)
     EXPECT_EQ(told("#define NO\n    float w = NO 1 + 1;\n", mismatch), "a.glsl:2: error: type mismatch\n");
 }
 
-TEST(DriverLogColumns, the_arguments_of_a_macro_may_lie_over_lines_that_then_do_not_count) {
+TEST(DriverLogColumns, macro_arguments_over_several_lines_count_as_one_line) {
     const std::string macros = "#define FOO(x) ((x) + 1.0)\n";
     const std::string text =
         macros + "float a = FOO(\n   1.0) + bad;\nfloat b =\n  bad2;\nfloat c = FOO(FOO(\n  1.0)\n"
@@ -193,14 +193,14 @@ TEST(DriverLogColumns, the_arguments_of_a_macro_may_lie_over_lines_that_then_do_
         << "perhaps a macro, perhaps not";
 }
 
-TEST(DriverLogColumns, the_preprocessor_speaks_of_the_lines_as_they_are) {
+TEST(DriverLogColumns, preprocessor_columns_are_those_of_the_text) {
     EXPECT_EQ(told("  #error no\n", "0:1(3): preprocessor error: #error no\n"),
               "a.glsl:1:3: error: #error no\n");
     EXPECT_EQ(told("#if 1\n", "0:1(6): preprocessor error: Unterminated #if\n"),
               "a.glsl:1: error: Unterminated #if\n");
 }
 
-TEST(DriverLogColumns, edits_before_an_error_on_its_line_do_not_move_it) {
+TEST(DriverLogColumns, edits_before_an_error_on_its_line_keep_its_column) {
     text::MappedText source;
     source.append("  float value = old + bad;\n", "a.glsl", 1);
     source.apply({{8, 13, "v"}, {16, 19, "fresh(a, b)"}});
@@ -215,7 +215,7 @@ TEST(DriverLogColumns, edits_before_an_error_on_its_line_do_not_move_it) {
     EXPECT_EQ(column(21, "b"), 17) << "written where what it replaces was";
 }
 
-TEST(DriverLogFolding, one_wrong_swizzle_is_one_error) {
+TEST(DriverLogFolding, consequences_of_a_wrong_swizzle_are_folded) {
     EXPECT_EQ(told("float d = 1.0 + length(uv.xw) + x;\n",
                    "0:1(24): error: invalid swizzle / mask `xw'\n"
                    "0:1(24): error: type mismatch\n"
@@ -232,7 +232,7 @@ TEST(DriverLogFolding, one_wrong_swizzle_is_one_error) {
               "a.glsl:1:33: note: … and 2 more that follow from it\n");
 }
 
-TEST(DriverLogFolding, what_returns_a_value_that_failed_follows) {
+TEST(DriverLogFolding, errors_of_a_failed_return_value_are_folded) {
     EXPECT_EQ(told("float f() { return g(); }\n",
                    "0:1(20): error: no function with name 'g'\n"
                    "0:1(13): error: could not implicitly convert return value to float, in function `f'\n"),
@@ -243,7 +243,7 @@ TEST(DriverLogFolding, what_returns_a_value_that_failed_follows) {
               "a.glsl:1:13: error: could not implicitly convert return value to float, in function `f'\n");
 }
 
-TEST(DriverLogFolding, a_name_is_unknown_once) {
+TEST(DriverLogFolding, an_unknown_name_is_reported_once) {
     EXPECT_EQ(told("x;\nx;\ny;\n", "0:1(1): error: `x' undeclared\n"
                                    "0:2(1): error: `x' undeclared\n"
                                    "0:3(1): error: `y' undeclared\n"),
@@ -271,7 +271,7 @@ TEST(DriverLogFolding, a_name_is_unknown_once) {
               "a.glsl:1: note: … and 1 more that follows from it\n");
 }
 
-TEST(DriverLogFolding, errors_that_stand_alone_stay) {
+TEST(DriverLogFolding, independent_errors_stay) {
     EXPECT_EQ(told("int a = 1.0; int b = 2.0;\nvec3 g() { bad; }\n",
                    "0:1(1): error: initializer of type float cannot be assigned to variable of type int\n"
                    "0:1(14): error: initializer of type float cannot be assigned to variable of type int\n"
@@ -294,18 +294,31 @@ TEST(DriverLogFolding, errors_come_before_warnings_and_keep_their_notes) {
               "a.glsl:1:1: note: here\n");
 }
 
-TEST(DriverLog, other_lines_are_passed_on) {
+TEST(DriverLog, other_lines_are_kept) {
     EXPECT_EQ(read("Something went wrong"), "error: Something went wrong\n");
     EXPECT_EQ(read("0:14: x"), "error: 0:14: x\n");
     EXPECT_EQ(read("0:99999999999(5): error: x"), "error: 0:99999999999(5): error: x\n");
     EXPECT_EQ(read("0:-14(5): error: x"), "error: 0:-14(5): error: x\n");
 }
 
-TEST(DriverLog, empty_lines_and_what_ends_a_line_are_dropped) {
+TEST(DriverLog, empty_lines_and_line_ends_are_dropped) {
     EXPECT_EQ(read(""), "");
     EXPECT_EQ(read("\n\r\n  \n"), "");
     EXPECT_EQ(read(std::string_view("0:14(5): error: x \r\n\0", 21)), "a.glsl:1:5: error: x\n");
     EXPECT_EQ(read("0:14(5): error: x"), "a.glsl:1:5: error: x\n");
+}
+
+TEST(DriverLog, names_are_the_authors) {
+    EXPECT_EQ(read("0:14(1): error: no matching function for call to `st_input(vec2)'; candidates are:\n"
+                   "0:14(1): error:    float st_input(float)\n"),
+              "a.glsl:1:1: error: no matching function for call to `input(vec2)'; candidates are:\n"
+              "a.glsl:1:1: note: float input(float)\n");
+    EXPECT_EQ(read("0:14(1): error: `tidemark_color' undeclared\n"),
+              "a.glsl:1: error: `gl_FragColor' undeclared\n");
+    EXPECT_EQ(read("0:14(1): error: no function with name 'tidemark_double_wave'\n"),
+              "a.glsl:1: error: no function with name 'wave'\n");
+    EXPECT_EQ(read("0:14(1): error: `st_tile' undeclared\n"), "a.glsl:1: error: `st_tile' undeclared\n")
+        << "an author's own name";
 }
 
 } // namespace tidemark::glsl::driver_log_test

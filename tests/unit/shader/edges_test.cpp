@@ -49,7 +49,7 @@ std::string of_sites(DomainKind kind, const std::string& body) {
     return fixed(body, cures);
 }
 
-TEST(Edges, AreOrderedWhereTheTextStatesThemInTheWrongOrder) {
+TEST(Edges, WronglyOrderedConstantsAreSwapped) {
     EXPECT_EQ(with_ordered_edges("float f = smoothstep(0.5, 0.4, u.x);"),
               "float f = (1.0 - smoothstep(0.4, 0.5, u.x));");
     EXPECT_EQ(with_ordered_edges("float f = clamp(u.x, 1.0, 0.0);"), "float f = min(max(u.x, 1.0), 0.0);");
@@ -61,7 +61,7 @@ TEST(Edges, AreOrderedWhereTheTextStatesThemInTheWrongOrder) {
               "float f = (0.5 != 0.5 ? smoothstep(0.5, 0.5, u.x) : step(0.5, u.x));");
 }
 
-TEST(Edges, AreLeftWhereTheyAreInOrderOrUnknown) {
+TEST(Edges, OrderedAndUnknownEdgesAreKept) {
     for (const char* const body :
          {"float f = smoothstep(0.4, 0.5, u.x);", "float f = clamp(u.x, 0.0, 1.0);",
           "float f = clamp(u.x, u.y, 0.0);", "float e = 0.9; e = 0.1; float f = smoothstep(e, 0.5, u.x);",
@@ -69,7 +69,7 @@ TEST(Edges, AreLeftWhereTheyAreInOrderOrUnknown) {
         EXPECT_EQ(with_ordered_edges(body), body);
 }
 
-TEST(Seams, AreTakenFromTheLookUp) {
+TEST(Seams, AreRemovedFromTheLookUp) {
     EXPECT_EQ(without_seams("vec4 c = texture(tex, fract(u.xy * 4.0));"),
               "vec4 c = textureGrad(tex, fract(u.xy * 4.0), dFdx((u.xy * 4.0)), dFdy((u.xy * 4.0)));");
     EXPECT_EQ(
@@ -86,7 +86,7 @@ TEST(Seams, AreTakenFromTheLookUp) {
               "dot(dFdy(vec2(atan(u.y, u.x), 0.5)), dFdy(vec2(atan(u.y, u.x), 0.5))))));");
 }
 
-TEST(Seams, AreNotSeenWhereCoordinatesAreSmoothOrUnknown) {
+TEST(Seams, AreNotFoundForSmoothOrUnknownCoordinates) {
     for (const char* const body :
          {"vec4 c = texture(tex, u.xy);", "vec4 c = texture(tex, sin(fract(u.xy)));",
           "vec4 c = textureLod(tex, fract(u.xy), 0.0);",
@@ -95,7 +95,7 @@ TEST(Seams, AreNotSeenWhereCoordinatesAreSmoothOrUnknown) {
         EXPECT_EQ(without_seams(body), body);
 }
 
-TEST(WholeQuotients, AreLeftByAHalfWhereTheDividendIsWhole) {
+TEST(WholeQuotients, AreShiftedByAHalfForIntegerDividends) {
     EXPECT_EQ(of_sites(DomainKind::whole, "float f = mod(floor(u.x), 7.0);"),
               "float f = (mod((floor(u.x) + 0.5), 7.0) - 0.5);");
     EXPECT_EQ(of_sites(DomainKind::whole, "float i = floor(u.x); float f = floor(i / 7.0);"),

@@ -5,7 +5,7 @@
 
 namespace tidemark::glsl::expression_type_test {
 
-/// Of what the function g returns; empty: nobody knows.
+/// Returns the type of the expression that the function g returns; empty if it is unknown.
 std::string type_of(const std::string& expression) {
     const auto read = parsed(
         "uniform sampler2D s;\nuniform mat3 turn;\nstruct Ray { vec3 o; };\nfloat twice = 2.0;\n"
@@ -24,7 +24,7 @@ std::string type_of(const std::string& expression) {
     return found;
 }
 
-TEST(ExpressionType, IsWhatDeclarationsAndFunctionsSay) {
+TEST(ExpressionType, FollowsDeclarationsAndFunctions) {
     EXPECT_EQ(type_of("1.0"), "float");
     EXPECT_EQ(type_of("p"), "vec3");
     EXPECT_EQ(type_of("-p.xz"), "vec2");
@@ -40,7 +40,7 @@ TEST(ExpressionType, IsWhatDeclarationsAndFunctionsSay) {
     EXPECT_EQ(type_of("twice"), "float"); // f has another one
 }
 
-TEST(ExpressionType, IsUnknownWhereTheyDoNot) {
+TEST(ExpressionType, IsUnknownWithoutADeclaration) {
     EXPECT_EQ(type_of("ray"), "");
     EXPECT_EQ(type_of("ray.o"), "");
     EXPECT_EQ(type_of("a"), "");

@@ -1,4 +1,4 @@
-// What the tests of GLSL text share: scenes that are nowhere but here.
+// Helpers of the tests of GLSL text: scenes that exist in memory only.
 #pragma once
 
 #include "shader/parsed_text.hpp"
@@ -11,7 +11,7 @@
 
 namespace tidemark::glsl {
 
-/// What the driver gets for it.
+/// Returns the text that the driver gets.
 inline ShaderSource source_of(std::string_view text) {
     const scene::Scene scene = scene_of(text);
     return assemble(scene, scene.image());

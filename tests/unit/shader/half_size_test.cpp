@@ -53,7 +53,7 @@ TEST(HalfSize, TheBufferIsDrawnIntoAQuarterOfItself) {
                                  "c = vec4(sin(p.x), cos(p.y), 0, 1); }\n"));
 }
 
-TEST(HalfSize, ReadersLookThere) {
+TEST(HalfSize, ReadersUseTheReducedCoordinates) {
     EXPECT_EQ(read_as("texture(iChannel0, uv + 0.1) + texture(iChannel1, uv)"),
               reading("texture(iChannel0, 0.5 * clamp(uv + 0.1, 0.0, 1.0)) + texture(iChannel1, uv)"));
     EXPECT_EQ(read_as("texture(iChannel0, uv)", true),
@@ -65,7 +65,7 @@ TEST(HalfSize, ReadersLookThere) {
         reading("textureLod(iChannel0, max(0.5 * (vec2(ivec2(p) + 1) + 0.5), 0.5) / iResolution.xy, 0.0)"));
 }
 
-TEST(HalfSize, AMacroIsLedThereOnce) {
+TEST(HalfSize, AMacroIsRewrittenOnce) {
     const std::string macro = "#define T(x) texture(iChannel0, x)\n", uses = reading("T(uv) + T(uv.yx)");
     EXPECT_EQ(halved(k_buffer, macro + uses).reader,
               "#define T(x) texture(iChannel0, 0.5 * clamp(x, 0.0, 1.0))\n" + uses);
@@ -76,7 +76,7 @@ TEST(HalfSize, AMacroIsLedThereOnce) {
         << "the other sampler would be led there, too";
 }
 
-TEST(HalfSize, NotWhereASizeIsFelt) {
+TEST(HalfSize, RefusedIfASizeIsRead) {
     for (const std::string read :
          {"vec4(textureSize(iChannel0, 0), 0, 0)", "texture(iChannel0, uv, 1.0)", "texture(iChannel1, uv)",
           "texelFetch(iChannel0, ivec2(p), int(p.x))", "textureGrad(iChannel0, uv, uv, uv)"})
@@ -89,12 +89,12 @@ TEST(HalfSize, NotWhereASizeIsFelt) {
               "none");
 }
 
-TEST(HalfSize, NotOfABufferThatReadsItself) {
+TEST(HalfSize, RefusedForABufferThatReadsItself) {
     const std::string reader = reading("texture(iChannel0, uv)");
     EXPECT_EQ(halved(reader, reader, false, {{"iChannel0"}}).buffer, "none");
 }
 
-TEST(HalfSize, NotOfWhatAsksForItsPixelElsewhere) {
+TEST(HalfSize, RefusedForOtherUsesOfThePixel) {
     const std::string reader = reading("texture(iChannel0, uv)");
     EXPECT_EQ(halved(pass("void mainImage(out vec4 c, in vec2 p) { c = gl_FragCoord; }\n"), reader).buffer,
               "none");

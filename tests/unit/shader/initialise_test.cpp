@@ -1,6 +1,6 @@
 // Zeros in a text: where it counts on them, and nowhere else.
 #include "glsl_support.hpp"
-#include "shader/initialise.hpp"
+#include "shader/portability.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ std::string in_main(const std::string& statements) {
     return result.substr(head.size(), result.size() - head.size() - 2);
 }
 
-TEST(Initialise, WhatHasAValueFirstStaysAsItIs) {
+TEST(Initialise, VariablesAssignedBeforeUseAreUnchanged) {
     for (const char* statements : {"float a; a = 1.; u + a;", "vec2 v; v.x = u; v.y = u; u * v;",
                                    "float a; if (u > 1.) a = 1.; else a = 2.; u + a;", "float unread;",
                                    "float a[900]; for (int i = 0; i < 900; i++) a[i] = u; a[7];"})
@@ -73,7 +73,7 @@ TEST(Initialise, StructuresAndArrays) {
               "struct Ray{float t;};void main(){Ray Ray;Ray.t=0.0; Ray.t;}\n");
 }
 
-TEST(Initialise, structures_whose_numbers_double_with_each_step_are_left_as_they_are) {
+TEST(Initialise, exponentially_large_structures_are_unchanged) {
     std::string text = "struct S0{float a;};";
     for (int i = 1; i <= 60; ++i)
         text += fmt::format("struct S{0}{{S{1} a;S{1} b;}};", i, i - 1);
@@ -81,7 +81,7 @@ TEST(Initialise, structures_whose_numbers_double_with_each_step_are_left_as_they
     EXPECT_EQ(zeroed(text), text);
 }
 
-TEST(Initialise, ParametersThatGoOut) {
+TEST(Initialise, OutParameters) {
     EXPECT_EQ(
         zeroed("void f(out vec4 o, vec2 p) { o += 1.; }\nvoid main() { vec4 c; f(c, vec2(1)); }\n"),
         "void f(out vec4 o, vec2 p) {o=vec4(0.0); o += 1.; }\nvoid main() { vec4 c; f(c, vec2(1)); }\n");
@@ -118,14 +118,14 @@ TEST(Initialise, FunctionsThatMayEndWithoutAReturn) {
     EXPECT_EQ(zeroed(none), none);
 }
 
-TEST(Initialise, WhatMacrosDeclare) {
+TEST(Initialise, DeclarationsInMacros) {
     EXPECT_EQ(zeroed("#define V vec2\nvoid main() { V a; a; }\n"),
               "#define V vec2\nvoid main() { V a=vec2(0.0); a; }\n");
     EXPECT_EQ(zeroed("#define m(O) mat2 r; O = r\nvoid main() { mat2 a; m(a); }\n"),
               "#define m(O) mat2 r=mat2(0.0); O = r\nvoid main() { mat2 a; m(a); }\n");
     EXPECT_EQ(zeroed("#define D(T, n) T n\nvoid main() { D(float, a), b; a + b; }\n"),
               "#define D(T, n) T n\nvoid main() { D(float, a=0.0), b=0.0; a + b; }\n");
-    // The name stands in two places of what the macro makes: behind it there is one place for the zero.
+    // The name occurs twice in the macro's expansion, but the text has only one place for the zero.
     EXPECT_EQ(zeroed("#define D(n) float n; n += 1.\nvoid main() { D(a); }\n"),
               "#define D(n) float n=0.0; n += 1.\nvoid main() { D(a); }\n");
     EXPECT_EQ(zeroed("#define J(n) float n##_x;\nvoid main() { J(a) J(b) a_x + b_x; }\n"),
@@ -140,13 +140,13 @@ TEST(Initialise, WhatMacrosDeclare) {
               "void main() { vec4 c; f(c, vec2(1)); }\n");
 }
 
-TEST(Initialise, WhatOneUseOfAMacroNeedsAndAnotherDoesNot) {
-    // Another length: the zeros of the short one go behind the macro.
+TEST(Initialise, MacrosWithDifferentNeedsPerUse) {
+    // Another length: the zeros of the short array go after the macro's call.
     EXPECT_EQ(zeroed("#define L(n, k) float n[k];\nvoid main() { L(a, 80) L(b, 2) a[1] + b[1]; }\n"),
               "#define L(n, k) float n[k];\nvoid main() { L(a, 80) "
               "for(int tidemark_0=0;tidemark_0<80;++tidemark_0){a[tidemark_0]=0.0;}L(b, 2) "
               "b=float[2](0.0, 0.0);a[1] + b[1]; }\n");
-    // A function that nobody calls, and one that is called.
+    // A function that is never called, and one that is called.
     EXPECT_EQ(
         zeroed("#define G(f) void f(out float x) { x += 1.; }\nG(a)\nG(b)\nvoid main() { float x; a(x); }\n"),
         "#define G(f) void f(out float x) {x=0.0; x += 1.; }\nG(a)\nG(b)\nvoid main() { float x; a(x); "
@@ -158,7 +158,7 @@ TEST(Initialise, WhatOneUseOfAMacroNeedsAndAnotherDoesNot) {
               "void main() { { B left + right; } { B left = right = 1.; left; } }\n");
 }
 
-TEST(Initialise, NoMacroMakesSomethingElseOfAZero) {
+TEST(Initialise, MacrosDoNotChangeTheZeros) {
     for (const char* text :
          {"#define vec2 vec3\n#undef vec2\nvoid main() { vec2 a; a; }\n", // whether it holds is not asked
           "#define F(vec2) float b; b\nvoid main() { F(1.); }\n"}) {
@@ -189,7 +189,7 @@ TEST(Initialise, LinesAndColumnsAreTheAuthors) {
     EXPECT_EQ(source.lines().locate(3, column("WRONG")).column, 20);
 }
 
-TEST(Initialise, ATextThatCannotBeFollowedGetsWhatTokensTell) {
+TEST(Initialise, UnparsedTextsAreInitialisedByTokens) {
     const std::string odd = "#ifdef GL_UNHEARD_OF\n#endif\n#if GL_UNHEARD_OF\nfloat x;\n#endif\n";
     EXPECT_EQ(
         zeroed(

@@ -31,13 +31,13 @@ TEST(InstructionCount, nouveau) {
     EXPECT_EQ(read("type: 4, local: 0, shared: 0, gpr: 12, inst: 77, loops: 1, bytes: 616"), "type: 4 = 77");
 }
 
-TEST(InstructionCount, amd_tells_none) {
+TEST(InstructionCount, amd_reports_no_count) {
     EXPECT_EQ(
         read("Shader Stats: SGPRS: 16 VGPRS: 8 Code Size: 212 LDS: 0 Scratch: 0 Max Waves: 10 (PS, W64)"),
         "nothing");
 }
 
-TEST(InstructionCount, what_is_no_count) {
+TEST(InstructionCount, other_lines_have_no_count) {
     for (const char* line :
          {"", ": 5 inst", "5 inst", "shader: inst", "shader: -5 inst, 0 loops", "shader: 5.5 inst",
           "shader: x5 inst", "shader: 5 instances", "shader: 5 instruction groups",

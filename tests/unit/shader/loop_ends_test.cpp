@@ -29,7 +29,7 @@ TEST(Iterations, add_up_over_nested_loops_and_calls) {
               10 * (1 + 2 * 5));
 }
 
-TEST(Iterations, are_unknown_without_a_number) {
+TEST(Iterations, are_unknown_without_a_count) {
     EXPECT_TRUE(std::isinf(most("uniform int n; void main() { for (int i = 0; i < n; i++) {} }")));
     EXPECT_TRUE(std::isinf(most("void main() { float t = 0.0; while (t < 1.0) t += 0.1 * t; }")));
 }
@@ -39,7 +39,7 @@ std::string recorded(const std::string& text) {
     return record_loop_ends(*read, find_facts(*read)).text;
 }
 
-TEST(LoopEnds, say_which_loops_a_count_ended) {
+TEST(LoopEnds, record_loops_ended_by_their_count) {
     const std::string text =
         recorded("void main() { for (int i = 0; i < 9; i++) { float d = 1.0; if (d < 0.1) break; } }");
     EXPECT_EQ(count(text, "counts(0,i < 9)"), 1) << text;

@@ -1,5 +1,5 @@
-// Where a march is recorded in a text, and where that is refused. What the text then draws and reports is
-// tested on the device, tests/gl/recorded_hits_gl_test.cpp.
+// The places of a text in which a march is recorded, and texts that are refused. The pictures and reports of
+// the changed text are tested on the device, in tests/gl/recorded_hits_gl_test.cpp.
 #include "glsl_support.hpp"
 #include "shader/march_record.hpp"
 
@@ -64,14 +64,14 @@ TEST(MarchRecord, finds_test_place_and_limit) {
     EXPECT_EQ(of.record->lines().locate(line_of(*of.record, "break;")).line, 4); // no line moves
 }
 
-TEST(MarchRecord, takes_the_comparison_that_is_meant) {
+TEST(MarchRecord, selects_the_comparison_of_the_distance) {
     const Found of = found(text_of(k_for, "if (t > 9.0 || 0.001 > d) break;", "t += d; }"), lines(2, 1));
     ASSERT_TRUE(of.march);
     EXPECT_EQ(of.text->excerpt(of.march->distance), "d");
     EXPECT_EQ(of.text->excerpt(of.march->threshold), "0.001");
 }
 
-TEST(MarchRecord, finds_a_limit_in_a_condition_of_its_own) {
+TEST(MarchRecord, finds_a_limit_in_a_separate_condition) {
     const Found of = found(text_of("int n = 0; while (true) { if (n++ > 50) break; d = length(p) - t;",
                                    "if (d < 0.001) break;", "t = min(t + 0.7 * d, 9.0); }"),
                            lines());
@@ -82,7 +82,7 @@ TEST(MarchRecord, finds_a_limit_in_a_condition_of_its_own) {
     EXPECT_TRUE(of.march->limits[0].stopping);
 }
 
-TEST(MarchRecord, refuses_what_is_not_certain) {
+TEST(MarchRecord, refuses_ambiguous_marches) {
     const std::string test = "if (d < 0.001 || t > 9.0) break;", step = "t += d; }";
     EXPECT_EQ(refusal(text_of(k_for, test, step), lines(1)),
               "a.glsl:4: it is not certain which comparison tests the distance");

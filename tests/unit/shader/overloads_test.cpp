@@ -24,7 +24,7 @@ bool overloads(const std::string& text) {
     return overloads_builtins(tokens, preprocess(tokens));
 }
 
-TEST(Overloads, definitions_and_calls_of_that_name_go_together) {
+TEST(Overloads, definitions_and_calls_are_renamed_together) {
     const auto [functions, text] =
         join("struct S { float cross; };\n"
              "#define C(a) cross(a, a)\n"
@@ -37,7 +37,7 @@ TEST(Overloads, definitions_and_calls_of_that_name_go_together) {
                     "float f(S s, float dot) { return s.cross + st_cross(vec3(1), vec3(dot)).x; }\n");
 }
 
-TEST(Overloads, a_signature_of_the_author_s_own_replaces_the_built_in_one) {
+TEST(Overloads, an_authors_signature_replaces_the_built_in_signature) {
     const std::string functions =
         join("vec3 mod(vec3 a, float b);\nvec3 mod(vec3 a, float b) { return a; }\n").functions;
     EXPECT_EQ(functions, "float st_mod(float a, float b) { return mod(a, b); }\n"
@@ -48,12 +48,12 @@ TEST(Overloads, a_signature_of_the_author_s_own_replaces_the_built_in_one) {
                          "vec4 st_mod(vec4 a, float b) { return mod(a, b); }\n");
 }
 
-TEST(Overloads, what_a_built_in_writes_is_written) {
+TEST(Overloads, out_arguments_of_built_ins_are_written) {
     EXPECT_THAT(join("float modf(float a) { return a; }").functions,
                 testing::StartsWith("float st_modf(float a, out float b) { return modf(a, b); }\n"));
 }
 
-TEST(Overloads, most_texts_have_none) {
+TEST(Overloads, ordinary_texts_have_no_overloads) {
     EXPECT_FALSE(overloads("float f(float mix) { return mix(1.0, 2.0, 0.5); }"));
     EXPECT_FALSE(overloads("#if 0\nfloat mix(vec2 a) { return a.x; }\n#endif\n"));
     EXPECT_TRUE(overloads("float mix(vec2 a) { return a.x; }"));

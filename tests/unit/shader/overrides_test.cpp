@@ -25,13 +25,13 @@ TEST(OverrideDefine, replaces_the_value) {
     EXPECT_EQ(with("A=2", "#define A /* old */ 1\n"), "#define A /* old */ 2\n");
 }
 
-TEST(OverrideDefine, gives_a_value_to_one_without) {
+TEST(OverrideDefine, adds_a_value_to_an_empty_define) {
     EXPECT_EQ(with("A=2", "#define A\nb"), "#define A 2\nb\n");
     EXPECT_EQ(with("A=2", "#define A // on\n"), "#define A 2 // on\n");
     EXPECT_EQ(with("A=2", "#define A"), "#define A 2\n");
 }
 
-TEST(OverrideDefine, an_empty_value_is_one) {
+TEST(OverrideDefine, an_empty_value_is_accepted) {
     EXPECT_EQ(with("A=", "#define A 1\n"), "#define A \n");
 }
 
@@ -45,7 +45,7 @@ TEST(OverrideDefine, values_over_lines_move_no_line) {
     EXPECT_EQ(with("A=2", "#define A 1 /* a\n b */ + 3\nc\n"), "#define A 2\n\nc\n");
 }
 
-TEST(OverrideDefine, common_is_looked_at_as_well) {
+TEST(OverrideDefine, common_is_searched) {
     scene::Scene scene = scene_of("float x = PI;\n");
     scene.common.append("#define PI 3.14\n", "common.glsl", 1);
     ASSERT_TRUE(override_definition(scene, "PI=3"));
@@ -94,7 +94,7 @@ TEST(OverrideConst, replaces_the_value) {
               "const mat2 m = mat2(0);\n");
 }
 
-TEST(OverrideConst, each_of_several_declarators) {
+TEST(OverrideConst, replaces_each_of_several_declarators) {
     const std::string text = "const float a = f(1, 2), b = 3., c = 4.;\n";
     EXPECT_EQ(with("a=9.", text), "const float a = 9., b = 3., c = 4.;\n");
     EXPECT_EQ(with("b=9.", text), "const float a = f(1, 2), b = 9., c = 4.;\n");
@@ -112,13 +112,13 @@ TEST(OverrideConst, a_value_over_lines_moves_no_line) {
     EXPECT_EQ(with("a=2", "const int a =\n 1 +\n 3;\nb\n"), "const int a =\n 2\n;\nb\n");
 }
 
-TEST(OverrideConst, what_is_no_constant_is_left_alone) {
+TEST(OverrideConst, non_constants_are_unchanged) {
     for (const char* text :
          {"int a = 1;\n", "void f(const int a) {\n int b = 1; }\n", "const int b[2] = int[2](1, 2);"})
         EXPECT_EQ(with("a=2", text), "the scene has no #define or const 'a': it defines none") << text;
 }
 
-TEST(OverrideConst, an_unfinished_one_ends_at_the_next) {
+TEST(OverrideConst, an_unfinished_declaration_ends_at_the_next_declaration) {
     EXPECT_EQ(with("b=2", "const int a = (1\nconst int b = 3;\n"), "const int a = (1\nconst int b = 2;\n");
     EXPECT_EQ(with("B=2", "const int a = 1\n#define B 3\n"), "const int a = 1\n#define B 2\n");
 }
@@ -130,7 +130,7 @@ TEST(OverrideDefinition, unknown_names_get_a_hint) {
     EXPECT_EQ(with("x=2", "void f() {}"), "the scene has no #define or const 'x': it defines none");
 }
 
-TEST(OverrideDefinition, settings_that_are_none) {
+TEST(OverrideDefinition, invalid_settings_are_refused) {
     EXPECT_EQ(with("A", "#define A 1"), "--define A: give it as NAME=VALUE");
     EXPECT_EQ(with("=1", "#define A 1"), "--define =1: give it as NAME=VALUE");
     EXPECT_EQ(with("A=1\n2", "#define A 1"), "--define A: the value must be one line");
@@ -148,7 +148,7 @@ TEST(OverrideDefinition, junk_takes_linear_time) {
     }
 }
 
-TEST(DefinitionOf, follows_names_and_skips_what_an_if_takes_out) {
+TEST(DefinitionOf, follows_names_and_skips_inactive_code) {
     const scene::Scene scene =
         scene_of("#define FAST 0\n#if FAST\n#define STEPS 8\n#else\n#define STEPS MANY\n#endif\n"
                  "#define MANY 64\nconst float EPS = 1e-4, B = 2.0;\n#define ROUND round\n"
@@ -161,7 +161,7 @@ TEST(DefinitionOf, follows_names_and_skips_what_an_if_takes_out) {
               (std::vector<std::string>{"FAST", "STEPS", "MANY", "EPS", "B", "ROUND", "round"}));
 }
 
-TEST(DefineByVariables, a_const_of_them_is_none_any_more) {
+TEST(DefineByVariables, a_replaced_const_becomes_a_variable) {
     scene::Scene scene = scene_of("const int A = 1, B = 2; // why\n#define C\nconst int D = 3;\n");
     const scene::Setting variables[] = {{"B", "b"}, {"C", "c"}, {"A", "a"}, {"E", "e"}};
     define_by_variables(scene, variables);

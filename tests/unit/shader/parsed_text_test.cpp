@@ -13,7 +13,7 @@ Result<std::unique_ptr<const ParsedText>> read(std::string_view text) {
     return ParsedText::read(std::move(source), {});
 }
 
-/// The words behind the preprocessor, with blanks between.
+/// Returns the words after the preprocessor, with blanks between.
 std::string expanded(std::string_view text) {
     text::MappedText source;
     source.append(text, "a.glsl", 1);
@@ -56,7 +56,7 @@ std::string error_of(std::string_view text) {
     return parsed ? "no error" : to_string(parsed.error());
 }
 
-TEST(Expand, macros_become_what_they_stand_for) {
+TEST(Expand, macros_are_expanded) {
     EXPECT_EQ(expanded("#define A 1.\n#define F(x,y) (x*y+A)\nF(2.,F(a,A))"),
               "( 2. * ( a * 1. + 1. ) + 1. )");
     EXPECT_EQ(expanded("#define F(x) x\nF (F(F)) (3)"), "F ( 3 )");
@@ -68,7 +68,7 @@ TEST(Expand, macros_become_what_they_stand_for) {
     EXPECT_EQ(expanded("\n__LINE__"), "2");
 }
 
-TEST(Expand, operators_are_words_where_the_author_wrote_them_together) {
+TEST(Expand, adjacent_operator_characters_form_one_operator) {
     EXPECT_EQ(expanded("a+++b<<=c^^d"), "a ++ + b <<= c ^^ d");
     EXPECT_EQ(expanded("#define M -1\na-M"), "a - - 1");
 }
@@ -79,7 +79,7 @@ TEST(Expand, only_code_that_is_compiled) {
               "a.glsl:3:1: error: cannot tell whether this line is compiled");
 }
 
-TEST(Expand, gives_up_instead_of_growing_without_bound) {
+TEST(Expand, refuses_unbounded_growth) {
     std::string text = "#define A0 x x\n";
     for (int i = 1; i < 60; ++i)
         text += fmt::format("#define A{0} A{1} A{1}\n", i, i - 1);
@@ -87,7 +87,7 @@ TEST(Expand, gives_up_instead_of_growing_without_bound) {
     EXPECT_NE(expanded("#define F(x) x\nF(").find("called without an end"), std::string::npos);
 }
 
-TEST(Expand, a_word_knows_where_it_is_written_and_where_it_is_used) {
+TEST(Expand, a_token_has_the_places_of_definition_and_use) {
     const auto parsed = read("#define D(x) (x/0.)\nfloat f(float a){\n  return D(a);}\n");
     ASSERT_TRUE(parsed);
     const auto& words = (*parsed)->words();
@@ -102,7 +102,7 @@ TEST(Expand, a_word_knows_where_it_is_written_and_where_it_is_used) {
     }
 }
 
-TEST(Parse, operators_hold_as_tightly_as_GLSL_says) {
+TEST(Parse, operator_precedence_follows_glsl) {
     EXPECT_EQ(expression("a+b*c-d"), "(- (+ a (* b c)) d)");
     EXPECT_EQ(expression("a=b+=c?d:e?f:g,h"), "(, (= a (+= b (? c d (? e f g)))) h)");
     EXPECT_EQ(expression("a||b&&c^^d==e<f<<g"), "(|| a (^^ (&& b c) (== d (< e (<< f g)))))");
@@ -111,7 +111,7 @@ TEST(Parse, operators_hold_as_tightly_as_GLSL_says) {
               "(+ (+ ([ (( ([ float -) 1. 2.) 0) (x (( f))) (( (length v)))");
 }
 
-TEST(Parse, declarations_are_told_from_expressions) {
+TEST(Parse, declarations_and_expressions_are_distinguished) {
     EXPECT_EQ(error_of("float a,b[2]=float[2](1.,2.);const int N=3;struct S{vec3 o,d;float w[N];}s;"
                        "uniform struct{float t;}u[4];layout(location=0)out vec4 c;precision highp float;;"),
               "no error");
@@ -122,14 +122,14 @@ TEST(Parse, declarations_are_told_from_expressions) {
         "no error");
 }
 
-TEST(Parse, an_error_says_where) {
+TEST(Parse, an_error_has_its_place) {
     EXPECT_EQ(error_of("void f(){\n  a = * 2;\n}"), "a.glsl:2:7: error: expected an expression at '*'");
     EXPECT_EQ(error_of("void f(){ if (a) "),
               "a.glsl:1:16: error: expected an expression at the end of the text");
     EXPECT_EQ(error_of("int 3;"), "a.glsl:1:5: error: expected ';' at '3'");
 }
 
-TEST(Parse, what_nests_too_deeply_is_refused) {
+TEST(Parse, too_deep_nesting_is_refused) {
     for (const std::string_view open : {"(", "-", "f(", "a[", "a?b:", "a=", "{", "if(a)", "if(a);else "}) {
         std::string text = "void f(){";
         for (int i = 0; i < 100'000; ++i)
@@ -142,7 +142,7 @@ TEST(Parse, what_nests_too_deeply_is_refused) {
     EXPECT_NE(error_of(sum + ";").find("too deeply"), std::string::npos);
 }
 
-/// What a text becomes, our functions in front left out.
+/// Returns the instrumented text, without the generated functions before it.
 std::string watched(std::string_view text, WatchRequest request = {}) {
     const auto parsed = read(text);
     EXPECT_TRUE(parsed);
@@ -159,13 +159,13 @@ std::string watched(std::string_view text, WatchRequest request = {}) {
     return all;
 }
 
-TEST(Watch, operations_that_can_give_birth_go_through_us) {
+TEST(Watch, operations_that_can_create_nan_are_wrapped) {
     EXPECT_EQ(watched("void f(){x=a/b;y=-a;z=sin(a);w=vec2(a,b);}"),
               "voidf(){x=tmw0_P(a/b,);y=-a;z=tmw0_P(sin(a),);w=vec2(a,b);}");
     EXPECT_EQ(watched("void f(){x*=a;v[i++]/=a;}"), "voidf(){(x*=a,tmw0_P(x,));v[i++]/=a;}");
 }
 
-TEST(Watch, what_must_stay_as_it_is_stays) {
+TEST(Watch, constant_expressions_and_lvalues_are_unchanged) {
     EXPECT_EQ(watched("const float a=1./2.;uniform float u;"), "constfloata=1./2.;uniformfloatu;");
     EXPECT_EQ(watched("void g(out float x);void f(int n){int i=n*2;g(a[n+1]);float q[2*3];}"),
               "voidg(outfloatx);voidf(intn){inti=n*2;g(a[n+1]);floatq[2*3];}");

@@ -14,7 +14,7 @@ std::string lint(const std::string& image, const std::string& common = {}) {
     return words;
 }
 
-TEST(Portability, sound_texts_are_left_in_peace) {
+TEST(Portability, portable_texts_give_no_warning) {
     for (const char* text :
          {"void mainImage(out vec4 o, in vec2 p) { o = vec4(p / iResolution.xy, 0.5 + 0.5 * sin(iTime), "
           "1.0f); }\n",
@@ -33,7 +33,7 @@ TEST(Portability, sound_texts_are_left_in_peace) {
         EXPECT_EQ(lint(text), "") << text;
 }
 
-TEST(Portability, characters_that_are_none_of_glsls) {
+TEST(Portability, characters_outside_glsl) {
     EXPECT_EQ(lint("float f = 1.0; // é is at home here\nvec4 g = vec4(\u201c1\u201d);\n"),
               "a.glsl:2:15: warning: '\u201c' (U+201C) is not a character of GLSL: names have letters a to z "
               "and A to Z, digits and _\n"
@@ -41,7 +41,7 @@ TEST(Portability, characters_that_are_none_of_glsls) {
               "and A to Z, digits and _\n");
 }
 
-TEST(Portability, what_stands_outside_of_functions) {
+TEST(Portability, statements_outside_functions) {
     const std::string image = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }";
     EXPECT_EQ(lint(image + ";\n"),
               "a.glsl:1:57: warning: ; alone: GLSL ES 3.00 does not allow it outside functions; remove it\n");
@@ -60,7 +60,7 @@ TEST(Portability, what_stands_outside_of_functions) {
               "");
 }
 
-TEST(Portability, main_image_is_as_the_site_announces_it) {
+TEST(Portability, main_image_must_match_the_sites_prototype) {
     const auto said = [](const std::string& head) { return lint(head + " { c = vec4(1.0); }\n"); };
     for (const char* good :
          {"void mainImage(out vec4 c, in vec2 p)", "void mainImage(out vec4 c, vec2 p)",
@@ -110,14 +110,14 @@ TEST(Portability, words_that_the_site_reserves) {
               "a.glsl:1:1: warning: static: a reserved word in GLSL ES 3.00; choose another name\n");
 }
 
-TEST(Portability, numbers_that_would_have_to_be_converted) {
+TEST(Portability, implicit_conversions) {
     EXPECT_EQ(lint("float x = 1;\n"),
               "a.glsl:1:11: warning: float x = 1: GLSL ES does not convert int implicitly; write 1.0\n");
     EXPECT_EQ(lint("vec2 v = -2, w;\n"),
               "a.glsl:1:11: warning: vec2 v = -2: GLSL ES does not convert int implicitly; write -vec2(2)\n");
 }
 
-TEST(Portability, what_desktop_has_and_the_site_has_not) {
+TEST(Portability, desktop_features_missing_on_the_site) {
     EXPECT_EQ(lint("void f() { double d = 1.5lf; }\n"),
               "a.glsl:1:12: warning: double: GLSL ES has no double precision; write float\n"
               "a.glsl:1:23: warning: 1.5lf: GLSL ES has no double precision; write 1.5\n");
@@ -139,7 +139,7 @@ TEST(Portability, what_desktop_has_and_the_site_has_not) {
               "name\n");
 }
 
-TEST(Portability, lines_that_the_site_writes_itself) {
+TEST(Portability, lines_that_the_site_adds) {
     EXPECT_EQ(lint("#version 330\n"),
               "a.glsl:1:1: warning: #version: the site adds that line itself; remove it\n");
     EXPECT_EQ(lint("\n#extension GL_ARB_gpu_shader5 : enable\n"),

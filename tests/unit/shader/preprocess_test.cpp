@@ -32,7 +32,7 @@ TEST(Preprocess, conditions_over_numbers) {
         EXPECT_EQ(under(condition), Activity::inactive) << condition;
 }
 
-TEST(Preprocess, what_the_site_defines) {
+TEST(Preprocess, macros_of_the_site) {
     for (const char* condition :
          {"#ifdef GL_ES", "#if HW_PERFORMANCE", "#if HW_PERFORMANCE == 1 && defined GL_ES",
           "#if __VERSION__ == 300", "#ifdef GL_FRAGMENT_PRECISION_HIGH"})
@@ -49,7 +49,7 @@ TEST(Preprocess, macros_of_the_text) {
     EXPECT_EQ(under("#if 0\n#define A\n#endif\n#ifdef A"), Activity::inactive);
 }
 
-TEST(Preprocess, says_what_it_does_not_know) {
+TEST(Preprocess, unknown_conditions_are_unknown) {
     for (const char* condition :
          {"#ifdef GL_ARB_gpu_shader5", "#define F(x) x\n#if F(1)", "#if 1.5", "#if", "#if (1",
           "#define A A\n#if A", "#if 1 1", "#ifdef GL_ARB_gpu_shader5\n#define A\n#endif\n#ifdef A"})
@@ -58,7 +58,7 @@ TEST(Preprocess, says_what_it_does_not_know) {
     EXPECT_EQ(under("#if defined(GL_ARB_gpu_shader5) || 1"), Activity::active);
 }
 
-TEST(Preprocess, one_branch_of_a_group) {
+TEST(Preprocess, only_one_branch_of_a_group_is_active) {
     const auto group = [](const char* a, const char* b) {
         return std::string("#if ") + a + "\n1\n#elif " + b + "\nhere\n#else\n3\n#endif\n";
     };
@@ -71,7 +71,7 @@ TEST(Preprocess, one_branch_of_a_group) {
     EXPECT_EQ(at_here("#if 0\n#endif\nhere"), Activity::active);
 }
 
-TEST(Preprocess, survives_what_no_text_should_say) {
+TEST(Preprocess, survives_malformed_directives) {
     EXPECT_EQ(at_here("#endif\n#else\n#elif 1\nhere"), Activity::active);
     EXPECT_EQ(at_here("#if " + std::string(100'000, '(') + "\nhere"), Activity::unknown);
     EXPECT_EQ(at_here("#if " + std::string(100'000, '!') + "1\nhere"), Activity::unknown);

@@ -1,5 +1,5 @@
-// What cases of text in and text out (tests/cases/glsl/promote_*) do not show: which functions come along,
-// and that no text takes more than linear time.
+// Covers what the cases (tests/cases/glsl/promote_*) do not show: which functions are added, and that no text
+// takes more than linear time.
 #include "glsl_support.hpp"
 #include "shader/double_functions.hpp"
 #include "shader/promote.hpp"
@@ -19,11 +19,11 @@ Promoted promoted(const std::string& text, bool hashes_too = false) {
     return result ? *std::move(result) : Promoted{};
 }
 
-TEST(Promote, a_text_that_calls_nothing_brings_nothing_along) {
+TEST(Promote, a_text_without_calls_adds_no_functions) {
     EXPECT_EQ(promoted("float f(float x) { return mod(sqrt(x), 2.0); }").functions, "");
 }
 
-TEST(Promote, what_is_called_comes_with_all_that_it_needs) {
+TEST(Promote, called_functions_are_added_with_their_dependencies) {
     const std::string functions = promoted("float f(float x) { return tanh(x); }").functions;
     for (const char* needed :
          {"tidemark_scale(", "tidemark_exp_kernel(", "tidemark_exp_scaled(", "tidemark_small_sinh(",
@@ -33,11 +33,11 @@ TEST(Promote, what_is_called_comes_with_all_that_it_needs) {
     EXPECT_EQ(count(functions, "double tidemark_scale("), 1);
 }
 
-TEST(Promote, a_dead_call_brings_nothing_along) {
+TEST(Promote, a_dead_call_adds_no_functions) {
     EXPECT_EQ(promoted("#if 0\nfloat a = sin(1.0);\n#endif\n").functions, "");
 }
 
-TEST(Promote, the_authors_overload_takes_the_place_of_ours) {
+TEST(Promote, the_authors_overload_replaces_ours) {
     const std::string functions =
         promoted("float sinh(float x) { return x; }\nvec2 pow(vec2 a, vec2 b) { return a; }\n"
                  "vec4 texture(sampler2D s, vec2 p) { return vec4(0); }\n"
@@ -50,8 +50,8 @@ TEST(Promote, the_authors_overload_takes_the_place_of_ours) {
     EXPECT_THAT(functions, Not(HasSubstr("tidemark_texture(sampler2D a0,dvec2 a1) ")));
 }
 
-/// Each stands behind those that it needs, and its need exists.
-TEST(Promote, the_table_of_functions_is_in_order) {
+/// Each function follows those that it needs, and these exist.
+TEST(Promote, the_table_of_functions_lists_dependencies_first) {
     std::set<std::string_view> known;
     for (const DoubleFunction& function : all_double_functions()) {
         for (const std::string_view need : function.needs)
@@ -78,7 +78,7 @@ TEST(Promote, the_large_number_of_a_hash_may_have_a_name) {
     EXPECT_TRUE(promoted("#define M 2.\nfloat f(float x) { return fract(sin(x) * M); }\n").hashes.empty());
 }
 
-TEST(Promote, what_is_no_hash_is_not_kept) {
+TEST(Promote, non_hashes_are_promoted) {
     for (const char* text :
          {"float f(float x) { return fract(sin(x) * 2.0); }\n",
           "float f(float x) { return fract(x * 1000.0); }\n",

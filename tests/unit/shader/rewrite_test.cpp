@@ -17,7 +17,7 @@ std::string rewritten(const std::string& text, const Dialect& dialect = {},
     return mapped.text();
 }
 
-TEST(Rewrite, a_sound_text_stays_as_it_is) {
+TEST(Rewrite, a_valid_text_is_unchanged) {
     for (const char* text :
          {"void mainImage(out vec4 o, in vec2 p) { o = vec4(p, 0, 1); }\n",
           "void mainImage(out vec4 o, in vec2 p) { vec2 q = p; if (q.x > 1.) { q = -q; } o = vec4(q, 0, 1); "
@@ -28,7 +28,7 @@ TEST(Rewrite, a_sound_text_stays_as_it_is) {
         EXPECT_EQ(rewritten(text), text);
 }
 
-TEST(Rewrite, directives_that_are_ours_to_write) {
+TEST(Rewrite, version_and_extension_directives_are_blanked) {
     EXPECT_EQ(rewritten("#version 300 es\n#line 3\n#extension GL_OES_x : enable\n#pragma p\n"),
               "\n\n\n#pragma p\n");
     const std::string text =
@@ -39,7 +39,7 @@ TEST(Rewrite, directives_that_are_ours_to_write) {
     EXPECT_GT(source.find("#extension GL_ARB_y"), source.find("uniform"));
 }
 
-TEST(Rewrite, names_that_the_driver_would_not_take) {
+TEST(Rewrite, names_reserved_by_the_driver_are_renamed) {
     EXPECT_EQ(rewritten("float packed = sample;\n"), "float st_packed = st_sample;\n");
     EXPECT_EQ(rewritten("precise float a = 1.;\n"), "precise float a = 1.;\n");
     EXPECT_EQ(rewritten("layout(row_major) uniform;\n"), "layout(row_major) uniform;\n");
@@ -48,12 +48,12 @@ TEST(Rewrite, names_that_the_driver_would_not_take) {
     EXPECT_EQ(rewritten("#if __VERSION__ > 100\n"), "#if tidemark_VERSION > 100\n");
 }
 
-TEST(Rewrite, stray_bytes_are_blank) {
+TEST(Rewrite, stray_bytes_are_blanked) {
     EXPECT_EQ(rewritten("float a\xc2\xa0= 1.; // \xc3\xa9\n"), "float a  = 1.; // \xc3\xa9\n");
     EXPECT_EQ(rewritten(std::string("/* \0 */ float a = 1.;\0\n", 23)), "/*   */ float a = 1.; \n");
 }
 
-TEST(Rewrite, signs_of_macros_stay_apart) {
+TEST(Rewrite, signs_of_macros_are_separated) {
     EXPECT_EQ(rewritten("#define N(x) -x\nfloat a = b-N(c)-d;\n"),
               "#define N(x) - x\nfloat a = b- N(c)-d;\n");
     EXPECT_EQ(rewritten("#define D(x, y) x-y\nfloat a = D(1., -1.);\n"),
@@ -63,7 +63,7 @@ TEST(Rewrite, signs_of_macros_stay_apart) {
     EXPECT_EQ(rewritten("#define C(x, y,) x\n"), "#define C(x, y ) x\n");
 }
 
-TEST(Rewrite, uniforms_that_come_too_late_give_way_to_ours) {
+TEST(Rewrite, late_uniform_declarations_are_replaced_by_ours) {
     EXPECT_EQ(rewritten("float t() { return iTime; }\nuniform float iTime;\n"),
               "float t() { return iTime; }\n\n");
     EXPECT_EQ(rewritten("uniform float iTime;\nfloat t() { return iTime; }\n"),
@@ -73,7 +73,7 @@ TEST(Rewrite, uniforms_that_come_too_late_give_way_to_ours) {
     EXPECT_EQ(rewritten("#ifdef GL_X\nuniform\nvec4 iMouse;\n#endif\n"), "#ifdef GL_X\n\n\n#endif\n");
 }
 
-TEST(Rewrite, no_line_moves) {
+TEST(Rewrite, line_numbers_are_unchanged) {
     const std::string text =
         "#version 300 es\nfloat packed,\n  b;\n#define N(x) -x\nvoid mainImage(out vec4 o,\n vec2 p)"
         "\n{ o += b-N(p.x); }\n#extension \\\n GL_X : enable\nfloat last;\n";

@@ -19,14 +19,14 @@ std::string rewritten(const std::string& text) {
     return with(text, rewrites(*read, find_facts(*read)));
 }
 
-/// Of an expression of floats x, y and vectors v, w, which nobody knows anything of.
+/// Returns the cured expression; it uses floats x, y and vectors v, w of unknown values.
 std::string expression(const std::string& words) {
     const std::string front = "float own(float x);\nfloat f(float x, float y, vec3 v, vec3 w) { return ";
     const std::string text = rewritten(front + words + "; }\n");
     return text.substr(front.size(), text.size() - front.size() - 4);
 }
 
-TEST(Rewrites, SmallDifferencesOfLargeNumbers) {
+TEST(Rewrites, CancellingDifferencesAreRewritten) {
     EXPECT_EQ(expression("1.0 - cos(x)"), "(2.0 * sin(0.5 * x) * sin(0.5 * x))");
     EXPECT_EQ(expression("(1.0 - cos(x + y)) / x"), "(2.0 * sin(0.5 * (x + y)) * sin(0.5 * (x + y))) / x");
     EXPECT_EQ(expression("x * x - y * y"), "((x - y) * (x + y))");
@@ -39,7 +39,7 @@ TEST(Rewrites, SmallDifferencesOfLargeNumbers) {
     EXPECT_EQ(expression("acos(dot(v, w))"), "(2.0 * atan(length(v - w), length(v + w)))");
 }
 
-TEST(Rewrites, OthersStay) {
+TEST(Rewrites, OtherExpressionsAreUnchanged) {
     for (const char* words :
          {"1.0 - sin(x)", "2.0 - cos(x)", "x * y - y * x", "x * x + y * y", "dot(v, v) - x * x",
           "dot(v, w) - dot(w, w)", "1.0 - dot(v, v)", "1.0 - 1.0", "sqrt(x) - length(v)", "1.0 - cos(own(x))",
@@ -47,12 +47,12 @@ TEST(Rewrites, OthersStay) {
         EXPECT_EQ(expression(words), words);
 }
 
-TEST(Rewrites, TheirOwnFunctionIsNotTheBuiltIn) {
+TEST(Rewrites, AuthorFunctionsAreNotBuiltIns) {
     const std::string text = "float cos(float x) { return x; }\nfloat f(float x) { return 1.0 - cos(x); }\n";
     EXPECT_EQ(rewritten(text), text);
 }
 
-TEST(Rewrites, WholeNumbersAreExactAnyway) {
+TEST(Rewrites, IntegersAreUnchanged) {
     const std::string text = "int f(int x, int y) { return x * x - y * y; }\n";
     EXPECT_EQ(rewritten(text), text);
 }
@@ -63,12 +63,12 @@ const std::string k_sphere =
 TEST(Rewrites, ASpheresDiscriminant) {
     EXPECT_EQ(rewritten(k_sphere + "return b * b - c; }\n"),
               k_sphere + "return ((r * r) - dot(o - b * d, o - b * d)); }\n");
-    // What was set since is another number.
+    // A variable that was changed in between is another number.
     EXPECT_EQ(rewritten(k_sphere + "c += 1.0; return b * b - c; }\n"),
               k_sphere + "c += 1.0; return b * b - c; }\n");
 }
 
-/// The one value of the first `name` behind "return".
+/// Returns the one value of the first `name` after "return".
 std::string value_of(const std::string& text) {
     const auto read = parsed(text);
     const SyntaxTree& tree = read->tree();
@@ -80,14 +80,14 @@ std::string value_of(const std::string& text) {
     return "no name";
 }
 
-TEST(SingleValues, IsWhatTheVariableIsDeclaredWith) {
+TEST(SingleValues, IsTheInitialiser) {
     EXPECT_EQ(value_of("float f() { float a = 1.0; return a; }"), "1.0");
     EXPECT_EQ(value_of("float a = 2.0; float f() { return a; }"), "2.0");
     EXPECT_EQ(value_of("float g() { float a = 3.0; return 1.0; } float f() { float a = 4.0; return a; }"),
               "4.0");
 }
 
-TEST(SingleValues, IsNoneOfWhatMayChange) {
+TEST(SingleValues, IsMissingForVariablesThatChange) {
     EXPECT_EQ(value_of("float f(float a) { return a; }"), "");
     EXPECT_EQ(value_of("float f() { float a; a = 1.0; return a; }"), "");
     EXPECT_EQ(value_of("float f() { float a = 1.0; a *= 2.0; return a; }"), "");
@@ -112,7 +112,7 @@ std::string phases(const std::string& body) {
     return at == text.npos ? text : text.substr(at + 19, text.size() - at - 22);
 }
 
-TEST(ReducedTime, IsAFractionOfATurn) {
+TEST(ReducedTime, IsAFractionOfAPeriod) {
     EXPECT_EQ(phases("return fract(x + 7.0 * iTime);"),
               "return fract(x + 1.0 * turns_of_time(vec3(7, 0, 0)));");
     EXPECT_EQ(phases("return fract((iTime - x) * 0.5);"),
@@ -127,7 +127,7 @@ TEST(ReducedTime, IsAFractionOfATurn) {
               "-1.0300027497578412e-09)));");
 }
 
-TEST(ReducedTime, StaysWhereTimeIsNoPhase) {
+TEST(ReducedTime, IsUnchangedWhereTimeIsNotAPhase) {
     for (const std::string body :
          {"return x + iTime;", "return sin(x * iTime);", "return fract(x);",
           "float t = iTime; t += 1.0; return sin(t);", "return mod(iTime, x);", "return sin(sqrt(iTime));",
@@ -144,7 +144,7 @@ TEST(ReducedTime, TwoWholeNumbersAreDividedAsInts) {
               "return fract(x + 1.0 * turns_of_time(vec3(1.5, 0, 0)));");
 }
 
-TEST(ReducedTime, ItsFunctionStandsOnceAndDeclaresWhatItNeeds) {
+TEST(ReducedTime, FunctionIsAddedOnceWithItsDeclarations) {
     const std::string text = reduced(k_front + "float f() { return sin(iTime) + cos(2.0 * iTime); }\n");
     EXPECT_EQ(count(text, "uniform float iTimeLow;"), 1);
     EXPECT_EQ(count(text, "float turns_of_time(vec3 rate)"), 1);
@@ -155,7 +155,7 @@ TEST(ReducedTime, ItsFunctionStandsOnceAndDeclaresWhatItNeeds) {
     EXPECT_EQ(count(reduced(taken), "turns_of_time2("), 2);
 }
 
-TEST(ReducedTime, AMacroMayStandElsewhere) {
+TEST(ReducedTime, MacrosAreUnchanged) {
     const std::string text = k_front + "#define T iTime\nfloat f() { return sin(T) + T; }\n";
     EXPECT_EQ(reduced(text), text);
 }
@@ -173,7 +173,7 @@ std::vector<Counted> miscounted(const std::string& loop) {
     return found;
 }
 
-TEST(FloatCounter, TurnsMoreOrLessOftenThanItsNumbersSay) {
+TEST(FloatCounter, WrongIterationCountsAreFound) {
     const auto more = miscounted("for (float x = 0.0; x < 1.0; x += 0.01) s += x;");
     ASSERT_EQ(more.size(), 1U);
     EXPECT_EQ(more[0].turns, 101);
@@ -191,7 +191,7 @@ TEST(FloatCounter, TurnsMoreOrLessOftenThanItsNumbersSay) {
     EXPECT_EQ(endless[0].exact, 10);
 }
 
-TEST(FloatCounter, OthersCountRight) {
+TEST(FloatCounter, CorrectIterationCountsPass) {
     for (const char* loop :
          {"for (float x = 0.0; x < 1.0; x += 0.1) s += x;", // ten, as it says
           "for (float x = 0.0; x < 64.0; x += 1.0) s += x;",
@@ -211,7 +211,7 @@ std::string counted_whole(const std::string& text) {
     return with(text, cures);
 }
 
-TEST(FloatCounter, HasItsFloatFromAWholeNumber) {
+TEST(FloatCounter, BecomesAnIntegerCounter) {
     EXPECT_EQ(
         counted_whole("float f(float s) { for (float x = -0.5; x < 0.5; x += 0.01) s += x; return s; }\n"),
         "float f(float s) { for (int x_turn = 0; x_turn < 100; ++x_turn) { float x = -0.5 + 0.01 * "
@@ -224,7 +224,7 @@ TEST(FloatCounter, HasItsFloatFromAWholeNumber) {
 
 using Proposal = std::optional<Cure> (*)(const ParsedText&, const TreeFacts&, const Divergent&);
 
-/// Of the first derivative, with `gl_FragCoord` what parts neighbours.
+/// Returns the text with the proposal for its first derivative; `gl_FragCoord` separates neighbouring pixels.
 std::string divergent_cured(const std::string& body, Proposal propose) {
     const std::string front =
         "uniform sampler2D iChannel0;\nout vec4 c;\nvoid main() { vec2 p = gl_FragCoord.xy; ";
@@ -243,7 +243,7 @@ std::string hoisted(const std::string& body) {
     return divergent_cured(body, hoisted_derivative);
 }
 
-TEST(HoistedDerivative, StandsBeforeTheBranch) {
+TEST(HoistedDerivative, IsMovedBeforeTheBranch) {
     EXPECT_EQ(hoisted("if (p.x > 9.0) c = texture(iChannel0, p * 0.1);"),
               "vec4 taken_before = texture(iChannel0, p * 0.1); if (p.x > 9.0) c = taken_before;");
     EXPECT_EQ(hoisted("float w = 1.0; if (p.x > 9.0) { if (p.y > 1.0) w = fwidth(p.x * 2.0); }"),
@@ -253,7 +253,7 @@ TEST(HoistedDerivative, StandsBeforeTheBranch) {
               "vec2 taken_before = dFdx(p); if (p.x > 9.0) return; c.xy = taken_before;");
 }
 
-TEST(HoistedDerivative, StaysWhereItsArgumentsAreMadeInBetween) {
+TEST(HoistedDerivative, IsKeptIfItsArgumentsChangeInBetween) {
     for (const std::string body : {"if (p.x > 9.0) { vec2 q = p; c = texture(iChannel0, q); }",
                                    "if (p.x > 9.0) { p *= 2.0; c = texture(iChannel0, p); }",
                                    "if (p.x > 9.0) return; p += 1.0; c = texture(iChannel0, p);",
@@ -261,7 +261,7 @@ TEST(HoistedDerivative, StaysWhereItsArgumentsAreMadeInBetween) {
         EXPECT_EQ(hoisted(body), body);
 }
 
-TEST(BaseLevel, TakesThePlaceOfTheNeighbours) {
+TEST(BaseLevel, ReplacesTheImplicitLevel) {
     EXPECT_EQ(divergent_cured("if (p.x > 9.0) { vec2 q = p; c = texture(iChannel0, q * 0.1); }", base_level),
               "if (p.x > 9.0) { vec2 q = p; c = textureLod(iChannel0, q * 0.1, 0.0); }");
     EXPECT_EQ(divergent_cured("if (p.x > 9.0) c = texture( iChannel0, p, -100.0 ).yxyx;", base_level),

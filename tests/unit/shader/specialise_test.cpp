@@ -1,4 +1,4 @@
-// What specialising leaves of a text, class by class, and what it must not touch.
+// The text after specialising, level by level, and the parts that must stay.
 #include "glsl_support.hpp"
 #include "scene/knob.hpp"
 #include "shader/specialise.hpp"
@@ -57,7 +57,7 @@ int hoisted(std::string_view text, std::string_view version = "330 core") {
     return specialised(text, Specialise::invariant_uniforms, version).left_out.loop_invariants;
 }
 
-TEST(Specialise, removes_functions_that_main_cannot_reach_and_what_only_they_need) {
+TEST(Specialise, removes_unreachable_functions_and_their_dependencies) {
     EXPECT_EQ(
         reached("struct P { float x; }; const float k = 2.0; float g; P make() { g = k; return P(g); }\n"
                 "float used() { return 1.0; }\n"
@@ -73,7 +73,7 @@ TEST(Specialise, keeps_every_overload_and_prototype_of_a_name_that_is_reached) {
     EXPECT_EQ(reached("float f(float x); void main() {} float f(float x) { return x; }"), "void main() {}");
 }
 
-TEST(Specialise, keeps_what_only_looks_unreachable) {
+TEST(Specialise, keeps_code_that_only_seems_unreachable) {
     for (const std::string_view text :
          {"const float a = 1.0; const float b = a; void main() { float c = b; }", // through an initialiser
           "float n; float next() { return n++; } float start = next(); void main() {}", // changes n
@@ -91,7 +91,7 @@ TEST(Specialise, keeps_what_only_looks_unreachable) {
         EXPECT_NE(reached(text).find(kept), std::string::npos) << text;
 }
 
-TEST(Specialise, removes_arrays_structs_and_globals_nobody_names) {
+TEST(Specialise, removes_unnamed_arrays_structs_and_globals) {
     EXPECT_EQ(
         reached(
             "const vec2 k_all[2] = vec2[2](vec2(0.0), vec2(1.0)); struct A { float x; }; struct B { A a; };\n"
@@ -112,7 +112,7 @@ TEST(Specialise, takes_no_part_of_a_macro) {
     EXPECT_EQ(hoisted("#define ID(x) x\nvoid main() { for (int i = 0; i < 9; ++i) { ID(sin(iTime)); } }"), 0);
 }
 
-TEST(Specialise, leaves_directives_and_lines_where_they_are) {
+TEST(Specialise, keeps_directives_and_lines) {
     constexpr std::string_view k_text =
         "float unused()\n{\n#define A 1\n    return 1.0;\n#if A\n#endif\n}\nvoid main()\n{\n  broken;\n}\n";
     const Specialised result = specialised(k_text, Specialise::unreachable);
@@ -122,7 +122,7 @@ TEST(Specialise, leaves_directives_and_lines_where_they_are) {
     EXPECT_EQ(result.source.lines().locate(line, 3), (SourceLocation{"a.glsl", 10, 3}));
 }
 
-TEST(Specialise, leaves_a_text_alone_that_it_cannot_follow) {
+TEST(Specialise, keeps_texts_that_cannot_be_parsed) {
     for (const std::string_view text : {"void main() { float x = ; }", "float f( { void main() {}",
                                         "#ifdef GL_ARB_gpu_shader5\nfloat f;\n#endif\nvoid main() {}"}) {
         const Specialised result = specialised(text, Specialise::invariant_uniforms);
@@ -136,7 +136,7 @@ TEST(Specialise, leaves_a_text_alone_that_it_cannot_follow) {
     EXPECT_FALSE(specialised("float f; void main() {}", Specialise::nothing).left_out.anything());
 }
 
-TEST(Specialise, works_out_once_what_a_loop_would_work_out_in_every_turn) {
+TEST(Specialise, hoists_loop_invariant_expressions) {
     EXPECT_EQ(
         settled("void main() { for (int i = 0; i < 9; ++i) { float x = sin(iTime * 2.0) * float(i); } }"),
         "float tidemark_hoisted0 = sin(iTime * 2.0); "
@@ -151,7 +151,7 @@ TEST(Specialise, works_out_once_what_a_loop_would_work_out_in_every_turn) {
               "void main() { int i = 0; while (i++ < 9) map(vec2(i)); }");
 }
 
-TEST(Specialise, keeps_two_signs_and_the_type_of_a_whole_number) {
+TEST(Specialise, keeps_double_signs_and_integer_types) {
     EXPECT_EQ(
         settled("void main() { for (int i = 0; i < 9; ++i) { float a = 2; float x = sin(- -iTime / a); } }"),
         "float tidemark_hoisted0 = sin(- -iTime / float(2)); "
@@ -193,7 +193,7 @@ TEST(Specialise, hoists_nothing_that_may_change_within_a_frame) {
     EXPECT_EQ(hoisted("void main() { for (int i = 0; i < 9; ++i) { cos(iTime); } }", "300 es"), 0);
 }
 
-TEST(Specialise, writes_knobs_as_constants_when_asked_to) {
+TEST(Specialise, writes_knobs_as_constants_on_request) {
     const std::string text =
         specialised("void main() { float x = foam; }", Specialise::constants).source.text();
     EXPECT_NE(text.find("const float foam = float(0.500000000);"), std::string::npos) << text;
@@ -231,12 +231,12 @@ TEST(GlobalValues, are_assigned_at_the_start_of_main_with_their_lines) {
               "\n#line 2\na = 2.0 ;\n#line 3\nb = a ;\n#line 4\n\na += b ; } ");
 }
 
-TEST(GlobalValues, of_macros_are_found) {
+TEST(GlobalValues, in_macros_are_found) {
     EXPECT_EQ(with_globals_in_main("#define SET(x) float x = 3.0;\nSET(a)\nvoid main() {}"),
               "#version 450\n\nfloat a ; \nvoid main ( ) { \n#line 3\na = 3.0 ;\n#line 4\n} ");
 }
 
-TEST(GlobalValues, of_arrays_without_a_size_give_them_one) {
+TEST(GlobalValues, of_unsized_arrays_set_the_size) {
     EXPECT_EQ(with_globals_in_main("float a[] = float[](1.0, 2.0);\nvoid main() {}"),
               "#version 450\nfloat a [ (float [ ] ( 1.0 , 2.0 ) ).length()] ; \nvoid main ( ) { "
               "\n#line 2\na = float [ ] ( 1.0 , 2.0 ) ;\n#line 3\n} ");
@@ -245,7 +245,7 @@ TEST(GlobalValues, of_arrays_without_a_size_give_them_one) {
               "\n#line 2\n{ float tidemark_value [ ] = { 1.0 , 2.0 } ; a = tidemark_value; }\n#line 3\n} ");
 }
 
-TEST(GlobalValues, of_constants_and_what_the_host_gives_stay) {
+TEST(GlobalValues, constants_and_uniforms_stay) {
     const std::string text = "const float a = 2.0;\nuniform float u = 1.0;\nfloat b;\nvoid main() {}\n";
     EXPECT_EQ(assign_globals_in_main(*parsed("#version 450\n" + text)), "#version 450\n" + text);
 }

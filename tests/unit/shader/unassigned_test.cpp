@@ -48,7 +48,7 @@ TEST(Unassigned, TheFirstIterationOfALoopIsFound) {
     EXPECT_EQ(in_main("float a;\nfor (int i = 0; i < 3; ++i) { u + a; a = 1.0; }"), "a?:4");
 }
 
-TEST(Unassigned, OneWayWithoutAValueIsFound) {
+TEST(Unassigned, APathWithoutAValueIsFound) {
     EXPECT_EQ(in_main("float a; if (u > 0.0) a = 1.0;\nu + a;"), "a?:4");
     EXPECT_EQ(in_main("float a; if (u > 0.0 && (a = 1.0) > u) u;\nu + a;"), "a?:4");
     EXPECT_EQ(in_main("float a; for (int i = 0; i < int(u); ++i) a = 1.0;\nu + a;"), "a?:4");
@@ -61,7 +61,7 @@ TEST(Unassigned, OneWayWithoutAValueIsFound) {
     EXPECT_EQ(in_main("float a;\nfor (int i = 0; i < 3; ++i) { if (i > 0) u + a; a = 1.0; }"), "a?:4");
 }
 
-TEST(Unassigned, PartsHaveValuesOfTheirOwn) {
+TEST(Unassigned, ComponentsAreTrackedSeparately) {
     const std::string types = "struct I { float d; vec2 k[2]; };\nstruct S { I i; float e; };\n";
     EXPECT_EQ(found(types + "S f() { S s; s.i.d = 1.0;\nreturn s; }\nvoid main() { f(); }\n"), "s?:4");
     EXPECT_EQ(found(types + "void main() { S s; s.i.d = 1.0; s.e = s.i.d;\ns.i.k[1].y; }\n"), "s?:4");
@@ -74,7 +74,7 @@ TEST(Unassigned, PartsHaveValuesOfTheirOwn) {
     EXPECT_EQ(in_main("vec3 v; v.xz = vec2(1.0); v.g = 1.0; u + v;"), "");
 }
 
-TEST(Unassigned, WhatHasAValueOnEveryWayIsLeftAlone) {
+TEST(Unassigned, ValuesOnEveryPathPass) {
     for (const char* statements :
          {"float a; a = 1.0; u + a;", "float a; if (u > 0.0) a = 1.0; else a = 2.0; u + a;",
           "float a; if (u > 0.0) a = 1.0; else return; u + a;",
@@ -92,7 +92,7 @@ TEST(Unassigned, WhatHasAValueOnEveryWayIsLeftAlone) {
         EXPECT_EQ(in_main(statements), "") << statements;
 }
 
-TEST(Unassigned, LoopsThatSkipElementsFillNoArray) {
+TEST(Unassigned, LoopsThatSkipElementsDoNotFillAnArray) {
     EXPECT_EQ(in_main("float a[40]; for (int i = 0; i < 39; ++i) a[i] = u;\nu + a[7];"), "a?:4");
     EXPECT_EQ(in_main("float a[40]; for (int i = 1; i < 40; ++i) a[i] = u;\nu + a[7];"), "a?:4");
     EXPECT_EQ(in_main("float a[40]; for (int i = 0; i < 40; i += 2) a[i] = u;\nu + a[7];"), "a?:4");
@@ -112,7 +112,7 @@ TEST(Unassigned, ArgumentsThatAFunctionWritesAreWrites) {
               "a:3");
 }
 
-TEST(Unassigned, ParametersThatGoOut) {
+TEST(Unassigned, OutParameters) {
     EXPECT_EQ(found("void f(out vec4 c) { c += 1.0; }\nvoid main() { vec4 v; f(v); }\n"), "c?:1");
     EXPECT_EQ(found("void f(out vec4 c) { }\nvoid main() { vec4 v; f(v); }\n"), "c:-");
     EXPECT_EQ(found("void f(inout vec4 c) { c += 1.0; }\nvoid main() { vec4 v = vec4(0); f(v); }\n"), "");
@@ -128,7 +128,7 @@ TEST(Unassigned, ParametersThatGoOut) {
     EXPECT_EQ(found("void f(inout float x) { x += 1.0; }\nvoid main() { float v;\nf(v); }\n"), "v?:3");
 }
 
-TEST(Unassigned, OverloadsThatDisagreeAreNotHeldAgainstIt) {
+TEST(Unassigned, AmbiguousOverloadsPass) {
     EXPECT_EQ(found("void f(out float x) { x = 1.0; }\nvoid f(vec2 x) { }\n"
                     "void main() { float v; f(v); v + 1.0; }\n"),
               "");
@@ -160,7 +160,7 @@ TEST(Unassigned, GlobalsThroughCalls) {
     EXPECT_EQ(found("uniform float g;\nin vec2 h;\nvoid main() { g + h.x; }\n"), "");
 }
 
-TEST(Unassigned, WhatMainNeverComesToIsLeftAlone) {
+TEST(Unassigned, UnreachableCodePasses) {
     EXPECT_EQ(found("float dead() { float a; return a; }\nvoid main() { }\n"), "");
 }
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace tidemark::serve::access_test {
+namespace tidemark::web::access_test {
 
 constexpr std::string_view k_token = "0123456789abcdef";
 constexpr std::string_view k_socket = "/socket?token=0123456789abcdef";
@@ -12,7 +12,7 @@ Answer to(Knock knock) {
     return answer_to(knock, k_token);
 }
 
-TEST(Access, lets_in_who_has_the_token) {
+TEST(Access, accepts_requests_with_the_token) {
     EXPECT_EQ(to({.target = "/?token=0123456789abcdef", .host = "127.0.0.1:8080"}), Answer::page);
     EXPECT_EQ(to({.target = "/?a=b&token=0123456789abcdef", .host = "localhost:8080"}), Answer::page);
     EXPECT_EQ(to({.target = k_socket, .host = "[::1]:8080", .origin = "http://[::1]:8080", .upgrade = true}),
@@ -22,19 +22,61 @@ TEST(Access, lets_in_who_has_the_token) {
 
 TEST(Access, refuses_requests_without_a_token) {
     for (const std::string_view target :
-         {"/", "/?token=", "/?token=0123456789abcdeX", "/?token=0123456789abcdef0",
-          "/?tokens=0123456789abcdef", "/socket", "", "?", "/elsewhere", "/?xtoken=0123456789abcdef"})
+         {"/?token=", "/?token=0123456789abcdeX", "/?token=0123456789abcdef0", "/socket",
+          "/socket?tokens=0123456789abcdef", "", "?", "/elsewhere", "/socket?xtoken=0123456789abcdef"})
         EXPECT_EQ(to({.target = target, .host = "localhost:8080"}), Answer::forbidden) << target;
+    EXPECT_EQ(to({.target = "/socket", .host = "localhost:8080", .upgrade = true}), Answer::forbidden);
 }
 
-TEST(Access, has_two_places) {
+TEST(Access, sends_the_page_without_a_token) {
+    EXPECT_EQ(to({.target = "/", .host = "localhost:8080"}), Answer::page);
+    EXPECT_EQ(to({.target = "/?id=3", .host = "localhost:8080"}), Answer::page);
+    EXPECT_EQ(to({.target = "/", .host = "evil.example"}), Answer::forbidden);
+    EXPECT_EQ(to({.target = "/", .host = "localhost:8080", .upgrade = true}), Answer::forbidden);
+}
+
+TEST(Access, accepts_named_forwarded_addresses) {
+    const std::vector<std::string> origins{"https://name-8080.example.dev"};
+    Knock knock{.target = k_socket,
+                .host = "name-8080.example.dev",
+                .origin = "https://name-8080.example.dev",
+                .upgrade = true};
+    EXPECT_EQ(answer_to(knock, k_token), Answer::forbidden);
+    EXPECT_EQ(answer_to(knock, k_token, origins), Answer::socket);
+    knock.host = "localhost:8080"; // a relay that writes the host anew
+    EXPECT_EQ(answer_to(knock, k_token, origins), Answer::socket);
+    knock.origin = "https://evil.example";
+    EXPECT_EQ(answer_to(knock, k_token, origins), Answer::forbidden);
+    knock = {.target = "/socket?token=0123456789abcdeX", .host = "name-8080.example.dev", .upgrade = true};
+    EXPECT_EQ(answer_to(knock, k_token, origins), Answer::forbidden);
+}
+
+TEST(Access, parses_origins_and_ancestors) {
+    for (const std::string_view good :
+         {"http://localhost:8000", "https://name.example.dev", "http://[::1]:80"})
+        EXPECT_TRUE(check_origin(good)) << good;
+    for (const std::string_view bad :
+         {"", "localhost", "https:", "https://", "https://*.a.dev", "https://a.dev/", "https://a.dev:0",
+          "https://a.dev:x", "https://a..dev", "HTTPS://a.dev", "ftp://a.dev", "http://[::1", "http://[]"})
+        EXPECT_FALSE(check_origin(bad)) << bad;
+    for (const std::string_view good :
+         {"vscode-webview:", "https://*.vscode-cdn.net", "http://localhost:8000", "vscode-webview://0a1b2c",
+          "https://editor.example"})
+        EXPECT_TRUE(check_ancestor(good)) << good;
+    for (const std::string_view bad :
+         {"", "*", ":", "'self'", "https:", "http:", "data:", "https://*", "https://a; script-src *",
+          "https://a b", "vscode-webview:x", "https://a/*", "1x:", "https://*.*.a"})
+        EXPECT_FALSE(check_ancestor(bad)) << bad;
+}
+
+TEST(Access, has_a_page_and_a_socket) {
     EXPECT_EQ(to({.target = "/x?token=0123456789abcdef", .host = "localhost"}), Answer::not_found);
     EXPECT_EQ(to({.target = k_socket, .host = "localhost"}), Answer::not_found) << "no upgrade";
     EXPECT_EQ(to({.target = "/?token=0123456789abcdef", .host = "localhost", .upgrade = true}),
               Answer::not_found);
 }
 
-TEST(Access, refuses_pages_of_others) {
+TEST(Access, refuses_foreign_origins) {
     for (const std::string_view origin :
          {"http://evil.example", "http://localhost:80", "null", "localhost:8080", "file://localhost:8080",
           "http://localhost:8080.evil.example"})
@@ -49,7 +91,7 @@ TEST(Access, refuses_pages_of_others) {
 }
 
 /// The page of a name that was turned to the loopback has itself for an origin.
-TEST(Access, refuses_names_that_were_turned_to_the_loopback) {
+TEST(Access, refuses_foreign_host_names) {
     Knock knock{.target = k_socket, .host = "evil.example", .origin = "http://evil.example", .upgrade = true};
     EXPECT_EQ(to(knock), Answer::forbidden);
     knock.through_loopback = false;
@@ -76,4 +118,4 @@ TEST(Access, requires_tokens_that_cannot_be_guessed) {
         "the token has 6 characters: give 16 to 128 letters, digits, - or _, as in `openssl rand -hex 16`");
 }
 
-} // namespace tidemark::serve::access_test
+} // namespace tidemark::web::access_test

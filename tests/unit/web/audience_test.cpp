@@ -7,7 +7,7 @@
 
 #include <latch>
 
-namespace tidemark::serve::audience_test {
+namespace tidemark::web::audience_test {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
@@ -37,12 +37,12 @@ struct AudienceTest : testing::Test {
                 found.push_back(message);
         return found;
     }
-    std::vector<platform::InputEvent> events() { return inbox.wait(0).events; }
+    std::vector<host::InputEvent> events() { return inbox.wait(0).events; }
 };
 
 constexpr std::string_view k_press = R"({"do":"press","button":"left","x":1,"y":2})";
 
-TEST_F(AudienceTest, a_slow_one_misses_pictures_and_does_not_delay_others) {
+TEST_F(AudienceTest, a_slow_viewer_skips_pictures_and_delays_no_other) {
     audience.came(1);
     audience.came(2);
     for (uint32_t number = 1; number <= 5; ++number) {
@@ -57,7 +57,7 @@ TEST_F(AudienceTest, a_slow_one_misses_pictures_and_does_not_delay_others) {
     EXPECT_THAT(pictures(1), testing::SizeIs(3)) << "there is no newer one";
 }
 
-TEST_F(AudienceTest, a_picture_that_was_not_sent_is_not_seen) {
+TEST_F(AudienceTest, an_acknowledgement_of_an_unsent_picture_is_ignored) {
     audience.came(1);
     for (uint32_t number = 1; number <= 5; ++number) {
         show(number);
@@ -68,7 +68,7 @@ TEST_F(AudienceTest, a_picture_that_was_not_sent_is_not_seen) {
     EXPECT_THAT(pictures(1).back(), "picture 5");
 }
 
-TEST_F(AudienceTest, viewers_that_fight_for_control_do_not_flood_others) {
+TEST_F(AudienceTest, rapid_changes_of_control_do_not_flood_viewers) {
     for (ViewerId viewer = 1; viewer <= 3; ++viewer)
         audience.came(viewer);
     sent.clear();
@@ -78,7 +78,7 @@ TEST_F(AudienceTest, viewers_that_fight_for_control_do_not_flood_others) {
         << "what a connection holds";
 }
 
-TEST_F(AudienceTest, waits_while_somebody_is_ready) {
+TEST_F(AudienceTest, waits_while_a_viewer_is_ready) {
     EXPECT_FALSE(audience.is_waiting());
     audience.came(1);
     EXPECT_TRUE(audience.is_waiting());
@@ -90,7 +90,7 @@ TEST_F(AudienceTest, waits_while_somebody_is_ready) {
     EXPECT_TRUE(audience.is_waiting());
 }
 
-TEST_F(AudienceTest, newcomers_learn_what_there_is) {
+TEST_F(AudienceTest, new_viewers_receive_the_current_state) {
     audience.tell("title", std::make_shared<Message>(Message{"old"}));
     audience.tell("title", std::make_shared<Message>(Message{"new"}));
     show(1);
@@ -98,17 +98,17 @@ TEST_F(AudienceTest, newcomers_learn_what_there_is) {
     EXPECT_THAT(sent[1], ElementsAre("new", "picture 1", R"({"steering":{"you":true,"viewers":1}})"));
 }
 
-TEST_F(AudienceTest, the_first_steers_and_the_others_watch) {
+TEST_F(AudienceTest, the_first_viewer_has_control) {
     audience.came(1);
     audience.came(2);
     EXPECT_EQ(sent[2].back(), R"({"steering":{"you":false,"viewers":2}})");
     ASSERT_TRUE(audience.said(2, k_press));
     EXPECT_THAT(events(), IsEmpty());
     ASSERT_TRUE(audience.said(1, k_press));
-    EXPECT_THAT(events(), ElementsAre(platform::ButtonPressed{platform::Button::left, {1, 2}}));
+    EXPECT_THAT(events(), ElementsAre(host::ButtonPressed{host::Button::left, {1, 2}}));
 }
 
-TEST_F(AudienceTest, what_one_held_is_let_go_when_the_next_steers) {
+TEST_F(AudienceTest, loss_of_control_releases_held_input) {
     audience.came(1);
     audience.came(2);
     ASSERT_TRUE(audience.said(1, k_press));
@@ -116,8 +116,8 @@ TEST_F(AudienceTest, what_one_held_is_let_go_when_the_next_steers) {
     ASSERT_TRUE(audience.said(1, R"({"do":"move","x":5,"y":6})"));
     events();
     audience.left(1);
-    EXPECT_THAT(events(), ElementsAre(platform::ButtonReleased{platform::Button::left, {5, 6}},
-                                      platform::KeyReleased{platform::Key::a}));
+    EXPECT_THAT(events(), ElementsAre(host::ButtonReleased{host::Button::left, {5, 6}},
+                                      host::KeyReleased{host::Key::a}));
     EXPECT_EQ(sent[2].back(), R"({"steering":{"you":true,"viewers":1}})");
     ASSERT_TRUE(audience.said(2, k_press));
     EXPECT_THAT(events(), testing::SizeIs(1));
@@ -133,7 +133,7 @@ TEST_F(AudienceTest, any_viewer_may_take_control) {
     EXPECT_EQ(sent[1].back(), R"({"steering":{"you":false,"viewers":2}})");
 }
 
-TEST_F(AudienceTest, has_so_many_seats) {
+TEST_F(AudienceTest, limits_the_number_of_viewers) {
     for (ViewerId viewer = 1; viewer <= Audience::k_most_viewers; ++viewer)
         EXPECT_TRUE(audience.came(viewer));
     EXPECT_FALSE(audience.came(100));
@@ -141,14 +141,14 @@ TEST_F(AudienceTest, has_so_many_seats) {
     EXPECT_TRUE(audience.came(101));
 }
 
-TEST_F(AudienceTest, ends_with_its_last_viewer_if_told) {
+TEST_F(AudienceTest, ends_with_its_last_viewer_if_configured) {
     Audience once = made(true);
     once.came(1);
     once.came(2);
     once.left(1);
     EXPECT_THAT(events(), IsEmpty());
     once.left(2);
-    EXPECT_THAT(events(), ElementsAre(platform::CloseRequested{}));
+    EXPECT_THAT(events(), ElementsAre(host::CloseRequested{}));
 }
 
 TEST_F(AudienceTest, a_flood_is_refused) {
@@ -161,14 +161,14 @@ TEST_F(AudienceTest, a_flood_is_refused) {
     EXPECT_EQ(taken.error().message, "too many messages at a time");
 }
 
-TEST_F(AudienceTest, a_pointer_that_moves_on_is_where_it_came_to) {
+TEST_F(AudienceTest, successive_pointer_moves_are_merged) {
     audience.came(1);
     for (int x = 0; x < 10000; ++x)
         ASSERT_TRUE(audience.said(1, fmt::format(R"({{"do":"move","x":{},"y":0}})", x)));
-    EXPECT_THAT(events(), ElementsAre(platform::PointerMoved{{9999, 0}}));
+    EXPECT_THAT(events(), ElementsAre(host::PointerMoved{{9999, 0}}));
 }
 
-TEST(PictureEncoder, takes_the_newest) {
+TEST(PictureEncoder, encodes_the_newest_picture) {
     std::latch begun(1), go_on(1), done(2);
     std::vector<uint32_t> numbers;
     PictureEncoder encoder({.encode =
@@ -196,7 +196,7 @@ TEST(PictureEncoder, takes_the_newest) {
     EXPECT_THAT(numbers, ElementsAre(1, 3));
 }
 
-TEST(StateText, a_picture_has_a_head) {
+TEST(StateText, a_picture_has_a_header) {
     const auto message = picture_message(
         {.number = 3, .seconds = 2.5, .frame = 150, .costs = {1.234, {}}, .draw_ms = 4, .encode_ms = 0.5},
         "file");
@@ -206,20 +206,33 @@ TEST(StateText, a_picture_has_a_head) {
     EXPECT_TRUE(message->binary);
 }
 
-TEST(StateText, has_what_the_page_shows) {
-    live::Model model;
+TEST(StateText, contains_the_models_fields) {
+    overlay::Model model;
     scene::Knob knob{.name = "height", .initial = {0.5}, .range = scene::KnobRange{{0}, {1}}};
     model.knobs.push_back({knob, {0.25}});
     model.definitions.push_back({.name = "STEPS", .value = 12, .whole = true});
     model.pictures.push_back({"Image", 0, {}});
     model.errors.push_back({{{"a.glsl", 3, 5}, Severity::error, "no"}, "int x = y;"});
+    model.lenses = {.choices = {{"cost", "operations"}}, .chosen = 0};
+    model.lens = {.title = "work",
+                  .basis = "counted",
+                  .bar = {{{0, 32, 77}, {255, 234, 70}}},
+                  .low = "0",
+                  .high = "9",
+                  .mark = 0.5,
+                  .pointer = "4",
+                  .entries = {{.words = "min 1"}}};
     EXPECT_EQ(
-        state_text(model, {64, 36}, true),
-        R"({"state":{"size":[64,36],"keyboard":true,"knobs":[{"name":"height","colour":false,"whole":false,)"
-        R"("value":[0.25],"low":[0.0],"high":[1.0],"turned":true}],"definitions":[{"name":"STEPS","value":"12",)"
+        state_text(model, {64, 36}, {.keyboard = true, .every_move = true, .camera = true}),
+        R"({"state":{"size":[64,36],"keyboard":true,"everyMove":true,"camera":true,"knobs":[{"name":"height",)"
+        R"("colour":false,"whole":false,"value":[0.25],"low":[0.0],"high":[1.0],"turned":true}],"definitions":[{"name":"STEPS","value":"12",)"
         R"("whole":true,"held":false}],"pictures":["Image"],"large":null,"time":{"paused":false,"speed":1.0,)"
-        R"("turnsBack":false,"hasSpeed":true,"from":null,"to":null},"errors":[{"text":"a.glsl:3:5: error: no",)"
+        R"("turnsBack":false,"hasSpeed":true,"from":null,"to":null},"lenses":{"choices":[{"name":"cost",)"
+        R"("says":"operations","refusal":"","takesLine":false,"needsLine":false,"second":""}],)"
+        R"("chosen":0,"place":"","variable":""},"lens":{"title":"work",)"
+        R"("basis":"counted","bar":["#00204d","#ffea46"],"low":"0","high":"9","mark":0.5,"pointer":"4",)"
+        R"("entries":[{"box":null,"words":"min 1"}],"refusal":"","progress":""},"errors":[{"text":"a.glsl:3:5: error: no",)"
         R"("line":"int x = y;","mark":"    ^"}]}})");
 }
 
-} // namespace tidemark::serve::audience_test
+} // namespace tidemark::web::audience_test

@@ -4,11 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace tidemark::serve::request_test {
+namespace tidemark::web::request_test {
 
-using platform::InputEvent;
+using host::InputEvent;
 
-/// What the message is read as; nothing where it is refused, or another thing.
+/// Returns the message as a T; nothing if it is refused or of another type.
 template <class T>
 std::optional<T> read(std::string_view message) {
     const auto request = parse_request(message);
@@ -19,7 +19,7 @@ std::optional<T> read(std::string_view message) {
         const T* wanted = event ? std::get_if<T>(event) : nullptr;
         return wanted ? std::optional(*wanted) : std::nullopt;
     } else {
-        const auto* command = std::get_if<live::Command>(&*request);
+        const auto* command = std::get_if<overlay::Command>(&*request);
         const T* wanted = command ? std::get_if<T>(command) : nullptr;
         return wanted ? std::optional(*wanted) : std::nullopt;
     }
@@ -30,8 +30,8 @@ std::string refusal(std::string_view message) {
     return request ? "taken" : request.error().message;
 }
 
-TEST(Request, is_an_event_of_a_window) {
-    using namespace platform;
+TEST(Request, becomes_a_window_event) {
+    using namespace host;
     EXPECT_EQ(read<ButtonPressed>(R"({"do":"press","button":"right","x":1.5,"y":-2})"),
               (ButtonPressed{Button::right, {1.5, -2}}));
     EXPECT_EQ(read<ButtonReleased>(R"({"do":"release","button":"left","x":1,"y":2})"),
@@ -42,31 +42,36 @@ TEST(Request, is_an_event_of_a_window) {
     EXPECT_EQ(read<KeyReleased>(R"({"do":"keyup","code":37})"), (KeyReleased{Key::left}));
 }
 
-TEST(Request, is_a_command_of_the_overlay) {
-    const auto turn = read<live::TurnKnob>(R"({"do":"turn","name":"height","value":[1,2]})");
+TEST(Request, becomes_an_overlay_command) {
+    const auto turn = read<overlay::TurnKnob>(R"({"do":"turn","name":"height","value":[1,2]})");
     ASSERT_TRUE(turn);
     EXPECT_EQ(turn->name, "height");
     EXPECT_EQ(turn->value, (scene::KnobValue{1, 2}));
-    EXPECT_EQ(read<live::Define>(R"({"do":"define","name":"STEPS","value":"12"})")->value, "12");
+    EXPECT_EQ(read<overlay::Define>(R"({"do":"define","name":"STEPS","value":"12"})")->value, "12");
     for (const char* verb : {"define", "undefine", "turn", "reset"})
         for (const char* name : {R"(A\n#error)", "A=1;", "", "9", R"(A\u0000)"})
             EXPECT_EQ(refusal(fmt::format(R"({{"do":"{}","name":"{}","value":"1"}})", verb, name)),
                       R"("name": give a name of letters, digits and _)")
                 << verb << " " << name;
-    EXPECT_EQ(read<live::ShowPicture>(R"({"do":"show","picture":2})")->index, 2u);
-    EXPECT_FALSE(read<live::ShowPicture>(R"({"do":"show","picture":null})")->index);
-    EXPECT_EQ(read<live::Seek>(R"({"do":"seek","seconds":2.5})")->seconds, 2.5);
-    EXPECT_EQ(read<live::SetLoop>(R"({"do":"loop","from":1,"to":null})")->from, 1);
-    EXPECT_TRUE(read<live::TogglePause>(R"({"do":"pause"})"));
+    EXPECT_EQ(read<overlay::ShowPicture>(R"({"do":"show","picture":2})")->index, 2u);
+    EXPECT_FALSE(read<overlay::ShowPicture>(R"({"do":"show","picture":null})")->index);
+    EXPECT_EQ(read<overlay::Seek>(R"({"do":"seek","seconds":2.5})")->seconds, 2.5);
+    EXPECT_EQ(read<overlay::SetLoop>(R"({"do":"loop","from":1,"to":null})")->from, 1);
+    EXPECT_TRUE(read<overlay::TogglePause>(R"({"do":"pause"})"));
+    EXPECT_EQ(read<overlay::SetLens>(R"({"do":"lens","lens":"value:sea.glsl:12:p.x@max"})")->lens,
+              "value:sea.glsl:12:p.x@max");
+    EXPECT_EQ(read<overlay::SetLens>(R"({"do":"lens","lens":""})")->lens, "");
+    EXPECT_EQ(refusal(R"({"do":"lens","lens":"value:3:a b"})"),
+              R"("lens": give a lens such as cost or value:12:p, or an empty text)");
 }
 
-TEST(Request, does_nothing_outside_of_the_picture) {
+TEST(Request, refuses_requests_that_touch_files) {
     for (const std::string_view message : {R"({"do":"open editor","file":"/etc/passwd","line":1})",
                                            R"({"do":"write knobs"})", R"({"do":"save"})"})
         EXPECT_EQ(refusal(message), "\"do\": give a known request") << message;
 }
 
-TEST(Request, is_no_text_of_a_shader) {
+TEST(Request, accepts_only_decimal_numbers_as_definitions) {
     for (const std::string_view value :
          {"1); discard; (", "1\\n#include </etc/passwd>", "", "0x10", "nan", "1.0f"})
         EXPECT_EQ(refusal(fmt::format(R"({{"do":"define","name":"A","value":"{}"}})", value)),
@@ -74,7 +79,7 @@ TEST(Request, is_no_text_of_a_shader) {
             << value;
 }
 
-TEST(Request, that_is_damaged_is_refused) {
+TEST(Request, malformed_messages_are_refused) {
     for (const std::string_view message : {"",
                                            "{",
                                            "[]",
@@ -107,4 +112,4 @@ TEST(Request, that_is_damaged_is_refused) {
     EXPECT_NE(refusal(R"({"do":")" + std::string(1000, 'a') + R"("})"), "taken");
 }
 
-} // namespace tidemark::serve::request_test
+} // namespace tidemark::web::request_test

@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-namespace tidemark::cli::adaptive_scale_test {
+namespace tidemark::window::adaptive_scale_test {
 
 /// Milliseconds of a frame in a scale, `frame` frames after the start.
 using Cost = std::function<double(RenderScale scale, int frame)>;
@@ -39,20 +39,20 @@ RenderScale scale_of(const char* name) {
 
 constexpr double k_fps = 50; // 20 ms
 
-TEST(AdaptiveScale, goes_at_once_to_where_frames_are_quick_enough) {
+TEST(AdaptiveScale, selects_a_fast_enough_scale_at_once) {
     AdaptiveScale adaptive(k_fps);
     const Outcome slow = run(adaptive, scale_of("2"), 5, cost_of(70)); // 280 ms at 2, 17.5 ms at 1/2
     EXPECT_EQ(slow.scale.name(), "1/2");
     EXPECT_EQ(slow.changes, 1);
 }
 
-TEST(AdaptiveScale, ends_at_the_smallest_and_the_largest) {
+TEST(AdaptiveScale, stops_at_the_smallest_and_largest_scale) {
     AdaptiveScale adaptive(k_fps);
     EXPECT_EQ(run(adaptive, scale_of("1"), 500, cost_of(1e6)).scale.name(), "1/8");
     EXPECT_EQ(run(adaptive, scale_of("1/8"), 500, cost_of(1e-3)).scale.name(), "2");
 }
 
-TEST(AdaptiveScale, comes_back_when_the_scene_is_quick_again) {
+TEST(AdaptiveScale, rises_again_when_the_scene_is_fast) {
     AdaptiveScale adaptive(k_fps);
     EXPECT_EQ(run(adaptive, scale_of("1"), 100, cost_of(60)).scale.name(), "1/2");
     EXPECT_EQ(run(adaptive, scale_of("1/2"), 100, cost_of(12)).scale.name(), "1");
@@ -90,7 +90,7 @@ TEST(AdaptiveScale, does_not_flicker_between_two_scales) {
         }
 }
 
-TEST(AdaptiveScale, tries_again_after_forgetting) {
+TEST(AdaptiveScale, retries_a_larger_scale_after_a_while) {
     AdaptiveScale adaptive(k_fps);
     const Cost steep = cost_of(30, 12); // 2.5 ms at 1/2: 4 times that would do
     EXPECT_EQ(run(adaptive, scale_of("1"), 500, steep).scale.name(), "1/2");
@@ -99,4 +99,4 @@ TEST(AdaptiveScale, tries_again_after_forgetting) {
     EXPECT_EQ(run(adaptive, scale_of("1/2"), 500, cost_of(11)).scale.name(), "1");
 }
 
-} // namespace tidemark::cli::adaptive_scale_test
+} // namespace tidemark::window::adaptive_scale_test

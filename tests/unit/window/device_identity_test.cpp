@@ -6,7 +6,7 @@
 #include <array>
 #include <numeric>
 
-namespace tidemark::platform::device_identity_test {
+namespace tidemark::host::device_identity_test {
 
 namespace fs = std::filesystem;
 
@@ -24,24 +24,24 @@ protected:
     TemporaryFolder folder_;
 };
 
-TEST_F(DeviceIdentity, a_cards_file_leads_to_its_place_on_the_bus) {
+TEST_F(DeviceIdentity, a_cards_file_gives_its_pci_address) {
     EXPECT_EQ(pci_name("/dev/null", numbers_where_null_is("0000:65:00.0")), "pci:0000:65:00.0");
 }
 
-TEST_F(DeviceIdentity, other_buses_have_no_such_place) {
+TEST_F(DeviceIdentity, other_buses_have_no_pci_address) {
     EXPECT_EQ(pci_name("/dev/null", numbers_where_null_is("fb.gpu")), std::nullopt);
 }
 
-TEST_F(DeviceIdentity, what_is_no_device_or_unknown_has_no_name) {
+TEST_F(DeviceIdentity, other_files_and_unknown_devices_have_no_name) {
     EXPECT_EQ(pci_name("/dev/no/such/file"), std::nullopt);
     EXPECT_EQ(pci_name("/etc/passwd"), std::nullopt);
     EXPECT_EQ(pci_name("/dev/null", folder_.path()), std::nullopt);
 }
 
-TEST(UuidName, is_written_as_other_programs_write_it) {
+TEST(UuidName, has_the_usual_notation) {
     std::array<uint8_t, 16> bytes{};
     std::iota(bytes.begin(), bytes.end(), uint8_t{0xF8});
     EXPECT_EQ(uuid_name(bytes), "uuid:f8f9fafb-fcfd-feff-0001-020304050607");
 }
 
-} // namespace tidemark::platform::device_identity_test
+} // namespace tidemark::host::device_identity_test

@@ -6,7 +6,7 @@
 #include <array>
 #include <limits>
 
-namespace tidemark::live::fields_test {
+namespace tidemark::overlay::fields_test {
 
 std::string written(std::string_view text, double value) {
     auto field = definition_field("N", text, false);
@@ -16,7 +16,7 @@ std::string written(std::string_view text, double value) {
     return text_of(*field);
 }
 
-TEST(DefinitionField, keeps_the_kind_of_number) {
+TEST(DefinitionField, keeps_integer_or_float) {
     EXPECT_EQ(written("8", 12), "12");
     EXPECT_EQ(written("-8", 3), "3");
     EXPECT_EQ(written("0.5", 3), "3.0");
@@ -24,12 +24,12 @@ TEST(DefinitionField, keeps_the_kind_of_number) {
     EXPECT_EQ(written(".5", -0.25), "-0.25");
 }
 
-TEST(DefinitionField, is_no_field_for_what_is_no_decimal_number) {
+TEST(DefinitionField, requires_a_decimal_number) {
     for (const auto* text : {"8u", "0x10", "1.0f", "a", "", "1 + 2"})
         EXPECT_EQ(definition_field("N", text, false), std::nullopt) << text;
 }
 
-TEST(DefinitionField, stays_under_a_hand) {
+TEST(DefinitionField, value_is_kept_during_a_drag) {
     const std::vector<DefinitionField> before{{"A", 5, true, false, true}, {"B", 6, true, false, false}};
     std::vector<DefinitionField> now{{"B", 1, true}, {"A", 2, true}};
     keep_changing(before, now);
@@ -43,7 +43,7 @@ std::string excerpt(std::string_view line, int column, size_t most) {
     return excerpt.text + "\n" + excerpt.mark;
 }
 
-TEST(Excerpt, has_a_mark_under_the_place) {
+TEST(Excerpt, marks_the_place) {
     EXPECT_EQ(excerpt("\ta = b;", 6, 80), " a = b;\n     ^");
     EXPECT_EQ(excerpt("ä = b;", 6, 80), "ä = b;\n    ^") << "a column counts bytes, a mark characters";
     EXPECT_EQ(excerpt("a = b;", 0, 80), "a = b;\n");
@@ -51,12 +51,12 @@ TEST(Excerpt, has_a_mark_under_the_place) {
     EXPECT_EQ(excerpt("", 1, 80), "\n^");
 }
 
-TEST(Excerpt, of_a_long_line_holds_the_place) {
+TEST(Excerpt, of_a_long_line_contains_the_place) {
     EXPECT_EQ(excerpt("0123456789abcdef", 13, 8), "89abcdef\n    ^");
     EXPECT_EQ(excerpt("0123456789abcdef", 3, 8), "01234567\n  ^");
 }
 
-TEST(Magnifier, tells_a_number_and_all_its_bits) {
+TEST(Magnifier, prints_a_number_with_all_its_digits) {
     constexpr float k_infinity = std::numeric_limits<float>::infinity();
     EXPECT_EQ(number_text(1.0F / 3), "0.3333333");
     EXPECT_EQ(number_text(-1.5e-5F), "-1.5e-05");
@@ -67,12 +67,12 @@ TEST(Magnifier, tells_a_number_and_all_its_bits) {
     EXPECT_EQ(bits_text(0), "0x00000000");
 }
 
-TEST(Magnifier, shows_what_a_screen_can) {
+TEST(Magnifier, clamps_the_colour_to_the_display_range) {
     const std::array values{-1.0F, 0.5F, std::numeric_limits<float>::infinity()};
     EXPECT_EQ(colour_of(values.data()), (MagnifierField::Colour{0, 128, 255}));
 }
 
-TEST(TimeBar, doubles_as_time_comes_near) {
+TEST(TimeBar, doubles_when_time_reaches_its_end) {
     EXPECT_EQ(bar_end({.seconds = 0}), 10);
     EXPECT_EQ(bar_end({.seconds = 10.5}), 20);
     TimeField looped;
@@ -80,4 +80,4 @@ TEST(TimeBar, doubles_as_time_comes_near) {
     EXPECT_EQ(bar_end(looped), 80);
 }
 
-} // namespace tidemark::live::fields_test
+} // namespace tidemark::overlay::fields_test

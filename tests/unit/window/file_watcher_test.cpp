@@ -12,7 +12,7 @@
 #include <mutex>
 #include <thread>
 
-namespace tidemark::platform::file_watcher_test {
+namespace tidemark::window::file_watcher_test {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
@@ -49,7 +49,7 @@ protected:
         const Result<void> watched = watcher_.watch(files);
         ASSERT_TRUE(watched) << watched.error().message;
     }
-    /// What is reported next, at most a second (or what is said) from now.
+    /// Returns the next report within a second, or within `limit`.
     Paths next_change(std::chrono::milliseconds limit = 1s) {
         const auto end = Clock::now() + limit;
         for (;;) {
@@ -67,7 +67,7 @@ protected:
             files.push_back(change.file);
         return files;
     }
-    /// What is reported although nothing should be: long enough for every debounce but `k_patience`.
+    /// Returns reports where none should come: waits long enough for every debounce but `k_patience`.
     Paths unexpected_change() { return next_change(60ms); }
 
     TemporaryFolder folder_;
@@ -91,7 +91,7 @@ TEST_F(FileWatcherTest, file_written_in_place) {
     EXPECT_THAT(unexpected_change(), IsEmpty());
 }
 
-TEST_F(FileWatcherTest, folder_that_gets_a_file_or_loses_one) {
+TEST_F(FileWatcherTest, files_added_to_and_removed_from_a_folder) {
     const fs::path inside = folder_ / "s/";
     fs::create_directory(inside);
     save_in_place(inside / "old.glsl");
@@ -136,7 +136,7 @@ TEST_F(FileWatcherTest, file_emptied_and_written_later_is_reported_when_it_is_wh
     EXPECT_EQ(next_change(), Paths{file});
 }
 
-TEST_F(FileWatcherTest, file_gone_for_good_is_reported_after_some_patience) {
+TEST_F(FileWatcherTest, file_gone_for_good_is_reported_after_a_delay) {
     const fs::path file = folder_ / "a.glsl";
     save_in_place(file);
     watch({file});
@@ -192,7 +192,7 @@ TEST_F(FileWatcherTest, other_files_of_the_folder_are_ignored) {
     EXPECT_EQ(bell_.rings(), 0);
 }
 
-TEST_F(FileWatcherTest, reading_a_file_is_no_change) {
+TEST_F(FileWatcherTest, reading_a_file_is_not_reported) {
     const fs::path file = folder_ / "a.glsl";
     save_in_place(file);
     watch({file});
@@ -238,7 +238,7 @@ TEST_F(FileWatcherTest, target_of_a_link_and_the_link_itself) {
     EXPECT_THAT(unexpected_change(), IsEmpty()) << "old target";
 }
 
-TEST_F(FileWatcherTest, linked_folder_that_is_pointed_elsewhere) {
+TEST_F(FileWatcherTest, linked_folder_with_a_changed_target) {
     fs::create_directory(folder_ / "one");
     fs::create_directory(folder_ / "two");
     save_in_place(folder_ / "one/a.glsl");
@@ -325,7 +325,7 @@ TEST_F(FileWatcherTest, file_that_does_not_exist_yet) {
     EXPECT_EQ(next_change(), Paths{file});
 }
 
-TEST_F(FileWatcherTest, another_set_replaces_the_first) {
+TEST_F(FileWatcherTest, a_new_set_of_files_replaces_the_old_set) {
     const Paths files{folder_ / "a.glsl", folder_ / "b.glsl", folder_ / "c.glsl"};
     for (const fs::path& file : files)
         save_in_place(file);
@@ -344,7 +344,7 @@ TEST_F(FileWatcherTest, another_set_replaces_the_first) {
     EXPECT_THAT(unexpected_change(), IsEmpty());
 }
 
-TEST_F(FileWatcherTest, the_same_set_in_another_order_costs_nothing) {
+TEST_F(FileWatcherTest, the_same_set_in_another_order_is_kept) {
     const Paths files{folder_ / "a.glsl", folder_ / "b.glsl"};
     watch(files);
     const auto start = Clock::now();
@@ -353,7 +353,7 @@ TEST_F(FileWatcherTest, the_same_set_in_another_order_costs_nothing) {
     EXPECT_LT(Clock::now() - start, 500ms);
 }
 
-TEST_F(FileWatcherTest, paths_come_back_in_their_own_spelling) {
+TEST_F(FileWatcherTest, paths_keep_their_spelling) {
     const fs::path before = fs::current_path();
     fs::current_path(folder_.path());
     save_in_place("a.glsl");
@@ -363,7 +363,7 @@ TEST_F(FileWatcherTest, paths_come_back_in_their_own_spelling) {
     EXPECT_EQ(next_change(), Paths{"./a.glsl"});
 }
 
-TEST_F(FileWatcherTest, moved_watcher_goes_on) {
+TEST_F(FileWatcherTest, a_moved_watcher_continues) {
     const fs::path file = folder_ / "a.glsl";
     save_in_place(file);
     watch({file});
@@ -373,7 +373,7 @@ TEST_F(FileWatcherTest, moved_watcher_goes_on) {
     EXPECT_EQ(next_change(), Paths{file});
 }
 
-TEST_F(FileWatcherTest, sleeps_while_nothing_happens) {
+TEST_F(FileWatcherTest, sleeps_without_events) {
     save_in_place(folder_ / "a.glsl");
     watch({folder_ / "a.glsl"});
     const std::clock_t before = std::clock();
@@ -398,7 +398,7 @@ private:
     rlimit before_{};
 };
 
-TEST_F(FileWatcherTest, no_descriptors_left_is_an_error_and_asking_again_tries_again) {
+TEST_F(FileWatcherTest, running_out_of_descriptors_is_an_error_that_can_be_retried) {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "the sanitizer itself needs descriptors to look at an object";
 #endif
@@ -424,7 +424,7 @@ TEST_F(FileWatcherTest, no_descriptors_left_is_an_error_and_asking_again_tries_a
     EXPECT_EQ(next_change(), Paths{file});
 }
 
-TEST_F(FileWatcherTest, what_is_moved_into_place_changed_when_it_was_moved) {
+TEST_F(FileWatcherTest, moved_files_have_the_time_of_the_move) {
     const std::pair<const char*, const char*> moves[] = {{"a.glsl", "a.glsl"}, {"b/c.glsl", "b"}};
     for (const auto& [name, moved] : moves) {
         const fs::path file = folder_ / name;
@@ -447,7 +447,7 @@ TEST_F(FileWatcherTest, what_is_moved_into_place_changed_when_it_was_moved) {
     }
 }
 
-/// From the end of a save to the call of `wake`: printed for people, held loosely.
+/// The time from the end of a save to the call of `wake`; it is printed, and its bound is loose.
 TEST_F(FileWatcherTest, latency) {
     const fs::path file = folder_ / "a.glsl";
     save_in_place(file);
@@ -467,4 +467,4 @@ TEST_F(FileWatcherTest, latency) {
     EXPECT_LT(milliseconds.back(), 1000);
 }
 
-} // namespace tidemark::platform::file_watcher_test
+} // namespace tidemark::window::file_watcher_test

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::cli::frame_pace_test {
+namespace tidemark::window::frame_pace_test {
 
 using Way = FramePace::Way;
 constexpr Extent k_extent{100, 100};
@@ -26,7 +26,7 @@ TEST(FramePaceTest, a_slow_frame_is_the_last_one_drawn_whole) {
     EXPECT_EQ(pace.way(k_extent), Way::in_parts);
 }
 
-TEST(FramePaceTest, between_the_two_it_stays_as_it_was) {
+TEST(FramePaceTest, between_the_thresholds_the_mode_is_kept) {
     FramePace pace;
     pace.took(k_extent, Way::in_parts, 0.04);
     EXPECT_EQ(pace.way(k_extent), Way::in_parts);
@@ -45,4 +45,4 @@ TEST(FramePaceTest, more_pixels_take_longer) {
     EXPECT_EQ(pace.way(k_extent), Way::whole) << "nothing is known of a picture without pixels";
 }
 
-} // namespace tidemark::cli::frame_pace_test
+} // namespace tidemark::window::frame_pace_test

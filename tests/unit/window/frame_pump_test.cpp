@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace tidemark::cli::frame_pump_test {
+namespace tidemark::window::frame_pump_test {
 
 using testing::ElementsAre;
 using Flow = FramePump::Flow;
@@ -117,7 +117,7 @@ protected:
     Around around;
 };
 
-TEST_F(FramePumpTest, draws_the_first_frame_in_parts_and_quick_ones_whole) {
+TEST_F(FramePumpTest, draws_the_first_frame_in_parts_and_fast_frames_whole) {
     EXPECT_FALSE(begin(0));
     EXPECT_TRUE(pump.drawing());
     const auto first = advance();
@@ -133,7 +133,7 @@ TEST_F(FramePumpTest, draws_the_first_frame_in_parts_and_quick_ones_whole) {
     EXPECT_THAT(driver.frames, ElementsAre(0, 1));
 }
 
-TEST_F(FramePumpTest, keeps_to_the_rate) {
+TEST_F(FramePumpTest, keeps_the_frame_rate) {
     warm_up(0.001);
     ASSERT_TRUE(begin(1)) << "at once";
     EXPECT_NEAR(pump.due(around, driver.now), driver.now + 0.02, 0.0021);
@@ -170,7 +170,7 @@ TEST_F(FramePumpTest, a_slow_frame_takes_several_rounds) {
     EXPECT_FALSE(pump.would_block(k_extent)) << "0.1 s";
 }
 
-TEST_F(FramePumpTest, nothing_is_due_while_paused_still_or_unwatched) {
+TEST_F(FramePumpTest, no_frame_is_due_while_paused_still_or_unwatched) {
     warm_up(0.001);
     driver.now += 1;
     around.plays = false;
@@ -187,7 +187,7 @@ TEST_F(FramePumpTest, nothing_is_due_while_paused_still_or_unwatched) {
     EXPECT_EQ(pump.due(around, driver.now), k_never);
 }
 
-TEST_F(FramePumpTest, panels_are_shown_without_a_frame_only_where_none_comes_soon) {
+TEST_F(FramePumpTest, panels_are_drawn_without_a_frame_if_none_is_due_soon) {
     warm_up(0.001);
     around.panels_changed = true;
     EXPECT_FALSE(pump.shows_panels(around)) << "the next frame shows them";
@@ -197,7 +197,7 @@ TEST_F(FramePumpTest, panels_are_shown_without_a_frame_only_where_none_comes_soo
     EXPECT_FALSE(pump.take_due(around, driver.now));
 }
 
-TEST_F(FramePumpTest, a_cancelled_frame_gives_its_number_back_and_the_driver_its_time) {
+TEST_F(FramePumpTest, a_cancelled_frame_returns_its_number) {
     driver.frame_seconds = 5;
     EXPECT_FALSE(begin(0));
     EXPECT_FALSE(advance());
@@ -218,7 +218,7 @@ TEST_F(FramePumpTest, a_cancelled_frame_gives_its_number_back_and_the_driver_its
     EXPECT_FALSE(pump.cancel()) << "there is nothing any more";
 }
 
-TEST_F(FramePumpTest, stopped_frames_come_again_on_request) {
+TEST_F(FramePumpTest, stopped_frames_are_restarted_on_request) {
     driver.frame_seconds = 5;
     EXPECT_FALSE(begin(0));
     EXPECT_FALSE(pump.can_stop(around, driver.now)) << "it may still be a quick one";
@@ -239,7 +239,7 @@ TEST_F(FramePumpTest, stopped_frames_come_again_on_request) {
     EXPECT_TRUE(pump.take_due(around, driver.now + 1));
 }
 
-TEST_F(FramePumpTest, draws_whole_where_there_is_no_memory_for_parts) {
+TEST_F(FramePumpTest, draws_whole_without_memory_for_parts) {
     driver.parts_fail = true;
     EXPECT_FALSE(begin(0));
     EXPECT_FALSE(pump.advance());
@@ -251,7 +251,7 @@ TEST_F(FramePumpTest, draws_whole_where_there_is_no_memory_for_parts) {
     EXPECT_FALSE(begin(1)) << "another scene may have memory";
 }
 
-TEST_F(FramePumpTest, a_frame_that_blocks_the_window_is_noticed_after_it) {
+TEST_F(FramePumpTest, a_blocking_frame_is_detected_afterwards) {
     warm_up(0.001);
     driver.now += 0.02;
     driver.frame_seconds = 3;
@@ -279,7 +279,7 @@ TEST_F(FramePumpTest, a_slow_frame_waits_for_a_reload) {
     EXPECT_TRUE(pump.wants_frame(around, driver.now));
 }
 
-TEST_F(FramePumpTest, tells_how_far_a_slow_frame_is) {
+TEST_F(FramePumpTest, reports_the_progress_of_a_slow_frame) {
     driver.frame_seconds = 5;
     EXPECT_EQ(pump.progress(driver.now, true), "");
     EXPECT_FALSE(begin(0));
@@ -326,7 +326,7 @@ TEST_F(FramePumpTest, reports_a_part_that_takes_too_long_once) {
     EXPECT_FALSE(pump.take_slow_part(driver.now + 9));
 }
 
-TEST_F(FramePumpTest, an_unchanged_frame_says_nothing_about_the_next_one) {
+TEST_F(FramePumpTest, an_unchanged_frame_gives_no_estimate) {
     driver.has_pass = false;
     EXPECT_FALSE(begin(0));
     const auto made = advance();
@@ -376,4 +376,4 @@ TEST_F(FramePumpTest, a_seek_draws_whole_where_parts_fail) {
     EXPECT_THAT(driver.frames, ElementsAre(-1, 0));
 }
 
-} // namespace tidemark::cli::frame_pump_test
+} // namespace tidemark::window::frame_pump_test

@@ -1,12 +1,12 @@
-#include "window/receiver.hpp"
+#include "window/midi.hpp"
 
 #include <gmock/gmock.h>
 
-namespace tidemark::live::inbox_test {
+namespace tidemark::window::inbox_test {
 
 using testing::ElementsAre;
 
-TEST(Inbox, gives_packets_in_their_order_and_wakes_once) {
+TEST(Inbox, returns_packets_in_order_and_wakes_once) {
     int woken = 0;
     Inbox inbox([&] { ++woken; });
     inbox.put("a");
@@ -36,4 +36,4 @@ TEST(Inbox, holds_no_more_than_can_be_read_between_two_frames) {
     EXPECT_EQ(inbox.take().size(), 1u) << "one is always taken";
 }
 
-} // namespace tidemark::live::inbox_test
+} // namespace tidemark::window::inbox_test

@@ -5,14 +5,14 @@
 
 #include <cmath>
 
-namespace tidemark::live::knob_field_test {
+namespace tidemark::overlay::knob_field_test {
 
 using scene::Knob;
 using scene::KnobRange;
 using scene::KnobType;
 using scene::KnobValue;
 
-TEST(KnobField, has_the_widget_that_fits) {
+TEST(KnobField, has_the_widget_of_its_type) {
     EXPECT_EQ(widget_of({.name = "k", .type = KnobType::float1}), Widget::drag);
     EXPECT_EQ(widget_of({.name = "k", .type = KnobType::float1, .range = KnobRange{{0}, {1}}}),
               Widget::slider);
@@ -28,7 +28,7 @@ TEST(KnobField, has_the_widget_that_fits) {
               Widget::slider);
 }
 
-TEST(KnobField, keeps_its_step_from_the_low_end_on) {
+TEST(KnobField, steps_start_at_the_low_end) {
     const Knob knob{.name = "k", .range = KnobRange{{0.05}, {2}}, .step = KnobValue{0.1}};
     EXPECT_EQ(in_steps(knob, 0, 0.349), 0.35);
     EXPECT_EQ(in_steps(knob, 0, 1.96), 1.95);
@@ -37,11 +37,11 @@ TEST(KnobField, keeps_its_step_from_the_low_end_on) {
     EXPECT_EQ(in_steps({.name = "k", .step = KnobValue{0}}, 0, 0.12345), 0.12345);
 }
 
-TEST(KnobField, has_no_slider_as_long_as_all_doubles) {
+TEST(KnobField, has_no_slider_for_a_huge_range) {
     EXPECT_EQ(widget_of({.name = "k", .range = KnobRange{{-1.7e308}, {1.7e308}}}), Widget::drag);
 }
 
-TEST(KnobField, takes_what_its_type_can_hold) {
+TEST(KnobField, accepts_values_within_its_type) {
     const Knob whole{.name = "k", .type = KnobType::int1};
     EXPECT_TRUE(takes(whole, -2147483648.0));
     EXPECT_FALSE(takes(whole, 1e12));
@@ -50,9 +50,9 @@ TEST(KnobField, takes_what_its_type_can_hold) {
     EXPECT_FALSE(takes({.name = "k"}, std::nan("")));
 }
 
-TEST(KnobField, is_turned_where_it_differs_from_the_default) {
+TEST(KnobField, is_marked_if_it_differs_from_the_default) {
     const KnobField field{{.name = "k", .initial = {1}, .value = {2}}, {1}};
     EXPECT_FALSE(field.is_turned());
 }
 
-} // namespace tidemark::live::knob_field_test
+} // namespace tidemark::overlay::knob_field_test

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::live::midi_test {
+namespace tidemark::window::midi_test {
 
 using namespace std::string_literals;
 using scene::Knob;
@@ -24,11 +24,11 @@ TEST(MidiParser, reads_control_changes_however_they_are_cut) {
     }
 }
 
-TEST(MidiParser, messages_to_the_whole_channel_are_no_controllers) {
+TEST(MidiParser, channel_mode_messages_are_ignored) {
     EXPECT_THAT(MidiParser().parse("\xb0\x7b\x00\x78\x00"s), IsEmpty());
 }
 
-TEST(MidiParser, begins_within_a_message) {
+TEST(MidiParser, may_start_within_a_message) {
     EXPECT_THAT(MidiParser().parse("\x12\x34\x56\xb1\x01\x02"s), ElementsAre(ControlChange{{2, 1}, 2}));
 }
 
@@ -37,7 +37,7 @@ struct ValueCase {
     std::array<double, 3> at; ///< 0, 64, 127
 };
 
-TEST(ControllerValue, goes_from_one_end_of_the_range_to_the_other) {
+TEST(ControllerValue, covers_the_range_from_end_to_end) {
     const ValueCase cases[] = {
         {{.name = "float", .range = {{{-1}, {3}}}}, {-1, -1 + 4 * 64 / 127.0, 3}},
         {{.name = "in steps", .range = {{{0}, {2}}}, .step = {{0.1}}}, {0, 1.0, 2}},
@@ -78,7 +78,7 @@ TEST(ControllerMap, learns_the_next_controller_that_moves) {
               (scene::KnobValue{0.1, 0, 0.3}));
 }
 
-TEST(ControllerMap, has_each_controller_and_each_part_once) {
+TEST(ControllerMap, assigns_each_controller_and_component_once) {
     ControllerMap map;
     map.learn({"height", 0});
     map.turn({k_wheel, 1}, k_knobs);
@@ -93,17 +93,17 @@ TEST(ControllerMap, has_each_controller_and_each_part_once) {
     EXPECT_THAT(map.bindings(), IsEmpty());
 }
 
-TEST(ControllerMap, learning_ends_when_it_is_asked_for_again) {
+TEST(ControllerMap, learning_ends_at_a_second_request) {
     ControllerMap map;
     map.learn({"height", 0});
     map.learn({"height", 0});
     EXPECT_FALSE(map.turn({k_wheel, 1}, k_knobs));
 }
 
-TEST(ControllerMap, of_another_scene_turns_nothing) {
+TEST(ControllerMap, assignments_of_another_scene_are_ignored) {
     ControllerMap map({{k_wheel, {"height", 1}}, {k_fader, {"gone", 0}}});
     EXPECT_FALSE(map.turn({k_wheel, 1}, k_knobs));
     EXPECT_FALSE(map.turn({k_fader, 1}, k_knobs));
 }
 
-} // namespace tidemark::live::midi_test
+} // namespace tidemark::window::midi_test

@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
-namespace tidemark::live::osc_test {
+namespace tidemark::window::osc_test {
+
+using namespace overlay;
 
 using scene::Knob;
 using scene::KnobType;
@@ -29,7 +31,7 @@ TEST(ParseOsc, reads_each_type) {
     EXPECT_THAT(*read, ElementsAre(OscMessage{"/a", {-2.0, 4294967296.0, 0.1, 0.1, 1.0, 0.0, "abc"}}));
 }
 
-TEST(ParseOsc, takes_bundles_in_their_order) {
+TEST(ParseOsc, reads_bundles_in_order) {
     const std::string inner = "#bundle\0"s + k_time_tag + size_of(k_half) + k_half;
     const std::string play = "/play\0\0\0,\0\0\0"s;
     const auto read = parse_osc("#bundle\0"s + k_time_tag + size_of(inner) + inner + size_of(play) + play);
@@ -37,7 +39,7 @@ TEST(ParseOsc, takes_bundles_in_their_order) {
     EXPECT_THAT(*read, ElementsAre(OscMessage{"/knob/a", {0.5}}, OscMessage{"/play"}));
 }
 
-TEST(ParseOsc, every_cut_of_a_packet_is_an_error_or_a_packet) {
+TEST(ParseOsc, truncated_packets_are_errors_or_packets) {
     const std::string whole = "#bundle\0"s + k_time_tag + size_of(k_half) + k_half;
     const size_t empty_bundle = 8 + k_time_tag.size();
     for (size_t size = 0; size < whole.size(); ++size)
@@ -47,7 +49,7 @@ TEST(ParseOsc, every_cut_of_a_packet_is_an_error_or_a_packet) {
     EXPECT_TRUE(parse_osc(whole));
 }
 
-TEST(ParseOsc, refuses_what_is_no_number_truth_or_text) {
+TEST(ParseOsc, refuses_other_argument_types) {
     EXPECT_EQ(parse_osc("/a\0\0,b\0\0\0\0\0\4abcd"s).error().message,
               "'/a' has an argument of type 'b': give numbers");
 }
@@ -63,7 +65,7 @@ const std::vector<Knob> k_knobs = {
     {.name = "grid", .type = KnobType::ivec2, .value = {3, 4}},
 };
 
-TEST(OscCommand, turns_knobs_in_their_own_units) {
+TEST(OscCommand, sets_knobs_in_their_units) {
     const Case cases[] = {
         {{"/knob/height", {1.5}}, {1.5}},
         {{"/knob/height", {7.0}}, {7}}, // a value may lie outside the slider's range
@@ -88,7 +90,7 @@ TEST(OscCommand, moves_time) {
     EXPECT_FALSE(std::get<SetPlaying>(*osc_command({"/play", {0.0}}, {})).on);
 }
 
-TEST(OscCommand, says_what_is_wrong) {
+TEST(OscCommand, reports_errors) {
     const std::pair<OscMessage, std::string_view> cases[] = {
         {{"/knob/heigth", {1.0}}, "OSC: the scene has no knob 'heigth': did you mean 'height'?"},
         {{"/knob/height", {}}, "OSC: '' is not a value for height (float): give a number"},
@@ -112,7 +114,7 @@ TEST(OscCommand, says_what_is_wrong) {
     }
 }
 
-TEST(OscAddress, is_of_this_machine_alone_unless_told) {
+TEST(OscAddress, is_local_by_default) {
     EXPECT_EQ(parse_osc_address("9000").value(), (OscAddress{"127.0.0.1", "9000"}));
     EXPECT_EQ(parse_osc_address("0.0.0.0:9000").value(), (OscAddress{"0.0.0.0", "9000"}));
     EXPECT_EQ(parse_osc_address("[::1]:0").value(), (OscAddress{"::1", "0"}));
@@ -120,4 +122,4 @@ TEST(OscAddress, is_of_this_machine_alone_unless_told) {
         EXPECT_FALSE(parse_osc_address(wrong)) << wrong;
 }
 
-} // namespace tidemark::live::osc_test
+} // namespace tidemark::window::osc_test

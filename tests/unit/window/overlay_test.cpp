@@ -5,10 +5,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-namespace tidemark::cli::overlay_test {
+namespace tidemark::window::overlay_test {
+
+using namespace host;
 
 using Panel = Overlay::Panel;
-using testing::ElementsAre;
 
 scene::Knob knob(const char* name, double initial) {
     scene::Knob knob;
@@ -23,10 +24,15 @@ scene::Scene scene_with(const char* text) {
     return scene;
 }
 
-Moment view_at(double seconds) {
-    Moment view;
-    view.sequence.state.time = seconds;
-    return view;
+Preset view_at(double seconds) {
+    return {.name = "", .seconds = seconds};
+}
+
+std::string labels_of(const overlay::Model& model) {
+    std::string labels;
+    for (const overlay::ViewField& view : model.views)
+        labels += fmt::format("{}: {}\n", view.name, view.label);
+    return labels;
 }
 
 TEST(Overlay, knobs_have_their_current_values) {
@@ -57,8 +63,8 @@ TEST(Overlay, definitions_are_the_numbers_with_the_users_values) {
 TEST(Overlay, shows_only_open_panels) {
     Overlay overlay(false);
     const scene::Scene scene = scene_with("#define STEPS 8\n");
-    live::Model model = overlay.model(&scene, {}, {}, false);
-    EXPECT_EQ(model.panels(), live::Model::Panels{});
+    overlay::Model model = overlay.model(&scene, {}, {}, false);
+    EXPECT_EQ(model.panels(), overlay::Model::Panels{});
     EXPECT_TRUE(model.knobs.empty());
     overlay.toggle(Panel::controls);
     overlay.toggle(Panel::help);
@@ -74,12 +80,12 @@ TEST(Overlay, shows_only_open_panels) {
     EXPECT_TRUE(overlay.model(&scene, {}, {}, false).help.empty());
 }
 
-TEST(Overlay, controls_wait_for_a_scene) {
+TEST(Overlay, controls_are_hidden_without_a_scene) {
     Overlay overlay(true);
     EXPECT_FALSE(overlay.model(nullptr, {}, {}, false).controls);
 }
 
-TEST(Overlay, is_out_of_date_until_it_is_shown) {
+TEST(Overlay, is_outdated_until_shown) {
     Overlay overlay(false);
     EXPECT_FALSE(overlay.changed());
     overlay.mark_changed_if(false);
@@ -126,33 +132,46 @@ TEST(Overlay, reads_definitions_again_in_another_scene) {
 TEST(Overlay, keeps_views_with_labels) {
     Overlay overlay(true);
     const scene::Scene scene = scene_with("");
-    Moment view = view_at(2.5);
-    view.sequence.state.knobs = {{"height", {1, {2}}}};
-    EXPECT_EQ(overlay.keep(view), "2.500 s, height = 2");
+    Preset view = view_at(2.5);
+    view.knobs = {{"height", {1, {2}}}};
+    EXPECT_EQ(overlay.keep(view), "view 1: 2.500 s, height = 2");
     overlay.keep(view_at(1));
     EXPECT_TRUE(overlay.changed());
-    EXPECT_THAT(overlay.model(&scene, {}, {}, false).views, ElementsAre("2.500 s, height = 2", "1.000 s"));
+    EXPECT_EQ(labels_of(overlay.model(&scene, {}, {}, false)),
+              "view 1: 2.500 s, height = 2\nview 2: 1.000 s\n");
     overlay.forget_view(0);
     overlay.forget_view(7); // there is none
-    EXPECT_THAT(overlay.model(&scene, {}, {}, false).views, ElementsAre("1.000 s"));
-    EXPECT_EQ(overlay.views().size(), 1U);
+    EXPECT_EQ(labels_of(overlay.model(&scene, {}, {}, false)), "view 2: 1.000 s\n");
+    EXPECT_EQ(overlay.keep(view_at(3)), "view 3: 3.000 s") << "no name twice";
+}
+
+TEST(Overlay, renames_views) {
+    Overlay overlay(true);
+    overlay.keep(view_at(1));
+    overlay.keep(view_at(2));
+    EXPECT_TRUE(overlay.rename_view(0, "dawn"));
+    EXPECT_FALSE(overlay.rename_view(1, "dawn"));
+    EXPECT_FALSE(overlay.rename_view(1, ""));
+    EXPECT_TRUE(overlay.rename_view(9, "x"));
+    EXPECT_EQ(overlay.views()[0].name, "dawn");
+    EXPECT_EQ(overlay.views()[1].name, "view 2");
 }
 
 TEST(Overlay, shows_controllers_where_there_is_a_midi_device) {
     Overlay overlay(true);
     const scene::Scene scene = scene_with("");
-    overlay.restore(true, {view_at(3)}, {{{1, 7}, {"width", 0}}});
+    overlay.restore(true, 2, {{{1, 7}, {"width", 0}}});
     EXPECT_TRUE(overlay.model(&scene, {}, {}, false).knobs.at(1).controllers.empty());
     overlay.controllers().learn({"height", 0});
-    const live::Model model = overlay.model(&scene, {}, {}, true);
+    const overlay::Model model = overlay.model(&scene, {}, {}, true);
     EXPECT_TRUE(model.knobs.at(0).controllers.at(0).learning);
     EXPECT_EQ(model.knobs.at(1).controllers.at(0).controller, "controller 7");
-    EXPECT_THAT(model.views, ElementsAre("3.000 s"));
+    EXPECT_EQ(model.morph_seconds, 2);
 }
 
 std::string words_at(Messages& messages, double now) {
     std::string words;
-    for (const live::MessageField& field : messages.fields(now))
+    for (const overlay::MessageField& field : messages.fields(now))
         words += fmt::format("{}={:.1f} ", field.text, field.opacity);
     return words;
 }
@@ -171,7 +190,7 @@ TEST(Messages, fade_after_three_seconds) {
     EXPECT_FALSE(messages.take_due(1e9));
 }
 
-TEST(Messages, one_topic_has_one_message) {
+TEST(Messages, a_topic_has_one_message) {
     Messages messages;
     messages.tell("marks", "marks are on", 0);
     messages.tell("saved", "saving a.png", 0);
@@ -203,9 +222,9 @@ TEST(Messages, can_be_turned_off) {
 TEST(Overlay, shows_messages_without_any_panel) {
     Overlay overlay(false);
     overlay.messages().tell("saved", "saving a.png", 5);
-    const live::Model model = overlay.model(nullptr, {}, {}, false, 6);
+    const overlay::Model model = overlay.model(nullptr, {}, {}, false, 6);
     EXPECT_EQ(model.messages.at(0).text, "saving a.png");
-    EXPECT_NE(model.panels(), live::Model::Panels{});
+    EXPECT_NE(model.panels(), overlay::Model::Panels{});
     EXPECT_TRUE(overlay.model(nullptr, {}, {}, false, 9).messages.empty());
 }
 
@@ -213,7 +232,7 @@ Edits edits_with(double height) {
     return {.knobs = {{"height", {1, {height}}}}};
 }
 
-TEST(History, goes_back_and_forth_by_steps) {
+TEST(History, moves_back_and_forth_by_steps) {
     History history;
     history.adopt({});
     EXPECT_FALSE(history.undo());
@@ -234,7 +253,7 @@ TEST(History, goes_back_and_forth_by_steps) {
     EXPECT_EQ(history.undo(), edits_with(1));
 }
 
-TEST(History, a_drag_is_one_step) {
+TEST(History, a_drag_is_a_single_step) {
     History history;
     history.adopt({});
     for (int i = 0; i <= 10; ++i)
@@ -242,6 +261,16 @@ TEST(History, a_drag_is_one_step) {
     history.follow(edits_with(11), 21, false);           // released
     history.follow(edits_with(20), 30, true);
     EXPECT_EQ(history.undo(), edits_with(11));
+    EXPECT_EQ(history.undo(), Edits{});
+}
+
+TEST(History, a_release_with_the_last_change_belongs_to_the_drag) {
+    History history;
+    history.adopt({});
+    history.follow(edits_with(1), 10, true);
+    history.follow(edits_with(2), 12, false); // a slow frame: moved and released between two calls
+    history.follow(edits_with(3), 20, false);
+    EXPECT_EQ(history.undo(), edits_with(2));
     EXPECT_EQ(history.undo(), Edits{});
 }
 
@@ -256,7 +285,7 @@ TEST(History, quick_changes_are_one_step) {
     EXPECT_EQ(history.undo(), Edits{});
 }
 
-TEST(History, two_drags_are_two_steps_however_quick) {
+TEST(History, two_quick_drags_are_two_steps) {
     History history;
     history.adopt({});
     history.follow(edits_with(1), 10, true);
@@ -271,7 +300,7 @@ TEST(History, two_drags_are_two_steps_however_quick) {
     EXPECT_EQ(history.undo(), Edits{});
 }
 
-TEST(History, a_reload_is_no_step) {
+TEST(History, a_reload_is_not_a_step) {
     History history;
     history.adopt({});
     history.follow(edits_with(1), 10, false);
@@ -281,10 +310,10 @@ TEST(History, a_reload_is_no_step) {
     EXPECT_EQ(history.undo(), Edits{});
 }
 
-TEST(History, names_what_changed) {
+TEST(History, names_the_changed_settings) {
     Edits after{.knobs = {{"height", {1, {2}}}}, .defines = {"STEPS=3"}};
     after.camera.distance = 3;
-    after.views = std::make_shared<std::vector<Moment>>();
+    after.views = std::make_shared<std::vector<Preset>>();
     EXPECT_EQ(changed_words({}, after), "height, camera, definitions, views");
     EXPECT_EQ(changed_words(edits_with(1), edits_with(2)), "height");
     EXPECT_EQ(changed_words(edits_with(1), {}), "height");
@@ -302,12 +331,12 @@ TEST(Overlay, kept_views_can_be_brought_back) {
     EXPECT_EQ(overlay.views().size(), 1U);
 }
 
-TEST(Overlay, an_error_lists_its_summary_apart) {
+TEST(Overlay, an_error_has_a_separate_summary) {
     Overlay overlay(false);
     Error error{ErrorCode::load, "the scene does not compile"};
     error.diagnostics.push_back({{"a.glsl", 1, 1}, Severity::error, "wrong"});
     overlay.show_error(&error);
-    const live::Model model = overlay.model(nullptr, {}, {}, false);
+    const overlay::Model model = overlay.model(nullptr, {}, {}, false);
     ASSERT_EQ(model.errors.size(), 2U);
     EXPECT_FALSE(model.errors[0].summary);
     EXPECT_TRUE(model.errors[1].summary);
@@ -323,4 +352,4 @@ TEST(Overlay, a_title_is_set_once) {
     EXPECT_TRUE(overlay.change_title("b"));
 }
 
-} // namespace tidemark::cli::overlay_test
+} // namespace tidemark::window::overlay_test

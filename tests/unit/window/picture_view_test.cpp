@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::cli::picture_view_test {
+namespace tidemark::window::picture_view_test {
 
 constexpr Extent k_window{640, 360};
 
@@ -12,7 +12,7 @@ PictureView scaled(const char* scale) {
     return PictureView(*RenderScale::named(scale));
 }
 
-TEST(PictureView, draws_in_its_scale) {
+TEST(PictureView, draws_at_its_scale) {
     EXPECT_EQ(scaled("1/2").drawn(k_window), (Extent{320, 180}));
     PictureView view = scaled("1");
     view.set_scale(view.scale().stepped(1));
@@ -21,17 +21,16 @@ TEST(PictureView, draws_in_its_scale) {
 
 TEST(PictureView, converts_places_to_pixels_of_the_picture) {
     const PictureView view = scaled("1/4");
-    const auto moved =
-        std::get<platform::PointerMoved>(view.in_picture(platform::PointerMoved{{320, 90}}, k_window));
+    const auto moved = std::get<host::PointerMoved>(view.in_picture(host::PointerMoved{{320, 90}}, k_window));
     EXPECT_EQ(moved.at.x, 80);
     EXPECT_EQ(moved.at.y, 22.5);
-    const auto pressed = std::get<platform::ButtonPressed>(
-        view.in_picture(platform::ButtonPressed{platform::Button::right, {640, 360}}, k_window));
-    EXPECT_EQ(pressed.button, platform::Button::right);
+    const auto pressed = std::get<host::ButtonPressed>(
+        view.in_picture(host::ButtonPressed{host::Button::right, {640, 360}}, k_window));
+    EXPECT_EQ(pressed.button, host::Button::right);
     EXPECT_EQ(pressed.at.x, 160);
-    const platform::WheelTurned wheel{0, 3};
-    EXPECT_EQ(std::get<platform::WheelTurned>(view.in_picture(wheel, k_window)), wheel) << "it has no place";
-    EXPECT_NO_THROW(view.in_picture(platform::PointerMoved{{3, 4}}, {0, 0})) << "a minimised window";
+    const host::WheelTurned wheel{0, 3};
+    EXPECT_EQ(std::get<host::WheelTurned>(view.in_picture(wheel, k_window)), wheel) << "it has no place";
+    EXPECT_NO_THROW(view.in_picture(host::PointerMoved{{3, 4}}, {0, 0})) << "a minimised window";
 }
 
 TEST(PictureView, adapts_the_scale_only_on_request) {
@@ -68,16 +67,16 @@ TEST(PictureView, keeps_a_frozen_frame) {
 
 TEST(PictureView, magnifies_the_pixel_under_the_pointer) {
     PictureView view = scaled("1/4");
-    EXPECT_FALSE(view.follow(platform::PointerMoved{{1, 1}})) << "it is closed";
+    EXPECT_FALSE(view.follow(host::PointerMoved{{1, 1}})) << "it is closed";
     view.toggle_magnifier();
     EXPECT_TRUE(view.magnifies());
-    EXPECT_TRUE(view.follow(platform::PointerMoved{{321.5, 100}}));
-    EXPECT_FALSE(view.follow(platform::WheelTurned{0, 1}));
+    EXPECT_TRUE(view.follow(host::PointerMoved{{321.5, 100}}));
+    EXPECT_FALSE(view.follow(host::WheelTurned{0, 1}));
     const Extent picture = view.drawn(k_window);
     EXPECT_EQ(view.pixel(picture, k_window).x, 80);
     EXPECT_EQ(view.pixel(picture, k_window).y, 25);
     EXPECT_EQ(view.pixel(k_window, k_window).x, 321) << "of a picture in the window's pixels";
-    view.follow(platform::PointerMoved{{-0.5, 359.9}});
+    view.follow(host::PointerMoved{{-0.5, 359.9}});
     EXPECT_EQ(view.pixel(picture, k_window).x, -1) << "outside of the window";
     EXPECT_EQ(view.pixel(picture, k_window).y, 89) << "the last row";
     view.toggle_magnifier();
@@ -93,7 +92,7 @@ TEST(PictureView, marks_are_off_at_first) {
     EXPECT_FALSE(view.shows_marks());
 }
 
-TEST(PictureView, a_number_shows_a_picture_large_and_again_the_scene) {
+TEST(PictureView, a_number_key_shows_a_picture_and_then_the_scene) {
     PictureView view = scaled("1");
     view.choose(2);
     EXPECT_EQ(view.large(), 1U);
@@ -108,4 +107,4 @@ TEST(PictureView, a_number_shows_a_picture_large_and_again_the_scene) {
     EXPECT_EQ(view.large(), std::nullopt) << "0 is never a picture";
 }
 
-} // namespace tidemark::cli::picture_view_test
+} // namespace tidemark::window::picture_view_test

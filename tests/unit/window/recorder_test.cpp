@@ -6,7 +6,9 @@
 
 #include <fstream>
 
-namespace tidemark::cli::recorder_test {
+namespace tidemark::window::recorder_test {
+
+using namespace host;
 
 namespace fs = std::filesystem;
 using Mode = Recorder::Mode;
@@ -64,7 +66,7 @@ TEST(Recorder, records_the_users_input) {
     EXPECT_EQ(load_input_script(file).value(), script_of("2 set height=5"));
 }
 
-TEST(Recorder, forgets_what_follows_when_time_goes_back) {
+TEST(Recorder, going_back_discards_later_input) {
     const TemporaryFolder folder;
     const fs::path file = folder / "input.txt";
     Recorder recorder(OutputPath::typed(file), std::nullopt, k_camera);
@@ -100,7 +102,7 @@ TEST(Recorder, replays_a_recording_in_any_order) {
     EXPECT_TRUE(recorder.finish({})) << "it writes nothing";
 }
 
-TEST(Recorder, a_live_filler_keeps_the_state) {
+TEST(Recorder, live_input_keeps_the_state) {
     render::FrameState state;
     turned_to(3).fill(state);
     Recorder({}, std::nullopt, k_camera).filler()(state);
@@ -156,7 +158,7 @@ TEST(Recorder, reports_a_picture_that_cannot_be_written) {
     EXPECT_EQ(finished.error().code, ErrorCode::write);
 }
 
-TEST(Recorder, saves_the_next_frame_once) {
+TEST(Recorder, saves_the_next_frame_only) {
     Recorder recorder({}, std::nullopt, k_camera);
     EXPECT_FALSE(recorder.take_save());
     recorder.save_next();
@@ -164,4 +166,4 @@ TEST(Recorder, saves_the_next_frame_once) {
     EXPECT_FALSE(recorder.take_save());
 }
 
-} // namespace tidemark::cli::recorder_test
+} // namespace tidemark::window::recorder_test

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-namespace tidemark::cli::render_scale_test {
+namespace tidemark::window::render_scale_test {
 
-TEST(RenderScale, is_known_by_its_name) {
+TEST(RenderScale, has_a_name) {
     std::vector<std::string> names;
     for (const RenderScale scale : RenderScale::all())
         names.push_back(scale.name());
@@ -16,17 +16,17 @@ TEST(RenderScale, is_known_by_its_name) {
         EXPECT_EQ(RenderScale::named(other), std::nullopt) << other;
 }
 
-TEST(RenderScale, draws_whole_pixels_and_one_at_least) {
+TEST(RenderScale, draws_at_least_one_whole_pixel) {
     EXPECT_EQ(RenderScale().drawn({641, 359}), (Extent{641, 359}));
     EXPECT_EQ(RenderScale().stepped(-1).drawn({640, 359}), (Extent{320, 180}));
     EXPECT_EQ(RenderScale().stepped(1).drawn({641, 359}), (Extent{1282, 718}));
     EXPECT_EQ(RenderScale().stepped(-3).drawn({3, 100}), (Extent{1, 13}));
 }
 
-TEST(RenderScale, steps_end_where_there_are_no_more) {
+TEST(RenderScale, steps_end_at_the_limits) {
     EXPECT_EQ(RenderScale().stepped(-9).name(), "1/8");
     EXPECT_EQ(RenderScale().stepped(9).name(), "2");
     EXPECT_EQ(RenderScale().stepped(1).steps_from(RenderScale().stepped(-3)), 4);
 }
 
-} // namespace tidemark::cli::render_scale_test
+} // namespace tidemark::window::render_scale_test

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
-namespace tidemark::cli::timeline_test {
+namespace tidemark::window::timeline_test {
+
+using namespace host;
 
 using render::FrameInputs;
 using render::FrameState;
@@ -13,7 +15,7 @@ using render::inputs_of_frame;
 
 constexpr double k_delta = 1 / 60.0;
 
-TEST(Timeline, starts_at_frame_0_and_time_0_whatever_the_clock_says) {
+TEST(Timeline, starts_at_frame_0_and_time_0_for_any_clock) {
     Timeline clock(1000);
     const FrameInputs first = inputs_of(clock.next_frame(1000));
     EXPECT_EQ(first.frame, 0);
@@ -31,7 +33,7 @@ TEST(Timeline, runs_with_the_wall_clock) {
     EXPECT_EQ(second.time_delta, 0.5);
 }
 
-TEST(Timeline, follows_frames_where_it_is_told_to) {
+TEST(Timeline, counts_frames_if_configured) {
     Timeline clock(1000, 25, Timeline::Source::frames);
     (void)clock.next_frame(1000);
     const auto expect_frame = [&](int number) {
@@ -45,7 +47,7 @@ TEST(Timeline, follows_frames_where_it_is_told_to) {
     expect_frame(1);
     expect_frame(2);
     clock.toggle_pause(1010);
-    expect_frame(3); // drawn because somebody drags
+    expect_frame(3); // drawn during a drag
     clock.step(-1, 1011);
     expect_frame(2);
     clock.step(1, 1012);
@@ -90,7 +92,7 @@ TEST(Timeline, resumes_where_it_stood) {
     EXPECT_EQ(clock.next_frame(100.75).time_delta, 0.25);
 }
 
-TEST(Timeline, a_rest_is_no_frames_delta) {
+TEST(Timeline, a_rest_does_not_count_in_the_delta) {
     Timeline clock(0);
     (void)clock.next_frame(1);
     clock.rest();
@@ -102,7 +104,7 @@ TEST(Timeline, a_rest_is_no_frames_delta) {
     EXPECT_EQ(clock.next_frame(9.25).time_delta, 0.25);
 }
 
-TEST(Timeline, restart_begins_anew) {
+TEST(Timeline, restart_resets_frame_and_time) {
     Timeline clock(0);
     (void)clock.next_frame(1);
     (void)clock.next_frame(2);
@@ -124,7 +126,7 @@ TEST(Timeline, restart_keeps_a_pause) {
     EXPECT_EQ(clock.next_frame(6).time, 1);
 }
 
-TEST(Timeline, a_step_pauses_and_goes_on_by_one_frame) {
+TEST(Timeline, a_step_pauses_and_advances_one_frame) {
     Timeline clock(0, 50);
     for (int i = 0; i < 3; ++i)
         (void)clock.next_frame(1);
@@ -148,7 +150,7 @@ TEST(Timeline, a_step_back_shows_the_frame_before) {
     EXPECT_EQ(back.time, 1.48);
 }
 
-TEST(Timeline, no_step_goes_before_the_start) {
+TEST(Timeline, steps_end_at_the_start) {
     Timeline clock(0, 50);
     (void)clock.next_frame(0);
     clock.step(-10, 0.1);
@@ -168,7 +170,7 @@ TEST(Timeline, the_rate_is_a_mean_over_half_a_second) {
     EXPECT_NEAR(clock.next_frame(1.0001).fps, 20, 0.01);
 }
 
-TEST(Timeline, the_time_of_a_pause_is_no_part_of_the_rate) {
+TEST(Timeline, the_time_of_a_pause_does_not_count_in_the_rate) {
     Timeline clock(0);
     for (int i = 0; i < 20; ++i)
         (void)clock.next_frame(i * 0.01);
@@ -179,7 +181,7 @@ TEST(Timeline, the_time_of_a_pause_is_no_part_of_the_rate) {
     EXPECT_EQ(clock.next_frame(100.5).fps, 4);
 }
 
-TEST(Timeline, goes_to_a_frame_and_on_from_there) {
+TEST(Timeline, a_seek_continues_from_its_frame) {
     Timeline clock(1000);
     (void)clock.next_frame(1000);
     clock.seek(5, 300, 1001);
@@ -202,7 +204,7 @@ TEST(Timeline, runs_at_another_speed_and_back_to_0) {
     EXPECT_EQ(clock.time(1010), 0);
 }
 
-TEST(Timeline, a_frame_that_is_given_back_was_none) {
+TEST(Timeline, a_returned_frame_is_not_counted) {
     Timeline clock(0);
     clock.next_frame(0);
     clock.next_frame(1);
@@ -218,7 +220,7 @@ TEST(Timeline, a_frame_that_is_given_back_was_none) {
     EXPECT_EQ(counted.next_frame(0).seconds(), 0);
 }
 
-TEST(Timeline, keeps_what_the_clock_does_not_set) {
+TEST(Timeline, keeps_settings_independent_of_the_clock) {
     Timeline clock(0);
     const FrameState state = clock.next_frame(0.5, {.frame = 7, .fps = 24, .bpm = 90});
     EXPECT_EQ(state.bpm, 90);
@@ -276,13 +278,14 @@ TEST(Timeline, a_loop_backwards_jumps_to_its_end) {
 
 TEST(Timeline, a_loop_needs_two_ends_in_order) {
     Timeline clock(0);
-    for (const live::SetLoop& none : {live::SetLoop{.from = 1}, {.to = 1}, {.from = 2, .to = 1}, {1, 1}}) {
+    for (const overlay::SetLoop& none :
+         {overlay::SetLoop{.from = 1}, {.to = 1}, {.from = 2, .to = 1}, {1, 1}}) {
         clock.set_loop(none);
         EXPECT_EQ(clock.loop_jump(5), std::nullopt);
     }
 }
 
-TEST(Timeline, a_time_without_a_viewer_is_no_frames_delta) {
+TEST(Timeline, time_without_a_viewer_does_not_count_in_the_delta) {
     Timeline clock(0);
     (void)clock.next_frame(1);
     clock.watch(false, 1);
@@ -294,7 +297,7 @@ TEST(Timeline, a_time_without_a_viewer_is_no_frames_delta) {
     EXPECT_EQ(clock.next_frame(9).time_delta, k_delta);
 }
 
-TEST(Timeline, begins_again_with_the_first_picture) {
+TEST(Timeline, restarts_with_the_first_picture) {
     Timeline clock(0, 50);
     clock.set_loop({.from = 1, .to = 3});
     clock.begin_next_scene_at(2);
@@ -309,7 +312,7 @@ TEST(Timeline, begins_again_with_the_first_picture) {
     EXPECT_EQ(clock.take_next_scene_time(), std::nullopt) << "once";
 }
 
-TEST(Timeline, the_bars_range_holds_while_it_is_pressed) {
+TEST(Timeline, the_range_of_the_bar_is_fixed_while_dragging) {
     Timeline clock(0);
     const auto end_at = [&](double seconds) { return clock.field({.time = seconds}).bar_end; };
     EXPECT_EQ(end_at(200), 320);
@@ -342,7 +345,7 @@ TEST(Timeline, fills_the_time_bar) {
     clock.set_loop({.from = 1});
     clock.set_speed(0.5, 0);
     clock.toggle_pause(0);
-    const live::TimeField field = clock.field({.frame = 7, .time = 3.5});
+    const overlay::TimeField field = clock.field({.frame = 7, .time = 3.5});
     EXPECT_EQ(field.seconds, 3.5);
     EXPECT_EQ(field.frame, 7);
     EXPECT_TRUE(field.paused);
@@ -353,4 +356,4 @@ TEST(Timeline, fills_the_time_bar) {
     EXPECT_TRUE(Timeline(0).field({}).has_speed);
 }
 
-} // namespace tidemark::cli::timeline_test
+} // namespace tidemark::window::timeline_test

@@ -5,7 +5,7 @@
 
 #include <ostream>
 
-namespace tidemark::platform {
+namespace tidemark::window {
 namespace fs = std::filesystem;
 
 void PrintTo(const Waypoint& waypoint, std::ostream* out) {
@@ -23,7 +23,7 @@ TEST(WatchTrail, plain_file) {
     EXPECT_EQ(trail_of(folder / "./x/../a.glsl"), (Trail{{folder.path(), "x"}}));
 }
 
-TEST(WatchTrail, a_slash_at_the_end_is_whatever_is_in_the_folder) {
+TEST(WatchTrail, a_slash_at_the_end_watches_the_folder) {
     const TemporaryFolder folder;
     fs::create_directory(folder / "real");
     fs::create_symlink("real", folder / "link");
@@ -64,7 +64,7 @@ TEST(WatchTrail, dot_dot_after_a_linked_folder_is_the_parent_of_the_target) {
               (Trail{{folder.path(), "link"}, {folder / "deep", "a.glsl"}}));
 }
 
-TEST(WatchTrail, ends_at_the_first_missing_name) {
+TEST(WatchTrail, stops_at_the_first_missing_name) {
     const TemporaryFolder folder;
     EXPECT_EQ(trail_of(folder / "a.glsl"), (Trail{{folder.path(), "a.glsl"}}));
     EXPECT_EQ(trail_of(folder / "x/y/a.glsl"), (Trail{{folder.path(), "x"}}));
@@ -73,7 +73,7 @@ TEST(WatchTrail, ends_at_the_first_missing_name) {
               (Trail{{folder.path(), "dangling"}, {folder.path(), "nowhere"}}));
 }
 
-TEST(WatchTrail, a_circle_of_links_ends) {
+TEST(WatchTrail, circular_links_end) {
     const TemporaryFolder folder;
     fs::create_symlink("b", folder / "a");
     fs::create_symlink("a", folder / "b");
@@ -81,4 +81,4 @@ TEST(WatchTrail, a_circle_of_links_ends) {
 }
 
 } // namespace watch_trail_test
-} // namespace tidemark::platform
+} // namespace tidemark::window

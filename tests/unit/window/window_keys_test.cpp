@@ -4,7 +4,9 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
-namespace tidemark::platform::window_keys_test {
+namespace tidemark::window::window_keys_test {
+
+using namespace host;
 
 int code(int glfw_key, const char* name = nullptr) {
     return js_key_code(key_from_glfw(glfw_key, name));
@@ -33,13 +35,13 @@ TEST(WindowKeys, have_the_codes_of_javascript) {
     EXPECT_EQ(code(GLFW_KEY_APOSTROPHE), 222);
 }
 
-TEST(WindowKeys, letters_are_where_the_layout_has_them) {
+TEST(WindowKeys, letters_follow_the_layout) {
     EXPECT_EQ(code(GLFW_KEY_Y, "z"), 90);
     EXPECT_EQ(code(GLFW_KEY_Q, "A"), 65);
     EXPECT_EQ(code(GLFW_KEY_SEMICOLON, "m"), 77);
 }
 
-TEST(WindowKeys, other_names_go_by_the_place_on_the_keyboard) {
+TEST(WindowKeys, other_keys_follow_their_place) {
     EXPECT_EQ(code(GLFW_KEY_A, "ф"), 65);
     EXPECT_EQ(code(GLFW_KEY_1, "&"), 49);
     EXPECT_EQ(code(GLFW_KEY_SEMICOLON, "ö"), 186);
@@ -66,5 +68,5 @@ TEST(WindowKeys, every_key_of_glfw_but_f25_has_a_code_in_shadertoys_texture) {
     EXPECT_EQ(code(GLFW_KEY_UNKNOWN), 0);
 }
 
-} // namespace tidemark::platform::window_keys_test
+} // namespace tidemark::window::window_keys_test
 #endif

@@ -1,0 +1,550 @@
+#include "lab/device_difference.hpp"
+
+#include "base/measurement.hpp"
+#include "lab/exploration.hpp"
+#include "lab/instrumented_pass.hpp"
+#include "lab/text_findings.hpp"
+#include "media/comparison.hpp"
+#include "shader/variation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+#include <span>
+#include <utility>
+
+namespace tidemark::lab {
+namespace {
+
+/// A model moves a pixel if a sample changes by this part of what makes two pixels differ.
+constexpr double k_moved = 0.5;
+/// A model that draws all but this share of the differing pixels as the other device does reproduces it.
+constexpr double k_left_over = 0.1;
+/// Largest number of causes that are reported for one difference.
+constexpr size_t k_most_causes = 3;
+/// A cause is named if it moves at least this share of the pixels in addition to those before it.
+constexpr double k_least_gain = 0.02;
+/// The share of a model's gain that it loses if it moves all pixels that do not differ.
+constexpr double k_cost_elsewhere = 0.1;
+/// Lines that are named of one cause.
+constexpr size_t k_most_lines = 3;
+/// The lines that are named carry this share of what all lines do.
+constexpr double k_share_of_lines = 0.8;
+/// A buffer's sample comes near the other device's if this part of the difference is left.
+constexpr double k_nearer = 0.1;
+/// If a text explains this share of the difference, no other text is tried.
+constexpr double k_all_met = 0.98;
+/// Seconds after which no other model is tried, and no line narrowed down.
+constexpr double k_enough_seconds = 60;
+
+/// A freedom of devices that a changed text imitates; the cause is named as `check` names its probe.
+struct Model {
+    std::string name;
+    glsl::VariedArithmetic arithmetic;
+};
+
+std::vector<Model> device_models() {
+    std::vector<Model> models{{"sine", glsl::varied_sines()}};
+    for (glsl::VariedArithmetic& operations : glsl::varied_operations())
+        models.push_back({"rounding", std::move(operations)});
+    models.push_back(
+        {"mipmaps",
+         {glsl::vary_mipmaps, {{1, "a mipmap half a level coarser"}, {2, "a mipmap half a level finer"}}}});
+    models.push_back(
+        {"derivatives",
+         {glsl::vary_derivatives,
+          {{1, "derivatives of each pixel of a block of 2x2"}, {2, "one derivative for a block of 2x2"}}}});
+    models.push_back({"mediump", {glsl::vary_halves, {{1, "`mediump` numbers in half floats"}}}});
+    return models;
+}
+
+/// Returns the models that are tried beside SwiftShader's own arithmetic.
+std::vector<Model> models_beside_swiftshader() {
+    return {
+        {"derivatives",
+         {glsl::vary_derivatives,
+          {{1, "derivatives of each pixel of a block of 2x2"}, {2, "one derivative for a block of 2x2"}}}},
+        {"rounding", {glsl::vary_precision, {{0, "everything `precise`"}}}},
+        {"rounding", {glsl::vary_order, {{0, "sums added in reverse order"}}}}};
+}
+
+/// Beside the bits of glsl::SwiftShaderPart: the texels of mipmaps (ExactMipmaps).
+constexpr int k_mipmap_contents = 1 << glsl::k_swiftshader_parts;
+
+/// A part of SwiftShader's arithmetic, as a cause.
+struct SwiftPart {
+    int part;
+    const char* name;
+    const char* says;
+};
+/// In the order in which they are left out: parts with the smallest effect first.
+constexpr SwiftPart k_swift_parts[] = {
+    {k_mipmap_contents, "mipmaps", "mipmaps rounded to the nearest byte, not upwards"},
+    {int(glsl::SwiftShaderPart::weights), "filter", "SwiftShader's weights of linear texture filters"},
+    {int(glsl::SwiftShaderPart::products), "rounding",
+     "SwiftShader's roundings of dot products, matrices, quotients and mix"},
+    {int(glsl::SwiftShaderPart::mipmaps), "mipmaps", "SwiftShader's choice of the mipmap"},
+    {int(glsl::SwiftShaderPart::outside), "undefined",
+     "SwiftShader's values where a function or an operator is undefined"},
+    {int(glsl::SwiftShaderPart::powers), "functions", "SwiftShader's pow, exp and log"},
+    {int(glsl::SwiftShaderPart::arcs), "functions", "SwiftShader's atan, asin and acos"},
+    {int(glsl::SwiftShaderPart::sines), "sine", "SwiftShader's sines, which are up to 1.5e-4 off"},
+};
+static_assert(std::size(k_swift_parts) == glsl::k_swiftshader_parts + 1);
+
+/// The last resort: a text that amplifies the last bits of what it computes or is given.
+std::vector<Model> last_bit_models() {
+    return {
+        {"rounding", {glsl::vary_last_bits, {{1, "the last bits of what it computes, which it amplifies"}}}},
+        {"rounding", glsl::varied_inputs()}};
+}
+
+size_t count(const Mask& mask) {
+    return size_t(std::ranges::count(mask, true));
+}
+
+/// Returns the pixels of the mask and their eight neighbours.
+Mask grown(const Mask& mask, Extent extent) {
+    Mask result(mask.size());
+    for (int y = 0; y < extent.height; ++y)
+        for (int x = 0; x < extent.width; ++x) {
+            if (!mask[size_t(y) * size_t(extent.width) + size_t(x)])
+                continue;
+            for (int v = std::max(y - 1, 0); v <= std::min(y + 1, extent.height - 1); ++v)
+                for (int u = std::max(x - 1, 0); u <= std::min(x + 1, extent.width - 1); ++u)
+                    result[size_t(v) * size_t(extent.width) + size_t(u)] = true;
+        }
+    return result;
+}
+
+Mask both(const Mask& left, const Mask& right) {
+    Mask result(left.size());
+    for (size_t i = 0; i < left.size(); ++i)
+        result[i] = left[i] && right[i];
+    return result;
+}
+
+Mask either(const Mask& left, const Mask& right) {
+    Mask result(left.size());
+    for (size_t i = 0; i < left.size(); ++i)
+        result[i] = left[i] || right[i];
+    return result;
+}
+
+/// The effect of a model on the pixels in question.
+struct Effect {
+    DeviceCause cause;
+    Mask moved{};         ///< grown
+    size_t elsewhere = 0; ///< moved pixels that do not differ, nor do their neighbours
+    Mask together{};      ///< what all effects of SwiftShader's arithmetic draw as the other device does
+    // To change fewer places; not of calls outside of a function's domain, whose place is known.
+    glsl::VariedArithmetic arithmetic{};
+    int mode = 0;
+    std::vector<glsl::NodeId> places{};
+};
+
+/// Tries models on one pass.
+class Explainer {
+public:
+    Explainer(const PassPreview& preview, const PassText& text, const image::Image& here,
+              const image::Image& there, PictureKind kind, Mask question, const Stopwatch& watch, bool strict)
+        : preview_(preview), text_(text), here_(here), there_(there), kind_(kind), watch_(watch),
+          strict_(strict), question_(std::move(question)), near_(grown(question_, here.extent)),
+          asked_(count(question_)) {}
+
+    /// Stops early when a model reproduces the other device.
+    void try_models(const std::vector<Model>& models) {
+        for (const Model& model : models)
+            for (const glsl::VariationMode& mode : model.arithmetic.modes) {
+                if (!has_time() || reproduced())
+                    return;
+                try_model(model, mode);
+            }
+    }
+    bool reproduced() const {
+        return std::ranges::any_of(effects_, [](const Effect& e) { return e.cause.reproduced; });
+    }
+
+    /// Draws with SwiftShader's arithmetic. The parts that are needed to draw what the other device drew, or
+    /// most of it, are causes.
+    void try_swiftshader(ExactMipmaps& mipmaps) {
+        int present = mipmaps.any() ? k_mipmap_contents : 0;
+        for (glsl::NodeId id = 1; id < text_.text->tree().nodes.size(); ++id)
+            present |= glsl::swiftshader_parts(*text_.text, text_.facts, id);
+        if (!mipmaps.any())
+            present &= ~int(glsl::SwiftShaderPart::mipmaps);
+        std::optional<SwiftDrawing> best, plain;
+        for (const bool precise : {false, true}) {
+            auto drawing = has_time() ? link_swiftshader(present, precise) : std::nullopt;
+            if (!drawing)
+                continue;
+            drawing->met = met_with(*drawing, present, mipmaps);
+            if (best && drawing->share() < best->share() + k_least_gain)
+                continue;
+            plain = std::exchange(best, std::move(drawing));
+            if (best->share() >= k_all_met)
+                break;
+        }
+        if (best && best->share() >= k_least_gain)
+            add_swift_effects(*best, plain ? &*plain : nullptr, present, mipmaps);
+        mipmaps.use(false);
+    }
+
+    /// Tries other values for each call outside of a function's domain.
+    void try_undefined() {
+        auto watched = WatchedDomains::link(preview_, text_, here_.extent);
+        if (!watched) {
+            problem_ = to_string(watched.error());
+            return;
+        }
+        const PixelGrid whole{};
+        const std::vector<uint32_t> words = watched->draw(preview_, whole);
+        const auto& sites = watched->watch().sites;
+        for (size_t i = 0; i < sites.size(); ++i) {
+            const glsl::DomainReading reading = reading_of(watched->watch(), words, i);
+            if (reading.count == 0 || place_of_site(*text_.text, sites[i]).empty())
+                continue;
+            std::string says = domain_sentence(*text_.text, sites[i], reading);
+            says = says.substr(0, says.rfind(" ("));
+            for (const double value : {std::numeric_limits<double>::quiet_NaN(), 0.0, 1.0}) {
+                Effect effect =
+                    measured(watched->picture_with(preview_, whole, i, value), {"undefined", says});
+                effect.cause.places = {location_of_site(*text_.text, sites[i])};
+                if (effect.cause.moved > 0)
+                    effects_.push_back(std::move(effect));
+            }
+        }
+    }
+
+    /// Chooses the effects that move the pixels in question, the best first, and returns the share that they
+    /// move together.
+    double choose() {
+        chosen_.clear();
+        Mask covered(question_.size());
+        double explained = 0;
+        for (const Effect& effect : effects_) {
+            if (effect.together.empty())
+                continue;
+            chosen_.push_back(&effect);
+            covered = effect.together;
+            explained = share(covered);
+        }
+        std::ranges::stable_sort(chosen_, std::greater{}, [](const Effect* e) { return e->cause.moved; });
+        chosen_.resize(std::min(chosen_.size(), k_most_causes));
+        while (chosen_.size() < k_most_causes && explained < k_explained_share) {
+            const Effect* best = nullptr;
+            double best_gain = k_least_gain;
+            for (const Effect& effect : effects_) {
+                const double elsewhere = double(effect.elsewhere) / double(question_.size());
+                const double gain = share(either(covered, effect.moved)) - explained -
+                                    k_cost_elsewhere * elsewhere + (effect.cause.reproduced ? 1 : 0);
+                if (gain > best_gain) {
+                    best = &effect;
+                    best_gain = gain;
+                }
+            }
+            if (!best)
+                break;
+            covered = either(covered, best->moved);
+            explained = best->cause.reproduced ? 1 : share(covered);
+            chosen_.push_back(best);
+        }
+        return explained;
+    }
+
+    /// Returns the chosen causes with their lines.
+    std::vector<DeviceCause> causes() {
+        std::vector<DeviceCause> causes;
+        for (const Effect* effect : chosen_) {
+            causes.push_back(effect->cause);
+            if (causes.back().places.empty())
+                causes.back().places = lines_of(*effect);
+        }
+        return causes;
+    }
+
+    const std::string& problem() const { return problem_; }
+    bool asked() const { return asked_ > 0; }
+
+private:
+    bool has_time() const { return watch_.elapsed().wall < 1000 * k_enough_seconds; }
+
+    /// SwiftShader's arithmetic, linked, and the pixels in question in which it meets the other device.
+    struct SwiftDrawing {
+        glsl::Variation varied;
+        StandIn stand_in;
+        bool precise;
+        size_t asked;
+        Mask met{};
+        double share() const { return double(count(met)) / double(asked); }
+    };
+
+    std::optional<SwiftDrawing> link_swiftshader(int parts, bool precise) {
+        glsl::Variation varied = glsl::vary_like_swiftshader(*text_.text, text_.facts, parts, precise);
+        auto stand_in = StandIn::link(preview_, varied.text, "a variation of the text");
+        if (!stand_in) {
+            problem_ = to_string(stand_in.error());
+            return std::nullopt;
+        }
+        return SwiftDrawing{std::move(varied), *std::move(stand_in), precise, asked_};
+    }
+
+    image::Image picture_with(SwiftDrawing& drawing, int parts, ExactMipmaps& mipmaps) const {
+        mipmaps.use((parts & k_mipmap_contents) != 0);
+        drawing.stand_in.set(drawing.varied.mode_uniform, parts);
+        drawing.stand_in.draw(preview_);
+        return drawing.stand_in.picture();
+    }
+
+    Mask met_with(SwiftDrawing& drawing, int parts, ExactMipmaps& mipmaps) const {
+        return met(picture_with(drawing, parts, mipmaps));
+    }
+
+    /// Returns the pixels in question that are drawn as on the other device; of a buffer, also those that
+    /// come ten times nearer: what the next pass makes of the rest is tried with that pass.
+    Mask met(const image::Image& varied) const {
+        Mask mask = differing(varied, there_, same_pixel(kind_), kind_);
+        const size_t left = size_t(varied.channels), own = size_t(here_.channels),
+                     other = size_t(there_.channels);
+        const auto is_near = [&](size_t pixel) {
+            for (size_t channel = 0; channel < 4; ++channel) {
+                const double target = there_.f32()[pixel * other + channel];
+                const double before = std::abs(here_.f32()[pixel * own + channel] - target);
+                const double after = std::abs(varied.f32()[pixel * left + channel] - target);
+                if (!(after <= std::max(same_pixel(kind_), k_nearer * before)))
+                    return false;
+            }
+            return true;
+        };
+        for (size_t i = 0; i < mask.size(); ++i)
+            mask[i] = question_[i] && (!mask[i] || (kind_ == PictureKind::buffer && is_near(i)));
+        return mask;
+    }
+
+    /// Leaves out the parts that are not needed, and adds an effect for each of the others. `plain`: the text
+    /// without `precise` variables, if `best` has them and meets more.
+    void add_swift_effects(SwiftDrawing& best, const SwiftDrawing* plain, int present,
+                           ExactMipmaps& mipmaps) {
+        const double enough = double(count(best.met)) - k_least_gain * double(asked_);
+        int needed = present;
+        for (const SwiftPart& part : k_swift_parts)
+            if ((needed & part.part) != 0 && has_time())
+                if (Mask met = met_with(best, needed & ~part.part, mipmaps); double(count(met)) >= enough) {
+                    needed &= ~part.part;
+                    best.met = std::move(met);
+                }
+        const auto add = [&](DeviceCause cause, const Mask& others, Effect effect) {
+            effect.cause = std::move(cause);
+            effect.cause.pass = kind_ == PictureKind::image ? "" : preview_.pass().name;
+            effect.moved = best.met;
+            for (size_t i = 0; i < others.size(); ++i)
+                effect.moved[i] = best.met[i] && !others[i]; // the pixels that need it
+            effect.cause.moved = share(effect.moved);
+            effect.cause.reproduced = best.share() >= k_explained_share;
+            effect.together = best.met;
+            effects_.push_back(std::move(effect));
+        };
+        if (plain)
+            add({"rounding", "every operation in the order of the text, and none left out"}, plain->met, {});
+        for (const SwiftPart& part : k_swift_parts) {
+            if ((needed & part.part) == 0)
+                continue;
+            Effect effect;
+            effect.mode = part.part;
+            effect.arithmetic.vary = [part, precise = best.precise](const glsl::ParsedText& text,
+                                                                    const glsl::TreeFacts& facts,
+                                                                    const glsl::MayVary& may) {
+                return glsl::vary_like_swiftshader(text, facts, part.part, precise, may);
+            };
+            const int uses = part.part == k_mipmap_contents ? int(glsl::SwiftShaderPart::mipmaps) : part.part;
+            for (const glsl::NodeId id : best.varied.places)
+                if ((glsl::swiftshader_parts(*text_.text, text_.facts, id) & uses) != 0)
+                    effect.places.push_back(id);
+            add({part.name, part.says}, met_with(best, needed & ~part.part, mipmaps), std::move(effect));
+        }
+    }
+
+    double share(const Mask& moved) const {
+        return asked_ == 0 ? 0 : double(count(both(question_, moved))) / double(asked_);
+    }
+
+    Effect measured(const image::Image& varied, DeviceCause cause) const {
+        const Mask moved = differing(here_, varied, k_moved * same_pixel(kind_), kind_);
+        Effect effect{std::move(cause), strict_ ? met(varied) : grown(moved, here_.extent)};
+        effect.cause.pass = kind_ == PictureKind::image ? "" : preview_.pass().name;
+        effect.cause.moved = share(effect.moved);
+        effect.cause.reproduced = double(count(differing(varied, there_, same_pixel(kind_), kind_))) <=
+                                  k_left_over * double(asked_);
+        for (size_t i = 0; i < moved.size(); ++i)
+            effect.elsewhere += moved[i] && !near_[i];
+        return effect;
+    }
+
+    /// Returns the picture with a variation of the text; nothing if it has no places, or if the driver
+    /// refuses it.
+    std::optional<image::Image> picture_with(const glsl::Variation& varied, int mode) {
+        if (varied.places.empty())
+            return std::nullopt;
+        auto stand_in = StandIn::link(preview_, varied.text, "a variation of the text");
+        if (!stand_in) {
+            problem_ = to_string(stand_in.error());
+            return std::nullopt;
+        }
+        stand_in->set(varied.mode_uniform, mode);
+        stand_in->draw(preview_);
+        return stand_in->picture();
+    }
+
+    void try_model(const Model& model, const glsl::VariationMode& mode) {
+        glsl::Variation varied = model.arithmetic.vary(*text_.text, text_.facts, {});
+        const auto picture = picture_with(varied, mode.number);
+        if (!picture)
+            return;
+        Effect effect = measured(*picture, {model.name, mode.name});
+        effect.arithmetic = model.arithmetic;
+        effect.mode = mode.number;
+        effect.places = std::move(varied.places);
+        if (effect.cause.moved > 0)
+            effects_.push_back(std::move(effect));
+    }
+
+    /// Returns up to three lines that carry an effect: it is switched on in ever fewer lines, as long as
+    /// those move nearly as many pixels.
+    std::vector<SourceLocation> lines_of(const Effect& effect) {
+        using Line = std::pair<std::pair<std::string, int>, std::set<glsl::NodeId>>;
+        std::map<std::pair<std::string, int>, std::set<glsl::NodeId>> by_line;
+        for (const glsl::NodeId id : effect.places) {
+            const SourceLocation where = text_.text->spelled(text_.text->tree()[id].word);
+            if (!where.file.empty())
+                by_line[{where.file, where.line}].insert(id);
+        }
+        const auto moves = [&](std::span<const Line> some) {
+            const auto may = [&](glsl::NodeId id) {
+                return std::ranges::any_of(some, [&](const Line& line) { return line.second.contains(id); });
+            };
+            const auto picture =
+                picture_with(effect.arithmetic.vary(*text_.text, text_.facts, may), effect.mode);
+            return picture ? measured(*picture, {}).cause.moved : 0.0;
+        };
+        std::vector<Line> left(by_line.begin(), by_line.end());
+        while (left.size() > 1 && has_time()) {
+            const size_t half = left.size() / 2;
+            const double front = moves(std::span(left).first(half)),
+                         back = moves(std::span(left).subspan(half));
+            if (std::max(front, back) < k_share_of_lines * effect.cause.moved)
+                break;
+            if (front >= back)
+                left.resize(half);
+            else
+                left.erase(left.begin(), left.begin() + ptrdiff_t(half));
+        }
+        std::vector<SourceLocation> places;
+        for (const Line& line : std::span(left).first(std::min(left.size(), k_most_lines)))
+            places.push_back({line.first.first, line.first.second});
+        return places;
+    }
+
+    const PassPreview& preview_;
+    const PassText& text_;
+    const image::Image& here_;
+    const image::Image& there_;
+    PictureKind kind_;
+    const Stopwatch& watch_;
+    bool strict_; ///< a model counts where it draws what the other device draws, not where it moves pixels
+    Mask question_, near_;
+    size_t asked_;
+    std::vector<Effect> effects_;
+    std::vector<const Effect*> chosen_; ///< of effects_; valid until a model is tried
+    std::string problem_;
+};
+
+/// Draws a pass with its own program.
+Result<image::Image> drawn_own(const PassPreview& preview) {
+    auto target = gl::make_render_target(gl::make_texture(preview.extent(), GL_RGBA32F, 1));
+    if (!target)
+        return fail(ErrorCode::no_memory, "no memory for a picture");
+    preview.draw(preview.program(), *target);
+    image::Image picture(preview.extent(), 4, image::SampleType::f32);
+    gl::read_pixels(*target, GL_RGBA, GL_FLOAT, picture.bytes);
+    return picture;
+}
+
+} // namespace
+
+// At 1.3 SwiftShader's sine is 1.2e-4 off.
+const std::string_view k_swiftshader_test = "void mainImage(out vec4 c, in vec2 p) { c = vec4(step(1e-5, "
+                                            "abs(sin(1.3 + min(iTime, 0.0)) - 0.963558185))); }";
+
+Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const FrameState& state,
+                     const std::vector<PassPicture>& there, OtherDevice other) {
+    const Stopwatch watch;
+    const auto here = TRY(bench.passes(state));
+    auto texts = read_texts(bench, false);
+    if (!texts) {
+        difference.problem = "the text cannot be analysed: " + to_string(texts.error());
+        return {};
+    }
+    // SwiftShader's passes in the order in which they are drawn, each with its pictures of those before it,
+    // so that each difference is explained where it begins. Else Image first, with the buffers as they are
+    // here; where that explains too little, the buffers follow: Image may amplify what they differ by.
+    const bool known = other == OtherDevice::swiftshader;
+    if (!known)
+        std::stable_partition(texts->begin(), texts->end(),
+                              [&](const PassText& text) { return text.pass == bench.scene().image_index(); });
+    const render::Renderer* const renderer = TRY(bench.drawn(state));
+    bool first = true;
+    for (const PassText& text : *texts) {
+        const bool is_image = text.pass == bench.scene().image_index();
+        const std::string& name = bench.scene().passes[text.pass].name;
+        const image::Image *own = picture_of(here, name), *others = picture_of(there, name);
+        if (!own || !others || own->extent != others->extent)
+            continue;
+        const PictureKind kind = is_image ? PictureKind::image : PictureKind::buffer;
+        const auto preview = TRY(bench.preview(state, text.pass));
+        image::Image fed;
+        if (known && use_pictures(*renderer, text.pass, there)) {
+            fed = TRY(drawn_own(preview));
+            own = &fed;
+        }
+        const image::Image asked = is_image ? comparable(*own, *others) : *own;
+        Explainer explainer(preview, text, *own, *others, kind,
+                            differing(asked, *others, same_pixel(kind), kind), watch, known);
+        if (!explainer.asked())
+            continue;
+        if (known) {
+            ExactMipmaps mipmaps(*renderer, text.pass);
+            explainer.try_swiftshader(mipmaps);
+            explainer.try_models(models_beside_swiftshader());
+        } else {
+            explainer.try_models(device_models());
+            if (!explainer.reproduced())
+                explainer.try_undefined();
+        }
+        double explained = explainer.choose();
+        if (explained < k_explained_share && !known) {
+            explainer.try_models(last_bit_models());
+            explained = explainer.choose();
+        }
+        if (difference.problem.empty())
+            difference.problem = explainer.problem();
+        if (known) {
+            difference.explained = first ? explained : std::min(difference.explained, explained);
+            first = false;
+            for (DeviceCause& cause : explainer.causes())
+                difference.causes.push_back(std::move(cause));
+        } else if (explained > difference.explained) {
+            difference.explained = explained;
+            difference.causes = explainer.causes();
+        }
+        if (!known && difference.explained >= k_explained_share)
+            break;
+    }
+    return {};
+}
+
+} // namespace tidemark::lab

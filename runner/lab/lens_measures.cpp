@@ -1,0 +1,510 @@
+// Reads the numbers of a lens from a drawn frame: from an instrumented text, from pictures with other
+// arithmetic, and from proofs of rays. Counts the lines of a text that cost most.
+
+#include "base/encoding.hpp"
+#include "base/error.hpp"
+#include "lab/instrumented_pass.hpp"
+#include "lab/lens.hpp"
+#include "lab/march_hits.hpp"
+#include "lab/pass_function.hpp"
+#include "lab/probe_inputs.hpp"
+#include "render/frame_stepper.hpp"
+#include "shader/variation.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <map>
+
+namespace tidemark::lab {
+namespace {
+
+using Mark = LensNumbers::Mark;
+
+float shown(float sample) {
+    return sample > 0 ? std::min(sample, 1.0f) : 0;
+}
+
+/// The bytes of a picture's colours as an instrumented text computes them.
+uint32_t bytes_of_colour(const float* colour) {
+    uint32_t bytes = 0;
+    for (int i = 0; i < 3; ++i)
+        bytes = 256 * bytes + uint32_t(std::floor(shown(colour[i]) * 255.0f + 0.5f));
+    return bytes;
+}
+
+constexpr float k_marked_factor = 4294967296.0f;
+
+/// Splits what `$lens` returned (shader/lens_text.hpp).
+struct LensPixel {
+    Mark mark;
+    uint32_t bytes;
+
+    explicit LensPixel(float packed)
+        : mark(packed < 0                  ? Mark::absent
+               : packed >= k_marked_factor ? Mark::marked
+                                           : Mark::number),
+          bytes(uint32_t(std::abs(packed) / (mark == Mark::marked ? k_marked_factor : 1) - 1)) {}
+};
+
+/// A hash of all bits of a buffer's numbers, as an instrumented text computes it.
+uint32_t bits_of_numbers(const float* numbers) {
+    uint32_t hash = 1;
+    for (int i = 0; i < 4; ++i) {
+        const uint32_t bits = std::isnan(numbers[i]) ? 1 : std::bit_cast<uint32_t>(numbers[i]);
+        hash = ((hash ^ bits) * 0x9E3779B1u) ^ (hash >> 15);
+    }
+    return hash >> 8;
+}
+
+Result<LensNumbers> read_instrumented(const LensPlan& plan, const LensFrame& frame) {
+    const image::Image picture = frame.plain.read_floats(plan.pass);
+    const bool all_bits = plan.of_buffer && !frame.plain.scene().passes[plan.pass].stores_bytes;
+    const image::Image drawn = frame.drawn->read_floats(frame.drawn->shown_index());
+    const auto colours = picture.f32(), packed = drawn.f32();
+    LensNumbers numbers{.extent = drawn.extent, .components = plan.components};
+    if (plan.components == 0) {
+        numbers.components = 1;
+        for (size_t i = 0; i < packed.size(); i += 4)
+            if (packed[i + 1] != 0 || packed[i + 2] != 0)
+                numbers.components = 3;
+    }
+    size_t others = 0;
+    for (size_t i = 0; i < packed.size(); i += 4) {
+        const LensPixel pixel(packed[i + 3]);
+        others += pixel.bytes != (all_bits ? bits_of_numbers(&colours[i]) : bytes_of_colour(&colours[i]));
+        numbers.marks.push_back(pixel.mark);
+        for (int k = 0; k < numbers.components; ++k)
+            numbers.values.push_back(pixel.mark == Mark::absent ? 0 : packed[i + size_t(k)]);
+    }
+    if (others > 0)
+        return fail(ErrorCode::load, fmt::format("the instrumented text draws another picture: {} of {} "
+                                                 "pixels differ, so its numbers would not be those of the "
+                                                 "scene",
+                                                 others, drawn.extent.pixels()));
+    return numbers;
+}
+
+/// Returns the largest difference of a pixel's colours as shown, in steps of 1/255; NaN if one of them alone
+/// is NaN.
+float move_of(const float* before, const float* after) {
+    float most = 0;
+    for (int i = 0; i < 3; ++i) {
+        if (std::isnan(before[i]) != std::isnan(after[i]))
+            return std::nanf("");
+        most = std::max(most, 255 * std::abs(shown(before[i]) - shown(after[i])));
+    }
+    return most;
+}
+
+/// Returns the largest difference of a buffer's four numbers.
+float move_of_numbers(const float* before, const float* after) {
+    float most = 0;
+    for (int i = 0; i < 4; ++i) {
+        if (std::isnan(before[i]) != std::isnan(after[i]))
+            return std::nanf("");
+        if (before[i] != after[i] && !std::isnan(before[i]))
+            most = std::max(most, std::abs(before[i] - after[i]));
+    }
+    return most;
+}
+
+LensNumbers moves(const LensPlan& plan, const image::Image& before, const image::Image& after) {
+    LensNumbers numbers{.extent = before.extent};
+    const auto move = plan.of_buffer ? move_of_numbers : move_of;
+    for (size_t i = 0; i < before.f32().size(); i += 4)
+        numbers.values.push_back(move(&before.f32()[i], &after.f32()[i]));
+    numbers.marks.assign(numbers.values.size(), Mark::number);
+    return numbers;
+}
+
+LensNumbers read_error(const LensPlan& plan, const LensFrame& frame) {
+    return moves(plan, frame.plain.read_floats(plan.pass),
+                 frame.drawn->read_floats(frame.drawn->shown_index()));
+}
+
+/// Keeps for each pixel the largest move; NaN is larger than any.
+class WorstMoves {
+public:
+    explicit WorstMoves(Extent extent) {
+        numbers_.extent = extent;
+        numbers_.values.assign(extent.pixels(), 0);
+        numbers_.marks.assign(extent.pixels(), Mark::number);
+        which_.assign(extent.pixels(), 0);
+    }
+
+    void add(const std::string& name, const LensNumbers& moved) {
+        names_.push_back(name);
+        for (size_t i = 0; i < moved.values.size(); ++i)
+            if (!(moved.values[i] <= numbers_.values[i]) && !std::isnan(numbers_.values[i])) {
+                numbers_.values[i] = moved.values[i];
+                which_[i] = names_.size();
+            }
+    }
+
+    /// `left_out`: variants that the text or the driver does not allow.
+    LensNumbers take(const std::vector<std::string>& left_out) {
+        std::vector<size_t> pixels(names_.size() + 1);
+        for (const size_t each : which_)
+            ++pixels[each];
+        pixels[0] = 0;
+        const auto worst = size_t(std::ranges::max_element(pixels) - pixels.begin());
+        numbers_.note = pixels[worst] == 0 ? fmt::format("no pixel moves under {} variants", names_.size())
+                                           : fmt::format("largest most often: {}", names_[worst - 1]);
+        if (!left_out.empty())
+            numbers_.note += fmt::format("; not tried: {}", fmt::join(left_out, ", "));
+        return std::move(numbers_);
+    }
+
+private:
+    std::vector<std::string> names_;
+    std::vector<size_t> which_; ///< number of the variant that moved the pixel most; 0: none
+    LensNumbers numbers_;
+};
+
+Result<LensNumbers> read_rounding(const LensPlan& plan, const LensFrame& frame, const KeepGoing& keep_going) {
+    render::Renderer& drawn = frame.drawn ? *frame.drawn : frame.plain;
+    if (!drawn.can_draw_again() || (!plan.of_buffer && drawn.shown_index() != plan.pass))
+        return fail(ErrorCode::load,
+                    plan.of_buffer
+                        ? "the buffer reads itself or a later pass, so it cannot be drawn again with "
+                          "other arithmetic"
+                        : "another pass reads Image, so it cannot be drawn again with other "
+                          "arithmetic");
+    const auto text = TRY(read_text(drawn, drawn.shown_index()));
+    const glsl::TreeFacts facts = glsl::find_facts(*text);
+    const PassPreview preview = PassPreview::again(drawn, frame.inputs);
+    WorstMoves worst(frame.plain.extent());
+    std::vector<std::string> left_out;
+    std::vector<glsl::VariedArithmetic> all = glsl::varied_roundings();
+    all.push_back(glsl::varied_sines());
+    for (const glsl::VariedArithmetic& arithmetic : all) {
+        if (!keep_going())
+            break;
+        const glsl::Variation varied = arithmetic.vary(*text, facts, {});
+        if (varied.places.empty())
+            continue;
+        const auto pictures = draw_varied(preview, varied, arithmetic.modes);
+        if (!pictures) {
+            left_out.emplace_back(arithmetic.modes[0].name);
+            continue;
+        }
+        for (size_t i = 0; i < arithmetic.modes.size(); ++i)
+            worst.add(arithmetic.modes[i].name, moves(plan, pictures->plain, pictures->others[i]));
+    }
+    return worst.take(left_out);
+}
+
+/// Most evaluations for one ray.
+constexpr uint64_t k_most_of_a_proof = 2000;
+
+/// Returns all pixels, those of a coarse grid first.
+std::vector<glm::ivec2> coarse_to_fine(Extent extent) {
+    std::vector<glm::ivec2> pixels;
+    for (int stride = k_coarsest_stride; stride > 0; stride /= 2)
+        for (int y = 0; y < extent.height; y += stride)
+            for (int x = 0; x < extent.width; x += stride)
+                if (stride == k_coarsest_stride || x % (2 * stride) != 0 || y % (2 * stride) != 0)
+                    pixels.emplace_back(x, y);
+    return pixels;
+}
+
+/// Returns the index of the outcome in the lens's classes.
+float class_of(const ProvedRay& ray) {
+    switch (ray.outcome) {
+    case ProvedRay::Outcome::agrees: return 0;
+    case ProvedRay::Outcome::steps_over: return 1;
+    case ProvedRay::Outcome::misses: return 2;
+    default: return 3;
+    }
+}
+
+Result<LensNumbers> read_proof(const LensPlan& plan, const LensFrame& frame, const KeepGoing& keep_going) {
+    const size_t pass = plan.pass;
+    const auto function = TRY(PassFunction::create(frame.plain.scene(), frame.plain.scene().passes[pass]));
+    const proof::TextureSet textures = textures_of(frame.plain, pass);
+    const proof::FloatEvaluator start = function.frame(frame.plain, pass, frame.inputs);
+    const Extent extent = frame.plain.extent();
+    const std::vector<glm::ivec2> pixels = coarse_to_fine(extent);
+    std::vector<std::optional<ProvedRay>> rays(pixels.size());
+    std::vector<uint8_t> known(pixels.size());
+    LensNumbers numbers{.extent = extent};
+    numbers.complete = on_all_cores(pixels.size(), keep_going, [&](size_t i) {
+        proof::FloatEvaluator pixel = start;
+        function.move_to(pixel, pixels[i]);
+        rays[i] = prove_ray(function, pixel, textures, pixels[i], k_most_of_a_proof);
+        known[i] = 1;
+    });
+    numbers.values.assign(extent.pixels(), 0);
+    numbers.marks.assign(extent.pixels(), Mark::absent);
+    RayCounts counts;
+    for (size_t i = 0; i < pixels.size(); ++i) {
+        if (!rays[i])
+            continue;
+        const size_t at = size_t(pixels[i].y) * size_t(extent.width) + size_t(pixels[i].x);
+        numbers.marks[at] = Mark::number;
+        numbers.values[at] = class_of(*rays[i]);
+        counts.add(*rays[i]);
+    }
+    if (counts.undecided > 0)
+        numbers.note = fmt::format("most undecided: {}", to_string(counts.commonest()));
+    else if (counts.unknown_texture > 0)
+        numbers.note = "undecided: the march reads a texture that is not available";
+    else if (counts.unfaithful > 0)
+        numbers.note = "undecided: the march keeps more than its place on the ray";
+    return numbers;
+}
+
+} // namespace
+
+Result<LensNumbers> read_lens(const LensPlan& plan, const LensFrame& frame, const KeepGoing& keep_going) {
+    switch (plan.lens.name) {
+    case LensName::error: return read_error(plan, frame);
+    case LensName::rounding: return read_rounding(plan, frame, keep_going);
+    case LensName::proof: return read_proof(plan, frame, keep_going);
+    default: return read_instrumented(plan, frame);
+    }
+}
+
+image::Image raw_numbers(const LensNumbers& numbers) {
+    image::Image raw(numbers.extent, 4, image::SampleType::f32);
+    const auto samples = raw.f32();
+    for (size_t i = 0; i < numbers.marks.size(); ++i) {
+        for (int k = 0; k < 3; ++k)
+            samples[4 * i + size_t(k)] = k < numbers.components ? numbers.at(i, k) : 0;
+        samples[4 * i + 3] = float(numbers.marks[i]);
+    }
+    return raw;
+}
+
+namespace {
+
+using PlaceOfLine = std::pair<std::string, int>;
+
+/// Returns the trimmed text of each line of Common and of the passes.
+std::map<PlaceOfLine, std::string> lines_of_texts(const scene::Scene& scene) {
+    std::map<PlaceOfLine, std::string> texts;
+    const auto add = [&](const text::MappedText& part) {
+        const std::string& all = part.text();
+        for (size_t begin = 0, number = 1; begin < all.size(); ++number) {
+            const size_t end = std::min(all.find('\n', begin), all.size());
+            const SourceLocation where = part.lines().locate(int(number));
+            texts.try_emplace({where.file, where.line},
+                              trimmed(std::string_view(all).substr(begin, end - begin)));
+            begin = end + 1;
+        }
+    };
+    add(scene.common);
+    for (const scene::Pass& pass : scene.passes)
+        add(pass.text);
+    return texts;
+}
+
+/// A scene that counts the sites of a pass; its last knob selects four of them.
+struct CountingScene {
+    scene::Scene scene;
+    glsl::WorkText counted;
+};
+
+Result<CountingScene> counting_scene(const scene::Scene& scene, size_t pass,
+                                     const glsl::WorkWeights& weights) {
+    CountingScene counting;
+    const RewriteText rewrite = [&](const auto& text, const auto& facts) -> Result<text::MappedText> {
+        counting.counted = TRY(glsl::count_operations(text, facts, glsl::WorkAnswer::sites, weights));
+        return counting.counted.text;
+    };
+    counting.scene = TRY(with_hit_text(scene, pass, rewrite));
+    counting.scene.knobs.push_back({.name = std::string(glsl::k_sites_knob)});
+    return counting;
+}
+
+/// How often each site ran, for each group of pixels that the device runs together: the largest count of a
+/// pixel of the group.
+using RunsOfSites = std::vector<std::vector<float>>;
+
+/// Returns the sides of a group of so many pixels, as rasterisers form them of blocks of 2x2.
+Extent group_of(int lanes) {
+    Extent group{1, 1};
+    for (int pixels = 1; pixels < lanes; pixels *= 2)
+        (group.width > group.height ? group.height : group.width) *= 2;
+    return group;
+}
+
+void add_counts(const image::Image& counts, int channel, Extent group, std::vector<float>& runs) {
+    const Extent extent = counts.extent;
+    const int across = (extent.width + group.width - 1) / group.width;
+    runs.assign(size_t(across) * size_t((extent.height + group.height - 1) / group.height), 0);
+    const auto samples = counts.f32();
+    for (int y = 0; y < extent.height; ++y)
+        for (int x = 0; x < extent.width; ++x) {
+            float& most = runs[size_t(y / group.height) * size_t(across) + size_t(x / group.width)];
+            most =
+                std::max(most, samples[4 * (size_t(y) * size_t(extent.width) + size_t(x)) + size_t(channel)]);
+        }
+}
+
+/// Counts the sites in `wanted`; the others stay empty.
+Result<RunsOfSites> runs_of_sites(const CountingScene& counting, std::string_view pass,
+                                  const std::vector<bool>& wanted, const render::FrameState& state,
+                                  Extent group) {
+    auto renderer =
+        TRY(render::Renderer::create(counting.scene, {.extent = state.extent,
+                                                      .samples = image::SampleType::f32,
+                                                      .pass = std::string(pass),
+                                                      .specialise = glsl::Specialise::unreachable}));
+    const PassPreview preview = render::FrameStepper(renderer, state, first_frame_of(state))
+                                    .preview(state.frame, renderer.shown_index());
+    auto target = gl::make_render_target(gl::make_texture(state.extent, GL_RGBA32F, 1));
+    if (!target)
+        return fail(ErrorCode::no_memory, "the driver has no memory for the counts");
+    image::Image counts(state.extent, 4, image::SampleType::f32);
+    RunsOfSites runs(wanted.size());
+    for (size_t first = 0; first < wanted.size(); first += 4) {
+        const size_t end = std::min(first + 4, wanted.size());
+        if (std::none_of(wanted.begin() + long(first), wanted.begin() + long(end), std::identity()))
+            continue;
+        std::vector<scene::Knob> knobs = renderer.scene().knobs;
+        knobs.back().value = {double(first / 4)};
+        renderer.turn(std::move(knobs));
+        preview.draw(preview.program(), *target);
+        gl::read_pixels(*target, GL_RGBA, GL_FLOAT, counts.bytes);
+        for (size_t site = first; site < end; ++site)
+            if (wanted[site])
+                add_counts(counts, int(site - first), group, runs[site]);
+    }
+    return runs;
+}
+
+/// Returns how often a device that runs both sides of branches runs each block, all groups together: the body
+/// of a loop until all pixels of the group are done, but at least once each time it gets there; the body of a
+/// function at each of its calls.
+class BlockRuns {
+public:
+    BlockRuns(const glsl::WorkText& counted, const RunsOfSites& runs, size_t groups)
+        : counted_(counted), runs_(runs), groups_(groups), known_(counted.blocks.size()) {}
+
+    /// Returns one number for each group.
+    const std::vector<double>& of(size_t block) {
+        std::optional<std::vector<double>>& known = known_[block];
+        if (known)
+            return *known;
+        known.emplace(groups_); // zeros, also if functions call each other in a circle
+        const glsl::WorkBlock& wanted = counted_.blocks[block];
+        std::vector<double> all(groups_, wanted.function == counted_.main_image ? 1.0 : 0.0);
+        if (wanted.around) {
+            const std::vector<double>& around = of(*wanted.around);
+            for (size_t i = 0; i < groups_; ++i)
+                all[i] = std::max(around[i], double(runs_[wanted.site][i]));
+        } else {
+            for (const glsl::WorkSite& site : counted_.sites)
+                for (const glsl::NodeId called : site.calls)
+                    if (called == wanted.function) {
+                        const std::vector<double>& from = of(site.block);
+                        for (size_t i = 0; i < groups_; ++i)
+                            all[i] += from[i];
+                    }
+        }
+        known_[block] = std::move(all);
+        return *known_[block];
+    }
+
+private:
+    const glsl::WorkText& counted_;
+    const RunsOfSites& runs_;
+    size_t groups_;
+    std::vector<std::optional<std::vector<double>>> known_;
+};
+
+/// Draws the cost lens of the pass, which fails if the instrumented text draws another picture than `plain`.
+Result<void> check_counts(render::Renderer& plain, size_t pass, const render::FrameState& state) {
+    const scene::Scene& scene = plain.scene();
+    const LensPlan plan = TRY(make_lens(scene, {.name = LensName::cost, .pass = scene.passes[pass].name}));
+    auto drawn = TRY(render::Renderer::create(*plan.drawn, lens_options(plan, state.extent)));
+    render::FrameStepper(drawn, state, first_frame_of(state)).draw(state.frame);
+    TRY(read_lens(plan, {plain, &drawn, inputs_of(state)}, [] { return true; }));
+    return {};
+}
+
+using WorkOfLines = std::map<PlaceOfLine, double>;
+
+/// Adds the work of all pixels of a pass, by line. `plain` has drawn the frame.
+Result<void> add_work(render::Renderer& plain, size_t pass, const render::FrameState& state,
+                      const glsl::WorkWeights& weights, WorkOfLines& work) {
+    const scene::Scene& scene = plain.scene();
+    if (scene.passes[pass].kind == scene::PassKind::cubemap)
+        return fail(ErrorCode::load, "the faces of a cubemap are not counted");
+    TRY(check_counts(plain, pass, state));
+    const CountingScene counting = TRY(counting_scene(scene, pass, weights));
+    const glsl::WorkText& counted = counting.counted;
+    std::vector<bool> wanted(counted.sites.size(), !weights.both_sides);
+    for (const glsl::WorkBlock& block : counted.blocks)
+        if (block.around)
+            wanted[block.site] = true;
+    const Extent group = group_of(weights.lanes);
+    const RunsOfSites runs = TRY(runs_of_sites(counting, rewritten_pass(scene, pass), wanted, state, group));
+    const size_t groups = size_t((state.extent.width + group.width - 1) / group.width) *
+                          size_t((state.extent.height + group.height - 1) / group.height);
+    BlockRuns blocks(counted, runs, groups);
+    for (size_t site = 0; site < counted.sites.size(); ++site) {
+        double times = 0;
+        if (weights.both_sides)
+            for (const double each : blocks.of(counted.sites[site].block))
+                times += each;
+        else
+            for (const float each : runs[site])
+                times += double(each);
+        for (const auto& [where, weight] : counted.sites[site].lines)
+            work[{where.file, where.line}] += times * weights.lanes * weight;
+    }
+    return {};
+}
+
+/// Returns the passes whose lines are counted, without sounds.
+std::vector<size_t> counted_passes(const render::Renderer& plain, const std::string& only) {
+    std::vector<size_t> passes;
+    for (const render::PlannedPass& planned : plain.plan().passes)
+        if (only.empty() || plain.scene().passes[planned.pass].name == only)
+            passes.push_back(planned.pass);
+    return passes;
+}
+
+} // namespace
+
+Result<HotLines> hot_lines(const scene::Scene& scene, const render::FrameState& state, size_t most,
+                           const glsl::WorkWeights& weights) {
+    HotLines hot{.basis = basis_of(weights)};
+    WorkOfLines work;
+    auto plain = TRY(render::Renderer::create(scene, {.extent = state.extent,
+                                                      .samples = image::SampleType::f32,
+                                                      .pass = state.pass,
+                                                      .specialise = glsl::Specialise::unreachable}));
+    render::FrameStepper(plain, state, first_frame_of(state)).draw(state.frame);
+    const std::vector<size_t> passes = counted_passes(plain, state.pass);
+    for (const size_t pass : passes)
+        if (auto added = add_work(plain, pass, state, weights, work); !added) {
+            if (passes.size() == 1)
+                return fail(std::move(added.error()));
+            hot.not_counted.push_back(
+                fmt::format("{}: {}", scene.passes[pass].name, reason_of(added.error())));
+        }
+    double all = 0;
+    for (const auto& [place, sum] : work)
+        all += sum;
+    hot.operations = all / double(state.extent.pixels());
+    const auto texts = lines_of_texts(scene);
+    for (const auto& [place, sum] : work) {
+        const auto text = texts.find(place);
+        hot.lines.push_back({{place.first, place.second},
+                             text == texts.end() ? std::string() : text->second,
+                             all > 0 ? sum / all : 0});
+    }
+    std::ranges::stable_sort(hot.lines, std::greater<>(), &HotLine::share);
+    hot.lines.resize(std::min(hot.lines.size(), most));
+    return hot;
+}
+
+} // namespace tidemark::lab

@@ -1,0 +1,519 @@
+// Draws the numbers of a lens: colours, a bar and a legend in letters of five by seven pixels.
+
+#include "lab/lens.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tidemark::lab {
+namespace {
+
+using ByteColour = std::array<uint8_t, 3>;
+
+/// Colours of rising brightness along one line from blue to yellow, which all usual colour-blind eyes see in
+/// the same order (after J. R. Nunez, C. R. Anderton, R. S. Renslow: Optimizing colormaps with consideration
+/// for color vision deficiency, PLoS ONE 13(7), 2018).
+constexpr ByteColour k_ramp[] = {{0, 32, 77},     {0, 51, 111},    {57, 72, 107},   {87, 92, 109},
+                                 {112, 113, 115}, {138, 135, 121}, {166, 157, 117}, {196, 181, 108},
+                                 {228, 207, 91},  {255, 234, 70}};
+
+constexpr ByteColour k_absent{0, 0, 0}, k_marked_colour{255, 255, 255}, k_nan{255, 0, 255},
+    k_infinite{0, 255, 255};
+constexpr ByteColour k_paper{20, 21, 24}, k_ink{230, 230, 230}, k_faint{165, 166, 170};
+
+/// Columns of the letters from ' ' to '~', five bytes each; bit 0 is the top row.
+constexpr std::string_view k_letters = "0000000000"
+                                       "00005f0000"
+                                       "0007000700"
+                                       "147f147f14"
+                                       "242a7f2a12"
+                                       "2313086462"
+                                       "3649562050"
+                                       "0008070300"
+                                       "001c224100"
+                                       "0041221c00"
+                                       "2a1c7f1c2a"
+                                       "08083e0808"
+                                       "0080703000"
+                                       "0808080808"
+                                       "0000606000"
+                                       "2010080402"
+                                       "3e5149453e"
+                                       "00427f4000"
+                                       "7249494946"
+                                       "2141494d33"
+                                       "1814127f10"
+                                       "2745454539"
+                                       "3c4a494931"
+                                       "4121110907"
+                                       "3649494936"
+                                       "464949291e"
+                                       "0000140000"
+                                       "0040340000"
+                                       "0008142241"
+                                       "1414141414"
+                                       "0041221408"
+                                       "0201590906"
+                                       "3e415d594e"
+                                       "7c1211127c"
+                                       "7f49494936"
+                                       "3e41414122"
+                                       "7f4141413e"
+                                       "7f49494941"
+                                       "7f09090901"
+                                       "3e41415173"
+                                       "7f0808087f"
+                                       "00417f4100"
+                                       "2040413f01"
+                                       "7f08142241"
+                                       "7f40404040"
+                                       "7f021c027f"
+                                       "7f0408107f"
+                                       "3e4141413e"
+                                       "7f09090906"
+                                       "3e4151215e"
+                                       "7f09192946"
+                                       "2649494932"
+                                       "03017f0103"
+                                       "3f4040403f"
+                                       "1f2040201f"
+                                       "3f4038403f"
+                                       "6314081463"
+                                       "0304780403"
+                                       "6159494d43"
+                                       "007f414141"
+                                       "0204081020"
+                                       "004141417f"
+                                       "0402010204"
+                                       "4040404040"
+                                       "0003070800"
+                                       "2054547840"
+                                       "7f28444438"
+                                       "3844444428"
+                                       "384444287f"
+                                       "3854545418"
+                                       "00087e0902"
+                                       "18a4a49c78"
+                                       "7f08040478"
+                                       "00447d4000"
+                                       "2040403d00"
+                                       "7f10284400"
+                                       "00417f4000"
+                                       "7c04780478"
+                                       "7c08040478"
+                                       "3844444438"
+                                       "fc18242418"
+                                       "18242418fc"
+                                       "7c08040408"
+                                       "4854545424"
+                                       "04043f4424"
+                                       "3c4040207c"
+                                       "1c2040201c"
+                                       "3c4030403c"
+                                       "4428102844"
+                                       "4c9090907c"
+                                       "4464544c44"
+                                       "0008364100"
+                                       "0000770000"
+                                       "0041360800"
+                                       "0201020402";
+
+constexpr int k_letter_width = 6, k_row_height = 11, k_margin = 4, k_bar_height = 9;
+constexpr int k_narrowest = 240;
+
+/// Returns the number of rows of text above the bar and below it.
+int text_rows(int letters) {
+    return letters >= 80 ? 6 : letters >= 50 ? 10 : 13;
+}
+
+unsigned column_of(char letter, int column) {
+    if (letter < ' ' || letter > '~')
+        letter = '?';
+    const size_t at = size_t(letter - ' ') * 10 + size_t(column) * 2;
+    const auto digit = [](char c) { return unsigned(c <= '9' ? c - '0' : c - 'a' + 10); };
+    return 16 * digit(k_letters[at]) + digit(k_letters[at + 1]);
+}
+
+/// A picture of RGBA bytes that is drawn from its top.
+class LensCanvas {
+public:
+    LensCanvas(Extent extent, int scale) : image_(extent, 4, image::SampleType::u8), scale_(scale) {}
+
+    int width() const { return image_.extent.width / scale_; }
+
+    void put(int x, int y, const ByteColour& colour) {
+        if (x < 0 || y < 0 || x >= image_.extent.width || y >= image_.extent.height)
+            return;
+        const size_t row = size_t(image_.extent.height - 1 - y);
+        uint8_t* const at = &image_.u8()[4 * (row * size_t(image_.extent.width) + size_t(x))];
+        std::copy(colour.begin(), colour.end(), at);
+        at[3] = 255;
+    }
+
+    /// Fills a box of scaled pixels.
+    void fill(int x, int y, int width, int height, const ByteColour& colour) {
+        for (int row = y * scale_; row < (y + height) * scale_; ++row)
+            for (int column = x * scale_; column < (x + width) * scale_; ++column)
+                put(column, row, colour);
+    }
+
+    void write(int x, int y, std::string_view words, const ByteColour& colour) {
+        for (size_t i = 0; i < words.size(); ++i)
+            for (int column = 0; column < 5; ++column)
+                for (int row = 0; row < 8; ++row)
+                    if (column_of(words[i], column) >> row & 1)
+                        fill(x + int(i) * k_letter_width + column, y + row, 1, 1, colour);
+    }
+
+    image::Image take() { return std::move(image_); }
+
+private:
+    image::Image image_;
+    int scale_;
+};
+
+int scale_of(int width) {
+    return std::max(1, width / 640);
+}
+
+/// Returns how many letters a row has.
+int letters_of(int width) {
+    return (width / scale_of(width) - 2 * k_margin) / k_letter_width;
+}
+
+} // namespace
+
+std::string legend_number(double value) {
+    if (!std::isfinite(value))
+        return std::isnan(value) ? "none" : value > 0 ? "inf" : "-inf";
+    const double size = std::abs(value);
+    return size >= 1e5 && size < 1e7 && value == std::floor(value) ? fmt::format("{:.0f}", value)
+                                                                   : fmt::format("{:.4g}", value);
+}
+
+std::string share_words(double share) {
+    const double percent = 100 * share, rest = 100 - percent;
+    if (percent < 99 || rest <= 0)
+        return fmt::format("{:.3g} %", percent);
+    return fmt::format("{:.{}f} %", percent, std::clamp(int(std::ceil(-std::log10(rest))), 1, 12));
+}
+
+namespace {
+
+std::string share_words(size_t part, size_t whole) {
+    return lab::share_words(whole == 0 ? 0.0 : double(part) / double(whole));
+}
+
+/// Returns 1, 2 or 5 times a power of ten, at least `value`.
+double round_up(double value) {
+    const double power = std::pow(10.0, std::floor(std::log10(value)));
+    for (const double factor : {1.0, 2.0, 5.0, 10.0})
+        if (factor * power >= value * (1 - 1e-9))
+            return factor * power;
+    return 10 * power;
+}
+
+} // namespace
+
+double place_on_bar(const LensPlan& plan, const LensRange& range, double value) {
+    if (plan.logarithmic)
+        return value <= range.low
+                   ? 0
+                   : std::clamp(std::log(value / range.low) / std::log(range.high / range.low), 0.0, 1.0);
+    return std::clamp((value - range.low) / (range.high - range.low), 0.0, 1.0);
+}
+
+namespace {
+
+ByteColour colour_at(const LensPlan& plan, const LensNumbers& numbers, const LensRange& range, size_t pixel) {
+    if (numbers.marks[pixel] == LensNumbers::Mark::absent)
+        return k_absent;
+    if (numbers.marks[pixel] == LensNumbers::Mark::marked)
+        return k_marked_colour;
+    for (int k = 0; k < numbers.components; ++k)
+        if (std::isnan(numbers.at(pixel, k)))
+            return k_nan;
+    for (int k = 0; k < numbers.components; ++k)
+        if (std::isinf(numbers.at(pixel, k)))
+            return k_infinite;
+    if (!plan.classes.empty())
+        return plan.classes[std::min(size_t(numbers.at(pixel)), plan.classes.size() - 1)].colour;
+    if (numbers.components == 1)
+        return lens_colour(place_on_bar(plan, range, double(numbers.at(pixel))));
+    ByteColour colour{};
+    for (int k = 0; k < 3; ++k)
+        colour[size_t(k)] =
+            uint8_t(std::lround(255 * place_on_bar(plan, range, double(numbers.at(pixel, k)))));
+    return colour;
+}
+
+/// Returns whether a neighbour to the right or above went another way.
+bool parts_there(const LensNumbers& numbers, size_t pixel) {
+    const auto width = size_t(numbers.extent.width);
+    const auto differs = [&](size_t other) {
+        return numbers.marks[pixel] == LensNumbers::Mark::number &&
+               numbers.marks[other] == LensNumbers::Mark::number && numbers.at(pixel) != numbers.at(other);
+    };
+    return (pixel % width + 1 < width && differs(pixel + 1)) ||
+           (pixel + width < numbers.marks.size() && differs(pixel + width));
+}
+
+void add_to(LensSummary& summary, const LensNumbers& numbers, size_t pixel, std::vector<double>& finite) {
+    summary.marked += numbers.marks[pixel] == LensNumbers::Mark::marked;
+    bool nan = false, infinite = false;
+    for (int k = 0; k < numbers.components; ++k) {
+        const auto value = double(numbers.at(pixel, k));
+        nan = nan || std::isnan(value);
+        infinite = infinite || std::isinf(value);
+        if (std::isfinite(value))
+            finite.push_back(value);
+    }
+    summary.nan += nan;
+    summary.infinite += infinite && !nan;
+}
+
+} // namespace
+
+LensSummary summary_of(const LensPlan& plan, const LensNumbers& numbers) {
+    LensSummary summary;
+    summary.pixels = numbers.marks.size();
+    summary.classes.assign(plan.classes.size(), 0);
+    std::vector<double> finite;
+    for (size_t i = 0; i < numbers.marks.size(); ++i) {
+        if (numbers.marks[i] == LensNumbers::Mark::absent)
+            continue;
+        ++summary.numbers;
+        add_to(summary, numbers, i, finite);
+        if (!plan.classes.empty()) {
+            ++summary.classes[std::min(size_t(numbers.at(i)), plan.classes.size() - 1)];
+            summary.parting += parts_there(numbers, i);
+        }
+    }
+    std::ranges::sort(finite);
+    summary.least = finite.empty() ? std::nan("") : finite.front();
+    summary.most = finite.empty() ? std::nan("") : finite.back();
+    summary.median = quantile_of_sorted(finite, 0.5);
+    summary.p99 = quantile_of_sorted(finite, 0.99);
+    return summary;
+}
+
+LensRange range_of(const LensPlan& plan, const LensSummary& summary) {
+    if (!std::isfinite(summary.least))
+        return {0, 1};
+    if (plan.logarithmic) {
+        constexpr double k_decades = 6;
+        const double high = summary.most > 0 ? std::pow(10, std::ceil(std::log10(summary.most))) : 1;
+        return {high * std::pow(10, -k_decades), high};
+    }
+    // The few pixels with most steps must not make all others look the same.
+    const bool counted = plan.lens.name == LensName::cost || plan.lens.name == LensName::steps;
+    const double most = counted && summary.p99 > 0 ? std::min(summary.most, 2 * summary.p99) : summary.most;
+    const double size = std::max(std::abs(summary.least), std::abs(most));
+    if (!(size > 0))
+        return {0, 1};
+    const double high = round_up(size);
+    if (summary.least >= 0 && (plan.lens.name != LensName::value || summary.least < 0.5 * summary.most))
+        return {0, high};
+    if (summary.most <= 0 && summary.most > 0.5 * summary.least)
+        return {-high, 0};
+    const double width = summary.most - summary.least;
+    const double step = width > 0 ? round_up(width) / 10 : size / 10;
+    return {std::floor(summary.least / step) * step, std::ceil(summary.most / step + 1e-9) * step};
+}
+
+std::array<uint8_t, 3> lens_colour(double part) {
+    constexpr int k_last = int(std::size(k_ramp)) - 1;
+    const double place = std::clamp(part, 0.0, 1.0) * k_last;
+    const int below = std::min(int(place), k_last - 1);
+    ByteColour colour{};
+    for (size_t i = 0; i < 3; ++i)
+        colour[i] = uint8_t(
+            std::lround(std::lerp(double(k_ramp[below][i]), double(k_ramp[below + 1][i]), place - below)));
+    return colour;
+}
+
+image::Image lens_map(const LensPlan& plan, const LensNumbers& numbers) {
+    image::Image map(numbers.extent, 4, image::SampleType::u8);
+    const LensRange range = range_of(plan, summary_of(plan, numbers));
+    const auto samples = map.u8();
+    for (size_t i = 0; i < numbers.marks.size(); ++i) {
+        ByteColour colour = colour_at(plan, numbers, range, i);
+        if (plan.lens.name == LensName::branch && parts_there(numbers, i))
+            colour = k_marked_colour;
+        std::ranges::copy(colour, samples.begin() + ptrdiff_t(4 * i));
+        samples[4 * i + 3] = 255;
+    }
+    return map;
+}
+
+std::vector<LegendEntry> legend_of(const LensPlan& plan, const LensSummary& summary,
+                                   const LensNumbers& numbers) {
+    std::vector<LegendEntry> entries;
+    if (plan.classes.empty()) {
+        entries.push_back({{}, "min " + legend_number(summary.least)});
+        entries.push_back({{}, "median " + legend_number(summary.median)});
+        entries.push_back({{}, "99 % below " + legend_number(summary.p99)});
+        entries.push_back({{}, "max " + legend_number(summary.most)});
+    }
+    for (size_t i = 0; i < plan.classes.size(); ++i)
+        if (summary.classes[i] > 0 || i < 2)
+            entries.push_back(
+                {plan.classes[i].colour, fmt::format("{} {}", plan.classes[i].name,
+                                                     share_words(summary.classes[i], summary.pixels))});
+    if (plan.lens.name == LensName::branch)
+        entries.push_back(
+            {k_marked_colour, "neighbours part " + share_words(summary.parting, summary.pixels)});
+    if (!plan.marked.empty())
+        entries.push_back({k_marked_colour, plan.marked + " " + share_words(summary.marked, summary.pixels)});
+    if (summary.nan > 0)
+        entries.push_back({k_nan, "NaN " + share_words(summary.nan, summary.pixels)});
+    if (summary.infinite > 0)
+        entries.push_back({k_infinite, "infinite " + share_words(summary.infinite, summary.pixels)});
+    if (const size_t absent = summary.pixels - summary.numbers; absent > 0)
+        entries.push_back({k_absent, fmt::format("{} {}", numbers.complete ? plan.absent : "not known yet",
+                                                 share_words(absent, summary.pixels))});
+    if (!numbers.note.empty())
+        entries.push_back({{}, numbers.note});
+    return entries;
+}
+
+std::string basis_line(const LensPlan& plan) {
+    return fmt::format("{}{}, {}{}{}", to_string(plan.lens.name), plan.unit.empty() ? "" : ": " + plan.unit,
+                       to_string(plan.basis), plan.more_basis.empty() ? "" : ", " + plan.more_basis,
+                       plan.logarithmic ? ", logarithmic" : "");
+}
+
+namespace {
+
+/// Returns rows of at most so many letters, broken at blanks where there are any.
+std::vector<std::string> in_rows(std::string words, size_t letters) {
+    std::vector<std::string> rows;
+    while (words.size() > letters) {
+        const size_t blank = words.rfind(' ', letters);
+        const bool breaks = blank != words.npos && blank > 0;
+        rows.push_back(words.substr(0, breaks ? blank : letters));
+        words.erase(0, breaks ? blank + 1 : letters);
+    }
+    rows.push_back(std::move(words));
+    return rows;
+}
+
+void draw_bar(LensCanvas& canvas, int y, const LensPlan& plan, const LensNumbers& numbers,
+              const LensSummary& summary) {
+    const LensRange range = range_of(plan, summary);
+    const int width = canvas.width() - 2 * k_margin;
+    for (int x = 0; x < width; ++x) {
+        const double part = width > 1 ? double(x) / (width - 1) : 0;
+        const auto grey = uint8_t(std::lround(255 * part));
+        canvas.fill(k_margin + x, y, 1, k_bar_height,
+                    numbers.components == 1 ? lens_colour(part) : ByteColour{grey, grey, grey});
+    }
+    const double middle =
+        plan.logarithmic ? std::sqrt(range.low * range.high) : std::lerp(range.low, range.high, 0.5);
+    const int below = y + k_bar_height + 2;
+    const auto place = [&](double value, int at, std::string_view more = {}) {
+        const std::string words = legend_number(value) + std::string(more);
+        const int length = int(words.size()) * k_letter_width;
+        canvas.write(std::clamp(at - length / 2, k_margin, k_margin + width - length + 1), below, words,
+                     k_faint);
+    };
+    place(range.low, k_margin);
+    place(middle, k_margin + width / 2);
+    place(range.high, k_margin + width, summary.most > range.high ? " and more" : "");
+}
+
+/// Writes words into at most `rows` rows. Returns the place below them.
+int draw_rows(LensCanvas& canvas, int y, const std::string& words, size_t rows, const ByteColour& colour) {
+    std::vector<std::string> lines = in_rows(words, size_t(letters_of(canvas.width())));
+    if (lines.size() > rows) {
+        lines.resize(rows);
+        lines.back().resize(std::min(lines.back().size(), size_t(letters_of(canvas.width())) - 3));
+        lines.back() += "...";
+    }
+    for (const std::string& line : lines) {
+        canvas.write(k_margin, y, line, colour);
+        y += k_row_height;
+    }
+    return y;
+}
+
+/// Writes entries from left to right, above `bottom`.
+void draw_entries(LensCanvas& canvas, int y, const std::vector<LegendEntry>& entries, int bottom) {
+    constexpr int k_box = 8, k_gap = 12;
+    int x = k_margin;
+    for (const LegendEntry& entry : entries) {
+        const int box = entry.box ? k_box + 3 : 0;
+        const int length = box + int(entry.words.size()) * k_letter_width;
+        if (x > k_margin && x + length > canvas.width() - k_margin) {
+            x = k_margin;
+            y += k_row_height;
+        }
+        if (y + k_row_height > bottom)
+            return;
+        if (length > canvas.width() - 2 * k_margin) { // alone in its rows
+            y = draw_rows(canvas, y, entry.words, size_t((bottom - y) / k_row_height), k_ink) - k_row_height;
+            x = canvas.width();
+            continue;
+        }
+        if (entry.box) {
+            canvas.fill(x, y - 1, k_box, k_box + 1, k_faint);
+            canvas.fill(x + 1, y, k_box - 2, k_box - 1, *entry.box);
+        }
+        canvas.write(x + box, y, entry.words, k_ink);
+        x += length + k_gap;
+    }
+}
+
+} // namespace
+
+Extent legend_extent(Extent map) {
+    const int width = std::max(map.width + map.width % 2, k_narrowest), scale = scale_of(width);
+    const int rows = text_rows(letters_of(width));
+    const int height = map.height + scale * (2 * k_margin + rows * k_row_height + k_bar_height + 2);
+    return {width, height + height % 2};
+}
+
+image::Image draw_lens(const LensPlan& plan, const LensNumbers& numbers) {
+    const Extent extent = legend_extent(numbers.extent);
+    const int scale = scale_of(extent.width);
+    LensCanvas canvas(extent, scale);
+    for (int y = 0; y < extent.height; ++y)
+        for (int x = 0; x < extent.width; ++x)
+            canvas.put(x, y, k_paper);
+    const image::Image map = lens_map(plan, numbers);
+    const auto samples = map.u8();
+    for (int y = 0; y < map.extent.height; ++y)
+        for (int x = 0; x < map.extent.width; ++x) {
+            const size_t at = 4 * (size_t(map.extent.height - 1 - y) * size_t(map.extent.width) + size_t(x));
+            canvas.put(x, y, {samples[at], samples[at + 1], samples[at + 2]});
+        }
+    const LensSummary summary = summary_of(plan, numbers);
+    // The canvas counts scaled pixels from here on; the map's height may not be a multiple of the scale.
+    int y = (map.extent.height + scale - 1) / scale + k_margin;
+    const int rows = text_rows(letters_of(extent.width));
+    const size_t most_rows = rows > 6 ? 3 : 1; // of the title and of the basis
+    const int bottom = y + rows * k_row_height + k_bar_height + 2;
+    y = draw_rows(canvas, y, plan.title, most_rows, k_ink);
+    y = draw_rows(canvas, y, basis_line(plan), most_rows, k_faint);
+    if (plan.classes.empty()) {
+        draw_bar(canvas, y, plan, numbers, summary);
+        y += k_bar_height + 2 + k_row_height;
+    }
+    draw_entries(canvas, y, legend_of(plan, summary, numbers), bottom);
+    return canvas.take();
+}
+
+std::vector<std::string> legend_lines(const LensPlan& plan, const LensNumbers& numbers) {
+    const LensSummary summary = summary_of(plan, numbers);
+    std::vector<std::string> lines{plan.title, basis_line(plan)};
+    std::string words;
+    for (const LegendEntry& entry : legend_of(plan, summary, numbers))
+        words += (words.empty() ? "" : ", ") + entry.words;
+    lines.push_back(std::move(words));
+    return lines;
+}
+
+} // namespace tidemark::lab

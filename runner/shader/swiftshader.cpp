@@ -1,0 +1,397 @@
+// Varies a text as SwiftShader, the software driver of Chromium, computes it. The polynomials and the order
+// of operations are those that its sources state (its folder src/Pipeline of 2026, built with
+// SWIFTSHADER_LEGACY_PRECISION as Chromium does), written anew in GLSL;
+// tests/gl/variation_gl_test.cpp compares them with numbers that Chromium computed.
+#include "shader/source_edits.hpp"
+#include "shader/variation.hpp"
+#include "shader/watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+namespace tidemark::glsl {
+namespace {
+
+/// `$has(bit)` asks for a SwiftShaderPart. `precise` keeps the driver from reordering.
+constexpr std::string_view k_swift_numbers = R"(uniform int $mode;
+bool $has(int part){return ($mode&part)!=0;}
+float $bits(int b){return intBitsToFloat(b);}
+int $bits(float v){return floatBitsToInt(v);}
+float $fma(float a,float b,float c){precise float p=a*b,r=p+c;return r;}
+float $wave(float x){precise float s=x*x;return $fma($fma(74.4388885,s,-41.1693687),s,6.28230858)*x;}
+float $sin(float x){if(!$has(1))return sin(x);precise float t=$fma(x,-0.159154937,0.25);
+precise float z=0.25-abs(t-roundEven(t));return $wave(z);}
+float $cos(float x){if(!$has(1))return cos(x);precise float t=x*0.159154937;
+precise float z=0.25-abs(t-roundEven(t));return $wave(z);}
+float $tan(float x){return $has(1)?$sin(x)/$cos(x):tan(x);}
+float $arc(float x){precise float s=x*x;precise float r=-0.0161657367+s*0.0028662257;r=0.0429096138+s*r;
+r=-0.0752896400+s*r;r=0.1065626393+s*r;r=-0.1420889944+s*r;r=0.1999355085+s*r;r=-0.3333314528+s*r;
+r=x+x*(s*r);return r;}
+float $signed(float v,float like){return $bits($bits(v)^($bits(like)&0x80000000));}
+float $atan(float x){if(!$has(2))return atan(x);float a=abs(x);precise float r=$arc(a>=1.0?1.0/a:a);
+if(a>=1.0)r=1.57079632-r;return $signed(r,x);}
+float $atan(float y,float x){if(!$has(y==0.0&&x==0.0?16:2))return atan(y,x);
+bool s=y<0.0;precise float t=s?-3.14159265:0.0;float x0=$signed(x,y),y0=abs(y);
+bool q=x0<0.0;t+=q?1.57079632:0.0;float x1=q?y0:x0,y1=q?-x0:y0;
+bool o=y1>=x1;float x2=o?y1:x1,y2=o?x1:y1;precise float a=$arc(y2/x2);
+if(s&&q&&o&&!isinf(y2))return -a;precise float b=o?1.57079632-a:a;
+t+=isinf(y2)?0.785398163:x2==0.0?0.0:b;return t;}
+float $asin(float x){if(!$has(2)||!(abs(x)<=1.0))return asin(x);
+double a=double(abs(x));bool far=a>0.5lf;double v=far?sqrt((1.0lf-a)*0.5lf):a,t=v,s=v;
+for(int n=0;n<16;++n){t*=v*v*double(2*n+1)/double(2*n+2);s+=t/double(2*n+3);}
+return $signed(float(far?1.5707963267948966lf-2.0lf*s:s),x);}
+float $acos(float x){if(!$has(2))return acos(x);float a=abs(x);
+precise float r=0.0742610+a*-0.0187293;r=-0.2121144+a*r;r=1.5707288+a*r;r=1.57079632-sqrt(1.0-a)*r;
+precise float c=1.57079632-$signed(r,x);return c;}
+float $raise(float x){x=max(min(x,128.0),-126.999992);int i=int(roundEven(x-0.5));
+precise float f=x-float(i),r=0.00187757669*f+0.00898933969;r=r*f+0.0558263175;r=r*f+0.240153611;
+r=r*f+0.693153083;r=r*f+1.0;return $bits((i+127)<<23)*r;}
+float $lower(float x){int b=$bits(x);if(b==0x7f800000)return x;float m=$bits((b&0x7fffff)|0x3f800000);
+precise float e=($bits(((b&0x7f800000)>>8)|0x3f800000)-1.4960938)*256.0;
+float u=$fma($fma(9.5428179e-2,m,4.7779095e-1),m,1.9782813e-1);
+float v=$fma($fma($fma(1.6618466e-2,m,2.0350508e-1),m,2.7382900e-1),m,4.0496687e-2);
+e=e+(m-1.0)*(u/v);return e;}
+float $exp2(float x){return $has(4)?$raise(x):exp2(x);}
+float $exp(float x){return $has(4)?$raise(1.44269504*x):exp(x);}
+float $log2(float x){return $has(x<0.0?16:4)?$lower(x):log2(x);}
+float $log(float x){return $has(x<0.0?16:4)?6.93147181e-1*$lower(x):log(x);}
+float $pow(float x,float y){return $has(x<0.0||(x==0.0&&y<=0.0)?16:4)?$raise($lower(x)*y):pow(x,y);}
+float $sinh(float x){return $has(4)?($exp(x)-$exp(-x))*0.5:sinh(x);}
+float $cosh(float x){return $has(4)?($exp(x)+$exp(-x))*0.5:cosh(x);}
+float $tanh(float x){float a=$exp(x),b=$exp(-x);return $has(4)?(a-b)/(a+b):tanh(x);}
+float $divide(float a,float b){return $has(8)?float(double(a)/double(b)):a/b;}
+float $over(float a,float b){if(!$has(8))return a/b;precise float r=1.0/b,q=a*r;return q;}
+float $mod(float x,float y){if(!$has(8))return mod(x,y);precise float r=x-y*floor($divide(x,y));return r;}
+float $smoothstep(float a,float b,float x){if(!$has(8))return smoothstep(a,b,x);
+precise float d=x-a,e=b-a;float t=clamp($divide(d,e),0.0,1.0);precise float r=t*t*(3.0-2.0*t);return r;}
+float $min(float x,float y){return $has(16)?(x<y?x:y):min(x,y);}
+float $max(float x,float y){return $has(16)?(x>y?x:y):max(x,y);}
+float $clamp(float x,float a,float b){return $has(16)?$min($max(x,a),b):clamp(x,a,b);}
+mat2 $inverse(mat2 m){if(!$has(8))return inverse(m);precise float d=1.0/(m[0][0]*m[1][1]-m[0][1]*m[1][0]);
+precise mat2 r=mat2(d*m[1][1],d*-m[0][1],d*-m[1][0],d*m[0][0]);return r;}
+mat3 $inverse(mat3 m){return inverse(m);}
+mat4 $inverse(mat4 m){return inverse(m);}
+int $modulo(int a,int b){if(!$has(16)||(a>=0&&b>0))return a%b;b=b==0?-1:b;return a-b*(a/b);}
+float $fract(float x){return $has(8)?min(x-floor(x),0.99999994):fract(x);}
+float $mix(float x,float y,float a){if(!$has(8))return mix(x,y,a);precise float r=a*(y-x)+x;return r;}
+float $mix(float x,float y,bool a){return a?y:x;}
+float $dot(float a,float b){return a*b;}
+float $length(float v){return abs(v);}
+float $distance(float a,float b){return abs(a-b);}
+float $normalize(float v){return normalize(v);}
+float $reflect(float i,float n){return reflect(i,n);}
+)";
+
+/// One for each size @ of vectors.
+constexpr std::string_view k_swift_vectors = R"(@ $mix(@ x,@ y,@ a){if(!$has(8))return mix(x,y,a);
+precise @ r=a*(y-x)+x;return r;}
+@ $divide(@ a,float b){return $divide(a,@(b));}
+@ $divide(float a,@ b){return $divide(@(a),b);}
+@ $min(@ a,float b){return $min(a,@(b));}
+@ $max(@ a,float b){return $max(a,@(b));}
+@ $clamp(@ x,float a,float b){return $clamp(x,@(a),@(b));}
+@ $over(@ a,float b){if(!$has(8))return a/b;precise float r=1.0/b;precise @ q=a*r;return q;}
+@ $mod(@ a,float b){return $mod(a,@(b));}
+@ $smoothstep(float a,float b,@ x){return $smoothstep(@(a),@(b),x);}
+@ $mix(@ x,@ y,float a){return $has(8)?$mix(x,y,@(a)):mix(x,y,a);}
+float $length(@ v){return $has(8)?sqrt($dot(v,v)):length(v);}
+float $distance(@ a,@ b){if(!$has(8))return distance(a,b);precise @ d=a-b,s=d*d;precise float r=s[0];
+for(int i=1;i<s.length();++i)r+=s[i];return sqrt(r);}
+@ $normalize(@ v){return $has(8)?(1.0/sqrt($dot(v,v)))*v:normalize(v);}
+@ $reflect(@ i,@ n){if(!$has(8))return reflect(i,n);precise @ r=i-(2.0*$dot(i,n))*n;return r;}
+)";
+
+/// Look-ups: the mipmap from the distance of the pixels, two mipmaps mixed, and weights of 16 bits from
+/// coordinates of 16 bits, or of floats for textures of floats.
+constexpr std::string_view k_swift_pictures = R"(
+float $levels(float q,float by){q*=q;return (float($bits(q))-float(0x3f800000))*by*5.9604644775390625e-8;}
+)";
+
+/// One for each kind of sampler: `@` is the type of the coordinates.
+constexpr std::string_view k_swift_lookup =
+    R"(vec4 $level(S s,@ p,float l){if(!$has(64))return textureLod(s,p,l);
+@ n=max(@(textureSize(s,int(l))),1.0);precise @ at=p*n-0.5;@ low=floor(at),f=at-low;
+vec4 t[C];bool bytes=true;
+for(int i=0;i<C;++i){@ o=@(i&1,(i>>1)&1 T);t[i]=textureLod(s,(low+o+0.5)/n,l);
+vec4 b=t[i]*255.0;bytes=bytes&&all(lessThan(abs(b-roundEven(b)),vec4(1e-3)));}
+if(bytes){@ place=(trunc(p*65536.0)-floor(32768.0/n))*n/65536.0,lower=floor(place);
+for(int i=0;i<C;++i){@ o=@(i&1,(i>>1)&1 T);t[i]=textureLod(s,(lower+o+0.5)/n,l);}f=place-lower;}
+vec4 nearest=textureLod(s,(floor(p*n)+0.5)/n,l);
+for(int k=C/2,a=0;k>0;k/=2,++a)for(int i=0;i<k;++i)t[i]=mix(t[2*i],t[2*i+1],f[a]);
+vec4 own=textureLod(s,p,l);
+return own==nearest&&any(greaterThan(abs(own-t[0]),vec4(0.01)))?own:t[0];}
+vec4 $mips(S s,@ p,float l){float top=float(textureQueryLevels(s)-1);l=clamp(l,0.0,top);float i=floor(l);
+vec4 a=$level(s,p,i);return l==i?a:mix(a,$level(s,p,i+1.0),l-i);}
+vec4 $texture(S s,@ p,float b){if(!$has(96))return texture(s,p,b);
+@ n=@(textureSize(s,0)),x=dFdxCoarse(p)*n,y=dFdyCoarse(p)*n;
+return $mips(s,p,$levels(max(dot(x,x),dot(y,y)),0.5)+b);}
+vec4 $texture(S s,@ p){return $has(96)?$texture(s,p,0.0):texture(s,p);}
+vec4 $textureLod(S s,@ p,float l){return $has(96)?$mips(s,p,l):textureLod(s,p,l);}
+)";
+
+constexpr std::string_view k_swift_cube = R"(vec4 $mips(samplerCube s,vec3 p,float l){
+l=clamp(l,0.0,float(textureQueryLevels(s)-1));float i=floor(l);vec4 a=textureLod(s,p,i);
+return l==i?a:mix(a,textureLod(s,p,i+1.0),l-i);}
+vec4 $texture(samplerCube s,vec3 p,float b){if(!$has(32))return texture(s,p,b);
+vec3 u=p*(0.5/max(max(abs(p.x),abs(p.y)),abs(p.z))),x=abs(dFdxCoarse(u)),y=abs(dFdyCoarse(u));
+float q=max(x.x+x.y+x.z-min(min(x.x,x.y),x.z),y.x+y.y+y.z-min(min(y.x,y.y),y.z));
+return $mips(s,p,$levels(q*float(textureSize(s,0).x),1.0)+b);}
+vec4 $texture(samplerCube s,vec3 p){return $has(32)?$texture(s,p,0.0):texture(s,p);}
+vec4 $textureLod(samplerCube s,vec3 p,float l){return $has(32)?$mips(s,p,l):textureLod(s,p,l);}
+)";
+
+struct SwiftFunction {
+    std::string_view name;
+    int parts;         ///< bits of SwiftShaderPart that change it
+    int arguments = 0; ///< of a function that works on each component; 0: the prelude has its overloads
+};
+
+using enum SwiftShaderPart;
+constexpr SwiftFunction k_swift_functions[] = {
+    {"sin", int(sines), 1},
+    {"cos", int(sines), 1},
+    {"tan", int(sines), 1},
+    {"asin", int(arcs), 1},
+    {"acos", int(arcs), 1},
+    {"atan", int(arcs) | int(outside), 2},
+    {"exp", int(powers), 1},
+    {"exp2", int(powers), 1},
+    {"log", int(powers) | int(outside), 1},
+    {"log2", int(powers) | int(outside), 1},
+    {"pow", int(powers) | int(outside), 2},
+    {"sinh", int(powers), 1},
+    {"cosh", int(powers), 1},
+    {"tanh", int(powers), 1},
+    {"fract", int(products), 1},
+    {"divide", int(products), 2}, // of the operator, too
+    {"mod", int(products), 2},
+    {"smoothstep", int(products), 3},
+    {"min", int(outside), 2},
+    {"max", int(outside), 2},
+    {"clamp", int(outside), 3},
+    {"inverse", int(products)},
+    {"mix", int(products)},
+    {"dot", int(products)},
+    {"length", int(products)},
+    {"distance", int(products)},
+    {"normalize", int(products)},
+    {"reflect", int(products)},
+    {"texture", int(mipmaps) | int(weights)},
+    {"textureLod", int(mipmaps) | int(weights)},
+};
+
+std::string replaced(std::string text, std::string_view what, std::string_view with) {
+    for (size_t at = text.find(what); at != text.npos; at = text.find(what, at + with.size()))
+        text.replace(at, what.size(), with);
+    return text;
+}
+
+/// Returns overloads for vectors of functions that work on each component, and of those that do not.
+std::string swift_overloads() {
+    std::string text;
+    const auto each = [&](std::string_view name, int size, int arguments) {
+        std::string parts;
+        for (int i = 0; i < size; ++i)
+            parts += fmt::format("{}${}(u[{}]{})", i > 0 ? "," : "", name, i,
+                                 arguments == 1   ? ""
+                                 : arguments == 2 ? fmt::format(",v[{}]", i)
+                                                  : fmt::format(",v[{0}],w[{0}]", i));
+        text += fmt::format("vec{0} ${1}(vec{0} u{2}){{return vec{0}({3});}}\n", size, name,
+                            arguments == 1   ? ""
+                            : arguments == 2 ? fmt::format(",vec{} v", size)
+                                             : fmt::format(",vec{0} v,vec{0} w", size),
+                            parts);
+    };
+    for (int size = 2; size <= 4; ++size) {
+        for (const SwiftFunction& function : k_swift_functions)
+            if (function.arguments > 0) {
+                each(function.name, size, function.arguments);
+                if (function.name == "atan")
+                    each(function.name, size, 1);
+            }
+        std::string chain = "a[0]*b[0]", parts;
+        for (int i = 1; i < size; ++i)
+            chain = fmt::format("$fma(a[{0}],b[{0}],{1})", i, chain);
+        for (int i = 0; i < size; ++i)
+            parts += fmt::format("{0}a[{1}]?y[{1}]:x[{1}]", i > 0 ? "," : "", i);
+        text += fmt::format("float $dot(vec{0} a,vec{0} b){{return $has(8)?{1}:dot(a,b);}}\n"
+                            "vec{0} $mix(vec{0} x,vec{0} y,bvec{0} a){{return vec{0}({2});}}\n",
+                            size, chain, parts) +
+                replaced(std::string(k_swift_vectors), "@", fmt::format("vec{}", size));
+    }
+    return text;
+}
+
+/// Returns functions that take whole numbers, too, and leave them as they are.
+std::string swift_whole_overloads() {
+    std::string text;
+    for (const std::string_view type : k_whole_vectors.first<8>()) {
+        const std::string_view one = type.find('u') != type.npos ? "uint" : "int";
+        for (const std::string_view name : {"min", "max"})
+            text +=
+                fmt::format("{0} ${2}({0} a,{0} b){{return {2}(a,b);}}\n", type, one, name) +
+                (type == one ? ""
+                             : fmt::format("{0} ${2}({0} a,{1} b){{return {2}(a,b);}}\n", type, one, name));
+        text +=
+            fmt::format("{0} $clamp({0} x,{0} a,{0} b){{return clamp(x,a,b);}}\n", type) +
+            (type == one ? ""
+                         : fmt::format("{0} $clamp({0} x,{1} a,{1} b){{return clamp(x,a,b);}}\n", type, one));
+    }
+    return text;
+}
+
+/// Returns the products of matrices and vectors: each number a chain of multiply-adds, both rounded.
+std::string swift_matrices() {
+    std::string text;
+    for (int columns = 2; columns <= 4; ++columns)
+        for (int rows = 2; rows <= 4; ++rows) {
+            std::string left, right;
+            for (int row = 0; row < rows; ++row) {
+                std::string chain = fmt::format("m[0][{0}]*v[0]", row);
+                for (int i = 1; i < columns; ++i)
+                    chain = fmt::format("$fma(m[{0}][{1}],v[{0}],{2})", i, row, chain);
+                left += (row > 0 ? "," : "") + chain;
+            }
+            for (int column = 0; column < columns; ++column)
+                right += fmt::format("{}$dot(v,m[{}])", column > 0 ? "," : "", column);
+            const std::string matrix = fmt::format("mat{}x{}", columns, rows);
+            text += fmt::format("vec{2} $times({0} m,vec{1} v){{return $has(8)?vec{2}({3}):m*v;}}\n"
+                                "vec{1} $times(vec{2} v,{0} m){{return $has(8)?vec{1}({4}):v*m;}}\n"
+                                "{0} $times({0} m,float f){{return m*f;}}\n"
+                                "{0} $times(float f,{0} m){{return f*m;}}\n",
+                                matrix, columns, rows, left, right);
+        }
+    for (int columns = 2; columns <= 4; ++columns) // after the products with vectors, which these use
+        for (int rows = 2; rows <= 4; ++rows)
+            for (int others = 2; others <= 4; ++others) {
+                std::string parts;
+                for (int i = 0; i < others; ++i)
+                    parts += fmt::format("{}$times(m,n[{}])", i > 0 ? "," : "", i);
+                text +=
+                    fmt::format("mat{2}x{1} $times(mat{0}x{1} m,mat{2}x{0} n){{return mat{2}x{1}({3});}}\n",
+                                columns, rows, others, parts);
+            }
+    return text;
+}
+
+std::string swift_lookups() {
+    const auto of = [](std::string_view sampler, std::string_view type, std::string_view corners,
+                       std::string_view third) {
+        std::string text(k_swift_lookup);
+        text = replaced(text, "S s", fmt::format("{} s", sampler));
+        text = replaced(text, "T)", fmt::format("{})", third));
+        text = replaced(text, "[C]", fmt::format("[{}]", corners));
+        text = replaced(text, "<C", fmt::format("<{}", corners));
+        text = replaced(text, "=C/", fmt::format("={}/", corners));
+        return replaced(text, "@", type);
+    };
+    return std::string(k_swift_pictures) + of("sampler2D", "vec2", "4", "") +
+           of("sampler3D", "vec3", "8", ",i>>2") + std::string(k_swift_cube);
+}
+
+const SwiftFunction* swift_function(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+    const std::string_view name =
+        text.tree()[id].kind == NodeKind::call ? called_name(text, id) : std::string_view{};
+    const auto found = std::ranges::find(k_swift_functions, name, &SwiftFunction::name);
+    return found == std::end(k_swift_functions) || facts.function(name) ? nullptr : found;
+}
+
+/// Returns the function of the prelude for a product of a matrix, a quotient or a remainder; empty for other
+/// nodes.
+std::string_view swift_operator(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+    const SyntaxTree& tree = text.tree();
+    if (tree[id].kind != NodeKind::binary && tree[id].kind != NodeKind::assign)
+        return {};
+    const std::string_view word = text.word_of(id);
+    const bool times = word == "*" || word == "*=";
+    if (word == "%") {
+        const ValueType whole{'i', 1, 1};
+        return expression_type(text, facts, tree.child(id, 0)) == whole &&
+                       expression_type(text, facts, tree.child(id, 1)) == whole
+                   ? "modulo"
+                   : std::string_view{};
+    }
+    if (!times && word != "/" && word != "/=")
+        return {};
+    const auto left = expression_type(text, facts, tree.child(id, 0));
+    const auto right = expression_type(text, facts, tree.child(id, 1));
+    if (!left || !right || left->base != 'f' || right->base != 'f')
+        return {};
+    if (left->matrix() || right->matrix())
+        return times ? "times" : std::string_view{};
+    if (times)
+        return {};
+    const NodeId divisor = without_brackets(tree, tree.child(id, 1));
+    return tree[divisor].kind == NodeKind::literal ? "over" : "divide"; // by a constant: times its reciprocal
+}
+
+int operator_part(std::string_view name) {
+    return int(name == "modulo" ? outside : products);
+}
+
+} // namespace
+
+Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, int parts, bool precise,
+                                const MayVary& may) {
+    const SyntaxTree& tree = text.tree();
+    const std::string prefix = fresh_prefix(text);
+    const bool by_lines = bool(may);
+    Variation result{{}, prefix + "mode", {}};
+    SourceRewriter edits(text);
+    bool has_lookup = false, has_matrix = false;
+    for (NodeId id = 1; id < tree.nodes.size(); ++id) {
+        if (precise && tree[id].kind == NodeKind::declaration &&
+            tree.around(id, NodeKind::function) != k_no_node) {
+            const NodeId type = tree.child(id, 0);
+            if (class_of_type(type_name(text, type)) == TypeClass::floating &&
+                !has_qualifier(text, type, "const") && !has_qualifier(text, type, "precise"))
+                edits.wrap(type, "precise ", "");
+        }
+        if ((by_lines && !may(id)) || must_stay_constant(text, id))
+            continue;
+        if (const SwiftFunction* const function = swift_function(text, facts, id)) {
+            if ((function->parts & parts) == 0)
+                continue;
+            has_lookup = has_lookup || function->parts >= int(mipmaps);
+            edits.replace(tree[tree.child(id, 0)].word, prefix + std::string(function->name));
+        } else if (const auto name = swift_operator(text, facts, id);
+                   !name.empty() && (parts & operator_part(name)) != 0) {
+            has_matrix = has_matrix || name == "times";
+            edits.wrap(id, prefix + std::string(name) + "(", ")");
+            if (tree[id].kind == NodeKind::binary) {
+                edits.replace(tree[id].word, ",");
+            } else {
+                const std::string target = words_of(text, tree.child(id, 0));
+                edits.wrap(id, "(" + target + "=", ")");
+                edits.replace(tree[id].word, ",");
+            }
+        } else {
+            continue;
+        }
+        result.places.push_back(id);
+    }
+    std::string prelude =
+        "#extension GL_ARB_gpu_shader5 : enable\n#extension GL_ARB_gpu_shader_fp64 : enable\n"
+        "#extension GL_ARB_derivative_control : enable\n"
+        "#extension GL_ARB_texture_query_levels : enable\n";
+    prelude += spell(std::string(k_swift_numbers), prefix);
+    prelude += replaced(swift_overloads() + swift_whole_overloads(), "$", prefix);
+    if (has_matrix)
+        prelude += replaced(swift_matrices(), "$", prefix);
+    if (has_lookup)
+        prelude += replaced(swift_lookups(), "$", prefix);
+    result.text = headers_with_buffers(text) + prelude + edits.text();
+    return result;
+}
+
+int swiftshader_parts(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+    if (const SwiftFunction* const function = swift_function(text, facts, id))
+        return function->parts;
+    const std::string_view name = swift_operator(text, facts, id);
+    return name.empty() ? 0 : operator_part(name);
+}
+
+} // namespace tidemark::glsl

@@ -1,0 +1,225 @@
+"""Whether lenses are right on a folder of shaders that nobody prepared: one row each, and sums.
+
+    python3 tests/bench/lenses.py FOLDER [--count 60] [--seed 1] [--what all,bytes,steps,error,value,tiles] [--program PATH]
+        [--timed PATH] [-o rows.json]
+
+all: each lens draws or refuses with a reason. steps: against a copy with a counter in its loop. error: against two captures. value:
+against `trace` in random pixels of a random assignment. tiles: rank correlation of `cost` with CPU time, per tile of 32x32 pixels.
+"""
+import argparse
+import json
+import pathlib
+import random
+import re
+import statistics
+import subprocess
+import tempfile
+
+from hot_lines import closing, load, without_comments
+from random_projects import random_projects
+
+SIZE, WIDTH, HEIGHT = "64x36", 64, 36
+LENSES = ("cost", "steps", "error", "rounding", "proof")
+ASSIGNMENT = re.compile(r"^\s*(?:(?:float|vec[234])\s+)?([A-Za-z_]\w*)\s*[-+*/]?=[^=]")
+MAIN = re.compile(r"\bvoid\s+mainImage\s*\(\s*(?:out|inout)\s+(?:\w+\s+)?vec4\s+(\w+)\s*,\s*(?:in\s+)?(?:\w+\s+)?vec2\s+(\w+)\s*\)")
+
+
+def ranks(values):
+    order = sorted(range(len(values)), key=values.__getitem__)
+    result = [0.0] * len(values)
+    at = 0
+    while at < len(order):
+        end = at
+        while end + 1 < len(order) and values[order[end + 1]] == values[order[at]]:
+            end += 1
+        for i in range(at, end + 1):
+            result[order[i]] = (at + end) / 2
+        at = end + 1
+    return result
+
+
+def correlation(a, b):
+    a, b = ranks(a), ranks(b)
+    mean_a, mean_b = statistics.mean(a), statistics.mean(b)
+    above = sum((x - mean_a) * (y - mean_b) for x, y in zip(a, b))
+    below = (sum((x - mean_a) ** 2 for x in a) * sum((y - mean_b) ** 2 for y in b)) ** 0.5
+    return above / below if below else 0.0
+
+
+class Project:
+    def __init__(self, path, folder, options):
+        self.path, self.folder, self.options = path, folder, options
+        self.whole, self.passes = load(path)
+        self.image = next((each for each in self.passes if each.get("type") == "image"), self.passes[0])
+        self.scene = folder / f"{path.stem}.json"
+        self.scene.write_text(json.dumps(self.whole))
+
+    def run(self, *arguments, limit=300):
+        try:
+            return subprocess.run([self.options.program, *map(str, arguments)], capture_output=True, text=True, timeout=limit, cwd=self.folder)
+        except subprocess.TimeoutExpired:
+            return None
+
+    def lens(self, name, scene=None, size=SIZE, seconds=1):
+        """The report of the lens, or why there is none."""
+        done = self.run("capture", scene or self.scene, "--size", size, "--time", seconds, "--lens", name, "-o", "lens.png", "--json")
+        if done is None:
+            return None, "time"
+        if done.returncode != 0:
+            lines = [line for line in done.stderr.splitlines() if "error" in line]
+            return None, f"{done.returncode}: {(lines or [done.stderr])[-1][:160]}"
+        return json.loads(done.stdout)["frames"][0]["lens"], ""
+
+    def steps(self):
+        """Pixels whose steps equal those of a copy that counts the first entry of the loop; None: no single march."""
+        report, _ = self.lens("steps")
+        place = report and re.search(r"iterations of the march at (\S+):(\d+)$", report["title"])
+        if not place:
+            return None
+        code = without_comments(self.image["code"])
+        begin = sum(len(line) + 1 for line in code.split("\n")[:int(place[2]) - 1])
+        loops = [match for match in re.finditer(r"\b(for|while)\s*\(", code) if match.start() <= begin + 200]
+        for loop in reversed(loops):
+            head = closing(code, loop.end() - 1)
+            body = head + len(code[head:]) - len(code[head:].lstrip())
+            if code[body] != "{":
+                continue
+            end = closing(code, body)
+            if not loop.start() <= begin + len(code[begin:]) - len(code[begin:].lstrip()) < end:
+                continue
+            main = MAIN.search(code)
+            if not main:
+                return None
+            text = (code[:loop.start()] + "{ ++entries_; " + code[loop.start():body + 1] + " if (entries_ == 1) ++count_; " +
+                    code[body + 1:end] + " }" + code[end:])
+            text = "int entries_ = 0; int count_ = 0;\n" + re.sub(r"\bmainImage\b", "ownImage", text)
+            text += "\nvoid mainImage(out vec4 c, in vec2 p) { vec4 own = vec4(0.0); ownImage(own, p); c = vec4(float(count_), 0.0, 0.0, 1.0) + 1e-30 * own.x; }\n"
+            before, self.image["code"] = self.image["code"], text
+            copy = self.folder / f"{self.path.stem}_steps.json"
+            copy.write_text(json.dumps(self.whole))
+            self.image["code"] = before
+            counted, why = self.lens("value:" + str(text.count("\n")) + ":c.x", copy)
+            if not counted:
+                return {"equal": 0, "of": 0, "why": why}
+            pairs = [(a, b) for a, b in zip(report["values"], counted["values"]) if a is not None]
+            return {"equal": sum(a == b for a, b in pairs), "of": len(pairs)}
+        return None
+
+    def error(self):
+        report, why = self.lens("error")
+        if not report:
+            return {"why": why}
+        for precision in ("single", "double"):
+            done = self.run("capture", self.scene, "--size", SIZE, "--time", 1, "--precision", precision, "--depth", "16", "-o",
+                            f"{precision}.png")
+            if done is None or done.returncode != 0:
+                return {"why": precision}
+        done = self.run("compare", "double.png", "single.png", "--json")  # colours as shown, 0 to 1, as the lens takes them
+        largest = json.loads(done.stdout)["frames"][0].get("largest")
+        return {"lens": report["max"] and report["max"] / 255, "compared": largest, "nan": report["nan"]}
+
+    def value(self, chance, pixels):
+        """Values of the lens and of `trace` in random pixels of a random assignment that the pixels reach."""
+        lines = without_comments(self.image["code"]).split("\n")
+        found = [(i + 1, match[1]) for i, line in enumerate(lines) if (match := ASSIGNMENT.match(line))]
+        chance.shuffle(found)
+        for line, name in found[:4]:
+            report, why = self.lens(f"value:{line}:{name}")
+            if not report:
+                continue
+            size = len(report["values"]) // (WIDTH * HEIGHT)
+            rows = []
+            for _ in range(4 * pixels):
+                x, y = chance.randrange(WIDTH), chance.randrange(HEIGHT)
+                at = size * (y * WIDTH + x)
+                if report["values"][at] is None or len(rows) >= pixels:
+                    continue
+                done = self.run("trace", self.scene, "--size", SIZE, "--time", 1, "--pixel", f"{x},{y}", "--line", line, "--json")
+                if done is None or done.returncode != 0:
+                    continue
+                values = [value for call in json.loads(done.stdout)["calls"] for value in call["values"] if value["name"] == name]
+                if not values:
+                    continue
+                traced = values[-1]["float"]
+                shown = report["values"][at:at + size]
+                pairs = list(zip(shown, traced))
+                same = all(a is None or b is None or abs(a - b) <= 1e-3 * max(1e-3, abs(b)) for a, b in pairs)
+                rows.append({"pixel": [x, y], "lens": shown, "trace": traced, "same": same})
+            if rows:
+                return {"line": line, "name": name, "pixels": rows}
+        return None
+
+    def tiles(self):
+        size = "320x160"
+        done = subprocess.run([self.options.timed, "--size", size, "--time", "1", "--rounds", "7", "--tiles", "32", str(self.scene)],
+                              capture_output=True, text=True, timeout=600)
+        timed = json.loads(done.stdout.splitlines()[0]) if done.stdout else {}
+        report, why = self.lens("cost", size=size)
+        if "tiles" not in timed or not report:
+            return {"why": why or "not drawn again"}
+        costs = []
+        for y in range(5):
+            for x in range(10):
+                costs.append(sum(report["values"][320 * (32 * y + j) + 32 * x + i] for j in range(32) for i in range(32)))
+        return {"correlation": correlation(costs, timed["tiles"]), "spread": max(timed["tiles"]) / max(1e-6, min(timed["tiles"])),
+                "ms": sum(timed["tiles"]), "weights": report.get("weights")}
+
+
+def main():
+    root = pathlib.Path(__file__).resolve().parent.parent.parent / "build" / "release"
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("folder")
+    parser.add_argument("--count", type=int, default=60)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--pixels", type=int, default=5)
+    parser.add_argument("--what", default="all,steps,error,value,tiles")
+    parser.add_argument("--program", default=str(root / "tidemark"))
+    parser.add_argument("--timed", default=str(root / "tidemark_timed"))
+    parser.add_argument("-o", "--output")
+    options = parser.parse_args()
+    files = random_projects(options.folder, options.seed)
+    chance, what, rows = random.Random(options.seed), options.what.split(","), []
+    with tempfile.TemporaryDirectory() as folder:
+        for path in files[:options.count]:
+            try:
+                project = Project(path, pathlib.Path(folder), options)
+                row = {"project": path.name}
+                if "all" in what:
+                    row["lenses"] = {name: project.lens(name)[1] or "drew" for name in LENSES}
+                for each in ("steps", "error", "tiles"):
+                    if each in what:
+                        row[each] = getattr(project, each)()
+                if "value" in what:
+                    row["value"] = project.value(chance, options.pixels)
+            except (KeyError, ValueError, IndexError, subprocess.TimeoutExpired) as error:
+                row = {"project": path.name, "failed": f"{type(error).__name__}: {error}"}
+            rows.append(row)
+            print(json.dumps(row)[:600], flush=True)
+            if options.output:
+                pathlib.Path(options.output).write_text(json.dumps(rows, indent=1))
+    summarise(rows)
+
+
+def summarise(rows):
+    for name in LENSES:
+        words = [row["lenses"][name] for row in rows if "lenses" in row]
+        if words:
+            print(f"{name}: drew {words.count('drew')} of {len(words)}; refused {sum(word.startswith('3:') for word in words)}; "
+                  f"otherwise {[word for word in words if word != 'drew' and not word.startswith('3:')]}")
+    steps = [row["steps"] for row in rows if row.get("steps")]
+    print(f"steps: {sum(each['equal'] == each['of'] > 0 for each in steps)} of {len(steps)} copies equal in all pixels")
+    errors = [row["error"] for row in rows if row.get("error") and "lens" in row["error"]]
+    same = [each for each in errors if each["lens"] is not None and each["compared"] is not None
+            and abs(each["lens"] - each["compared"]) <= 2 / 65535 + 1e-3 * each["compared"]]
+    print(f"error: {len(same)} of {len(errors)} equal")
+    pixels = [pixel for row in rows if row.get("value") for pixel in row["value"]["pixels"]]
+    print(f"value: {sum(pixel['same'] for pixel in pixels)} of {len(pixels)} pixels of {sum(bool(row.get('value')) for row in rows)} projects")
+    tiles = [row["tiles"] for row in rows if row.get("tiles") and "correlation" in row["tiles"]]
+    spread = sorted(each["correlation"] for each in tiles if each["spread"] > 2 and each["ms"] > 10)
+    if spread:
+        print(f"tiles: {len(spread)} of {len(tiles)} differ by more than 2 and take over 10 ms: median {statistics.median(spread):.3f}, "
+              f"least {spread[0]:.3f}")
+
+
+if __name__ == "__main__":
+    main()

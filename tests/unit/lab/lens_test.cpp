@@ -1,0 +1,156 @@
+// Lenses: the forms of their names, statistics of known numbers, colours and the size of the legend.
+#include "lab/lens.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace tidemark::lab::lens_test {
+
+using Mark = LensNumbers::Mark;
+using Pick = glsl::SeenValue::Pick;
+
+TEST(Lens, names_survive_parsing) {
+    for (const char* text : {"cost", "steps", "steps:12", "error", "rounding", "proof", "value:3",
+                             "value:3:p.x", "value:3:hit.normal@min", "value:common.glsl:7:d@max",
+                             "value:9:d@4", "branch:5", "branch:a.glsl:5:2"}) {
+        const auto lens = parse_lens(text);
+        ASSERT_TRUE(lens) << text;
+        EXPECT_EQ(to_string(*lens), text);
+    }
+}
+
+TEST(Lens, a_name_has_place_variable_and_selection) {
+    const Lens lens = *parse_lens("value:common.glsl:7:p.y@3");
+    EXPECT_EQ(lens.name, LensName::value);
+    EXPECT_EQ(lens.place->file, "common.glsl");
+    EXPECT_EQ(lens.place->line, 7);
+    EXPECT_EQ(lens.variable, "p.y");
+    EXPECT_EQ(lens.pick, Pick::number);
+    EXPECT_EQ(lens.number, 3u);
+}
+
+TEST(Lens, malformed_names_are_refused) {
+    for (const char* text :
+         {"", "speed", "cost:3", "value", "value:p", "value:0", "value:3:a b", "value:3:p@0",
+          "value:3:p@often", "steps@min", "branch", "branch:3:0", "branch:3:two", "proof:1"}) {
+        const auto lens = parse_lens(text);
+        ASSERT_FALSE(lens) << text;
+        EXPECT_EQ(lens.error().code, ErrorCode::usage) << text;
+    }
+}
+
+LensNumbers numbers_of(std::vector<float> values) {
+    LensNumbers numbers;
+    numbers.extent = {int(values.size()), 1};
+    numbers.marks.assign(values.size(), Mark::number);
+    numbers.values = std::move(values);
+    return numbers;
+}
+
+TEST(Lens, statistics_leave_out_non_finite_numbers) {
+    LensNumbers numbers = numbers_of({4, 1, 3, 2, std::nanf(""), std::numeric_limits<float>::infinity(), 9});
+    numbers.marks[1] = Mark::marked;
+    numbers.marks[6] = Mark::absent;
+    const LensSummary summary = summary_of({}, numbers);
+    EXPECT_EQ(summary.pixels, 7u);
+    EXPECT_EQ(summary.numbers, 6u);
+    EXPECT_EQ(summary.marked, 1u);
+    EXPECT_EQ(summary.nan, 1u);
+    EXPECT_EQ(summary.infinite, 1u);
+    EXPECT_EQ(summary.least, 1);
+    EXPECT_EQ(summary.median, 2.5);
+    EXPECT_EQ(summary.most, 4);
+}
+
+TEST(Lens, a_frame_without_numbers_has_a_range_and_a_picture) {
+    LensNumbers numbers = numbers_of({0, 0});
+    numbers.marks.assign(2, Mark::absent);
+    const LensSummary summary = summary_of({}, numbers);
+    EXPECT_TRUE(std::isnan(summary.median));
+    EXPECT_LT(range_of({}, summary).low, range_of({}, summary).high);
+    EXPECT_EQ(draw_lens({}, numbers).extent, legend_extent({2, 1}));
+}
+
+TEST(Lens, the_legend_ends_at_round_numbers) {
+    LensPlan plan;
+    LensSummary summary;
+    summary.least = 3;
+    summary.most = 64;
+    EXPECT_EQ(range_of(plan, summary).low, 0);
+    EXPECT_EQ(range_of(plan, summary).high, 100);
+    plan.lens.name = LensName::value;
+    summary.least = -0.31;
+    summary.most = 0.98;
+    EXPECT_LE(range_of(plan, summary).low, -0.31);
+    EXPECT_GE(range_of(plan, summary).high, 0.98);
+    plan.logarithmic = true;
+    summary.most = 37;
+    EXPECT_NEAR(range_of(plan, summary).high, 100, 1e-9);
+}
+
+TEST(Lens, a_share_is_rounded_to_all_or_nothing_only_if_it_is) {
+    EXPECT_EQ(share_words(1), "100 %");
+    EXPECT_EQ(share_words(0), "0 %");
+    EXPECT_EQ(share_words(0.999783), "99.98 %");
+    EXPECT_EQ(share_words(0.99996), "99.996 %");
+    EXPECT_EQ(share_words(1 - 2e-7), "99.99998 %");
+    EXPECT_EQ(share_words(0.995), "99.5 %");
+    EXPECT_EQ(share_words(0.000217), "0.0217 %");
+    EXPECT_EQ(share_words(0.125), "12.5 %");
+}
+
+TEST(Lens, a_narrow_legend_has_more_rows) {
+    LensPlan plan;
+    plan.title = std::string(70, 'm');
+    LensNumbers numbers;
+    numbers.extent = {320, 180};
+    numbers.values.assign(numbers.extent.pixels(), 1);
+    numbers.marks.assign(numbers.extent.pixels(), Mark::number);
+    const image::Image whole = draw_lens(plan, numbers);
+    plan.title = std::string(53, 'm');
+    EXPECT_NE(draw_lens(plan, numbers).bytes, whole.bytes) << "the rest of the title is in the second row";
+    const int below = legend_extent({320, 180}).height - 180;
+    EXPECT_GT(below, legend_extent({640, 360}).height - 360);
+}
+
+TEST(Lens, brightness_rises_along_the_colours) {
+    double before = -1;
+    for (int i = 0; i <= 100; ++i) {
+        const auto [red, green, blue] = lens_colour(i / 100.0);
+        const double light = 0.2126 * image::light_of_srgb(red / 255.0) +
+                             0.7152 * image::light_of_srgb(green / 255.0) +
+                             0.0722 * image::light_of_srgb(blue / 255.0);
+        EXPECT_GE(light, before - 1e-3) << i;
+        before = light;
+    }
+    EXPECT_EQ(lens_colour(-1), lens_colour(0));
+    EXPECT_EQ(lens_colour(2), lens_colour(1));
+}
+
+TEST(Lens, pixels_without_a_number_have_their_own_colours) {
+    LensNumbers numbers = numbers_of({0, 1, std::nanf(""), 1, 1});
+    numbers.marks[3] = Mark::marked;
+    numbers.marks[4] = Mark::absent;
+    const image::Image map = lens_map({}, numbers);
+    const auto colour = [&](size_t pixel) {
+        return std::array{map.u8()[4 * pixel], map.u8()[4 * pixel + 1], map.u8()[4 * pixel + 2]};
+    };
+    EXPECT_EQ(colour(0), lens_colour(0));
+    EXPECT_EQ(colour(1), lens_colour(1));
+    EXPECT_EQ(colour(2), (std::array<uint8_t, 3>{255, 0, 255}));
+    EXPECT_EQ(colour(3), (std::array<uint8_t, 3>{255, 255, 255}));
+    EXPECT_EQ(colour(4), (std::array<uint8_t, 3>{0, 0, 0}));
+}
+
+TEST(Lens, a_legend_fits_its_text_and_has_even_sides) {
+    for (const Extent map : {Extent{1, 1}, Extent{321, 181}, Extent{1920, 1080}, Extent{3840, 2160}}) {
+        const Extent whole = legend_extent(map);
+        EXPECT_GE(whole.width, std::max(240, map.width));
+        EXPECT_GT(whole.height, map.height);
+        EXPECT_EQ(whole.width % 2 + whole.height % 2, 0);
+    }
+}
+
+} // namespace tidemark::lab::lens_test
