@@ -426,8 +426,10 @@ void draw_scrubber(TimeField& time, Commands& commands) {
             kept.SetFloat(typed, float(wanted));
     }
     ImGui::SameLine();
-    if (ImGui::Button(fmt::format("{:.0f} s###end", end).c_str(), {button, 0}))
+    if (ImGui::Button(fmt::format("{:.0f} s###end", end).c_str(), {button, 0})) {
         commands.emplace_back(GrowBar{});
+        time.bar_end *= 2; // a second click before the next frame goes by the new end
+    }
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("The bar's end; click to double it");
     if (!released)
