@@ -6,7 +6,7 @@ from support.live import LiveTest, View, main, wait_for
 from support.slow import rounds_that_take, slow_function, slow_shader
 
 SIZE = ("--size", "320x160")
-FRAME_SECONDS = 4
+FRAME_SECONDS = 3
 SMALL = {"size": "iResolution.x"}
 COUNTED = {"count": "texelFetch(iChannel0, ivec2(0), 0).r", "frame": "float(iFrame)"}
 COUNT = '#iChannel0 "self"\nvoid mainImage(out vec4 c, in vec2 p) { c = texelFetch(iChannel0, ivec2(p), 0) + 1.0; }\n'
