@@ -48,6 +48,15 @@ class SoundTest(OverlayTest):
     def wait_for_samples(self, count: int) -> None:
         wait_for(lambda: len(self.samples()[0]) > count, f"{count} samples")
 
+    def expect_silence_when_paused(self, view: View) -> None:
+        view.pause()
+        paused_at = float(view.title().split("paused at ")[1].split()[0])
+        time.sleep(0.3)
+        times, _ = self.samples()
+        self.assertLess(abs(times[-1] - paused_at), 0.6)  # a quarter of a second is handed over ahead
+        time.sleep(0.3)
+        self.assertEqual(len(self.samples()[0]), len(times))
+
 
 class Sound(SoundTest):
     def start(self, device: bool = True) -> View:
@@ -66,13 +75,7 @@ class Sound(SoundTest):
         steps = [b - a for a, b in zip(times[::441], times[441::441])]
         in_step = sum(abs(step - 0.01) < 0.007 for step in steps)
         self.assertGreater(in_step, 0.9 * len(steps))
-        view.pause()
-        paused_at = float(view.title().split("paused at ")[1].split()[0])
-        time.sleep(0.3)
-        times, _ = self.samples()
-        self.assertLess(abs(times[-1] - paused_at), 0.6)  # a quarter of a second is handed over ahead
-        time.sleep(0.3)
-        self.assertEqual(len(self.samples()[0]), len(times))  # silent
+        self.expect_silence_when_paused(view)
 
     def test_restart_and_steps_are_followed(self):
         view = self.start()
@@ -138,13 +141,7 @@ class Inputs(SoundTest):
         heard, whole = self.raw().tobytes(), self.music.tobytes()
         exact = sum(heard[at:at + 4410] in whole for at in range(0, len(heard) - 4410, 4410))
         self.assertGreater(exact, 0.9 * (len(heard) // 4410 - 1))  # but for jumps where the machine was too busy
-        view.pause()
-        paused_at = float(view.title().split("paused at ")[1].split()[0])
-        time.sleep(0.3)
-        times, _ = self.samples()
-        self.assertLess(abs(times[-1] - paused_at), 0.6)  # a quarter of a second is handed over ahead
-        time.sleep(0.3)
-        self.assertEqual(len(self.samples()[0]), len(times))  # silent
+        self.expect_silence_when_paused(view)
 
     def test_music_loops_with_its_texture(self):
         self.start(seconds=1)
