@@ -88,8 +88,9 @@ public:
         for (const auto& [pass, followed] : followed_)
             if (scene_.passes[pass].kind == scene::PassKind::buffer)
                 add_half_size(pass);
-        std::ranges::stable_sort(found_.cuts, std::greater<>(),
-                                 [](const glsl::Cut& cut) { return std::pair(cut.keeps_values, cut.work); });
+        std::ranges::stable_sort(found_.cuts, std::greater<>(), [](const glsl::Cut& cut) {
+            return std::pair(cut.keeps_values, cut.work * cut.chance);
+        });
         return std::move(found_);
     }
 

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace tidemark::lab {
 namespace {
@@ -23,6 +24,8 @@ constexpr size_t k_fewest_trials = 3, k_most_trials = 25;
 constexpr double k_enough_milliseconds = 120; ///< for the timing rounds
 /// A cut is considered if a frame takes at most this share of its former time.
 constexpr double k_pays = 0.985;
+/// A trial is not timed again if one round takes more than this share of the former time by both clocks.
+constexpr double k_hopeless = 1.1;
 /// Limit of the other views, and their last moment in seconds: later a float's rounding shows in many scenes.
 constexpr size_t k_most_others = 160;
 constexpr double k_latest_moment = 1000;
@@ -42,7 +45,27 @@ double clocked(const Elapsed& elapsed, bool by_cpu) {
     return by_cpu ? elapsed.cpu : elapsed.wall;
 }
 
+double displayed(const image::Image& picture, int x, int y, int channel) {
+    const size_t i =
+        (size_t(y) * size_t(picture.extent.width) + size_t(x)) * size_t(picture.channels) + size_t(channel);
+    return std::clamp(double(picture.f32()[i]), 0.0, 1.0);
+}
+
+/// Returns how far `value` lies outside of what the picture shows at the pixel and its eight neighbours. NaN
+/// neighbours do not count.
+double gap_around(double value, const image::Image& picture, int x, int y, int channel) {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (int j = std::max(0, y - 1); j <= std::min(y + 1, picture.extent.height - 1); ++j)
+        for (int i = std::max(0, x - 1); i <= std::min(x + 1, picture.extent.width - 1); ++i) {
+            const double near = displayed(picture, i, j, channel);
+            least = std::min(least, near);
+            most = std::max(most, near);
+        }
+    return std::max({0.0, least - value, value - most});
+}
+
 /// Returns the RMSE of a part as displayed; pixels that are NaN or infinite in the own picture do not count.
+/// An edge that moves by one pixel does not count either: it is in both pictures.
 double rmse_of_part(const image::Image& own, const image::Image& cut, int part) {
     const auto [width, height] = own.extent;
     const int column = part % k_part_columns, row = part / k_part_columns;
@@ -51,14 +74,17 @@ double rmse_of_part(const image::Image& own, const image::Image& cut, int part) 
     size_t samples = 0;
     for (int y = height * row / k_part_rows; y < height * (row + 1) / k_part_rows; ++y)
         for (int x = width * column / k_part_columns; x < width * (column + 1) / k_part_columns; ++x)
-            for (size_t k = 0; k < channels; ++k) {
-                const size_t i = (size_t(y) * size_t(width) + size_t(x)) * channels + k;
+            for (int k = 0; k < int(channels); ++k) {
+                const size_t i = (size_t(y) * size_t(width) + size_t(x)) * channels + size_t(k);
                 if (!std::isfinite(own.f32()[i]))
                     continue;
-                const double gap =
-                    std::clamp(double(cut.f32()[i]), 0.0, 1.0) - std::clamp(double(own.f32()[i]), 0.0, 1.0);
-                squares += gap * gap;
                 ++samples;
+                const double before = displayed(own, x, y, k), after = displayed(cut, x, y, k);
+                if (before == after)
+                    continue;
+                const double gap =
+                    std::max(gap_around(before, cut, x, y, k), gap_around(after, own, x, y, k));
+                squares += gap * gap;
             }
     return std::sqrt(squares / double(std::max<size_t>(1, samples)));
 }
@@ -194,6 +220,8 @@ double CutBench::relative_time(Specimen& one, Specimen& other) const {
             }
         ones.push_back(sums[0]);
         others.push_back(sums[1]);
+        if (sums[0].wall > k_hopeless * sums[1].wall && sums[0].cpu > k_hopeless * sums[1].cpu)
+            break;
     }
     double wall = 0, cpu = 0;
     for (const Elapsed& elapsed : others) {
@@ -219,6 +247,8 @@ constexpr double k_looking = 0.15, k_alone = 0.45, k_together = 0.7, k_timing = 
                  k_others = 0.03; ///< `k_others` is for drawing the other views once
 /// The verdict's pictures are made smaller if everything would else take more than this share of the budget.
 constexpr double k_everything = 1.1;
+/// The verdict's rounds end at this share of the budget if other work of the machine slows them down.
+constexpr double k_last = 1.35;
 /// The least share of the budget that the verdict's rounds get.
 constexpr double k_least_timing = 0.1;
 /// Savings of single cuts that differ by less than this count as equal.
@@ -295,17 +325,37 @@ private:
         return double(extent.pixels()) / double(small_of(request_.extent, k_small).pixels());
     }
 
+    /// Returns whether a trial of the cut's family makes its own superfluous: one as strong or weaker changed
+    /// the picture too much, or one as strong or stronger kept it.
+    bool is_decided(const glsl::Cut& cut) const {
+        const auto known = families_.find(cut.family);
+        return known != families_.end() &&
+               (cut.strength <= known->second.kept || cut.strength >= known->second.refused);
+    }
+
+    void remember(const glsl::Cut& cut, bool kept) {
+        Family& family = families_[cut.family];
+        if (kept)
+            family.kept = std::max(family.kept, cut.strength);
+        else
+            family.refused = std::min(family.refused, cut.strength);
+    }
+
     void try_alone(CutBench& bench, CutBench& finer, const std::vector<glsl::Cut>& cuts) {
         watch_.begin("cuts tried", cuts.size());
         for (const glsl::Cut& cut : cuts) {
             // Time to combine and to judge is needed only if something was found.
             if (!goes_on(good_.empty() ? k_together : k_alone) || !goes_on(k_together, longest_trial_))
                 break;
-            ++tried_;
             watch_.advance();
+            if (is_decided(cut))
+                continue;
+            ++tried_;
             CutBench& own = cut.hangs_on_size ? finer : bench;
             const auto trial = tried(own, std::span(&cut.change, 1), own.own());
             refused_ += !trial;
+            if (!cut.family.empty())
+                remember(cut, trial.has_value());
             if (trial && trial->time <= k_pays)
                 good_.push_back({cut.change, trial->error, trial->time, cut.hangs_on_size});
         }
@@ -346,17 +396,18 @@ private:
         }
     }
 
-    /// Returns the seconds that are left to time the verdict's pictures, after two programs were compiled.
-    double seconds_left() const {
-        return std::max(k_everything * request_.seconds - seconds() - 2 * longest_trial_,
+    /// Returns the seconds that are left up to a share of the budget to time the verdict's pictures, after
+    /// two programs were compiled.
+    double seconds_left(double share) const {
+        return std::max(share * request_.seconds - seconds() - 2 * longest_trial_,
                         k_least_timing * request_.seconds);
     }
 
     /// Returns the size of the verdict's pictures: the requested one, or a smaller one of the same shape if
     /// `seconds_a_round`, for one point at the requested size, does not allow two points.
     Extent judged_extent(double seconds_a_round) const {
-        return affordable(request_.extent, 2 * double(k_fewest_rounds) * seconds_a_round, seconds_left(),
-                          k_small);
+        return affordable(request_.extent, 2 * double(k_fewest_rounds) * seconds_a_round,
+                          seconds_left(k_everything), k_small);
     }
 
     /// Returns the last step and others evenly spaced before it, as many as the time allows.
@@ -391,7 +442,7 @@ private:
             study.views.push_back(unseen(last, later * std::max(last.state.seconds(), 1.0)));
         const double needed = double(k_fewest_rounds * (steps_.size() + 1)) * round;
         Timing timing{steps_.empty() ? size_t(0) : size_t(2), steps_.empty() ? size_t(3) : size_t(30),
-                      std::min(std::max(needed, k_timing * request_.seconds), seconds_left())};
+                      std::min(std::max(2 * needed, k_timing * request_.seconds), seconds_left(k_last))};
         timing.by_cpu = gl::is_software_renderer(facts_.renderer); // other work of the machine does not count
         Watch watch = watch_;
         if (!watch_.keep_going()) // a cancelled search still judges its results
@@ -494,6 +545,12 @@ private:
         return sum;
     }
 
+    /// The strongest cut of a family that kept the picture, and the weakest that did not.
+    struct Family {
+        double kept = -std::numeric_limits<double>::infinity();
+        double refused = std::numeric_limits<double>::infinity();
+    };
+
     const scene::Scene& scene_;
     const SimplifyRequest& request_;
     const Watch& watch_;
@@ -504,6 +561,7 @@ private:
     size_t refused_ = 0;       ///< of the tried ones: they change the picture, or the driver rejects them
     double longest_trial_ = 0; ///< seconds
     Extent judged_{};          ///< size of the verdict's pictures
+    std::map<std::string, Family> families_{};
     std::vector<ChosenCut> good_{};             ///< cuts that pay alone
     std::vector<std::vector<ChosenCut>> way_{}; ///< combinations; each keeps the error
     std::vector<size_t> steps_{};               ///< indices of the combinations to judge

@@ -52,18 +52,37 @@ bool calls_function(const ParsedText& text, const TreeFacts& facts, NodeId id) {
 
 /// Cheaper operations are not tried: a driver needs no instruction for most of them.
 constexpr double k_least_work = 4;
-/// Shares of a loop's iterations that are tried.
-constexpr std::array k_parts{0.9, 0.75, 0.5, 0.25};
+/// A part of a loop's iterations, and the chance that the picture stays with it.
+struct Part {
+    double share, chance;
+};
+constexpr std::array k_parts{Part{0.9, 0.5}, Part{0.75, 0.45}, Part{0.5, 0.35}, Part{0.25, 0.15}};
 constexpr double k_fewest_turns = 2;
 
-/// A march may end early where its step or its way passes a limit. `share` estimates the iterations that are
-/// saved.
+/// A march may end early where its step or its way passes a limit; `{}` stands for the way. `saved` estimates
+/// the share of the iterations. A larger `strength` of the same family ends the march earlier.
 struct Exit {
     const char* limit;
-    double share;
+    double saved, strength;
+    const char* family;
 };
-constexpr std::array k_exits_of_step{Exit{"< 0.01", 0.6}, Exit{"< 0.001", 0.5}, Exit{"> 20.0", 0.3}};
-constexpr std::array k_exits_of_way{Exit{"> 20.0", 0.4}, Exit{"> 100.0", 0.2}};
+constexpr std::array k_exits_of_step{Exit{"< 0.01", 0.5, 2, "near"}, Exit{"< 0.001", 0.4, 1, "near"},
+                                     Exit{"> 20.0", 0.2, 1, "leap"}};
+constexpr std::array k_exits_of_way{Exit{"> 20.0", 0.3, 2, "far"}, Exit{"> 100.0", 0.15, 1, "far"}};
+constexpr std::array k_exits_by_way{Exit{"< 0.004 * abs({})", 0.5, 2, "relative"},
+                                    Exit{"< 0.001 * abs({})", 0.4, 1, "relative"}};
+/// Factors of a number: of a threshold of a distance, of a limit of a way, of a march's step.
+struct Factor {
+    double factor, saved, strength;
+};
+constexpr std::array k_coarser{Factor{3, 0.25, 1}, Factor{10, 0.4, 2}};
+constexpr std::array k_nearer{Factor{0.5, 0.3, 1}, Factor{0.25, 0.4, 2}};
+constexpr std::array k_longer{Factor{1.2, 0.16, 1}, Factor{1.5, 0.3, 2}};
+constexpr double k_largest_threshold = 0.1, k_least_way = 4;
+/// Chances that a march keeps the picture if it ends earlier, or if its steps are longer.
+constexpr double k_chance_of_exit = 0.5, k_chance_of_step = 0.4;
+/// Chances of a term or value and of a statement that take no time; the whole text has none.
+constexpr double k_chance_of_term = 0.1, k_chance_of_statement = 0.2, k_least_chance = 0.01;
 /// Coarser levels show in nearly any picture.
 constexpr int k_coarsest_level = 3;
 
@@ -178,6 +197,15 @@ void WorkEstimate::count_times() {
 Cutter::Cutter(const ParsedText& text, const TreeFacts& facts)
     : text_(text), tree_(text.tree()), facts_(facts), work_(text, facts), kept_(tree_.nodes.size()) {
     find_kept();
+    for (NodeId id = 1; id < tree_.nodes.size(); ++id)
+        if (tree_[id].kind == NodeKind::function)
+            whole_ = std::max(whole_, work_.of(id));
+}
+
+/// Returns the chance that the picture stays without a part: the larger its share of the work, the more of
+/// the picture it makes.
+double Cutter::chance_without(double work, double chance) const {
+    return std::max(k_least_chance, chance * (1 - work / std::max(whole_, 1.0)));
 }
 
 /// Repeats until such a loop calls no further function: prototypes let a definition follow its calls.
@@ -228,6 +256,7 @@ void Cutter::add(std::optional<WrittenTokens> tokens, std::string instead, std::
     if (!tokens)
         return;
     cuts.push_back({{{in_place_of(text_, *tokens, std::move(instead))}, std::move(reason)}, work});
+    cuts.back().chance = chance_without(work, k_chance_of_term);
 }
 
 /// Adds `a + b` without b and without a; likewise for `-` and `*`. Each operand of a chain is added once.
@@ -258,8 +287,11 @@ void Cutter::add_statement(NodeId id, std::vector<Cut>& cuts) const {
         return;
     const Node& node = tree_[id];
     const bool in_block = tree_[node.parent].kind == NodeKind::block;
+    const size_t before = cuts.size();
     add(between(text_, node.begin, node.end - 1), in_block ? "" : ";",
         fmt::format("{}: leaves out `{}`", place_of(id), in_short(text_.excerpt(id))), work_.of(id), cuts);
+    if (cuts.size() > before)
+        cuts.back().chance = chance_without(work_.of(id), k_chance_of_statement);
 }
 
 void Cutter::add_turns(NodeId loop, std::vector<Cut>& cuts) const {
@@ -267,16 +299,19 @@ void Cutter::add_turns(NodeId loop, std::vector<Cut>& cuts) const {
     if (!bound || kept_[loop])
         return;
     double before = bound->turns;
-    for (const double part : k_parts) {
+    for (const auto& [part, chance] : k_parts) {
         const double turns = std::max(k_fewest_turns, std::floor(part * bound->turns));
         if (!(turns < before))
             continue;
         before = turns;
         if (auto wrap = with_turns(text_, *bound, turns))
-            cuts.push_back({{{*std::move(wrap)},
-                             fmt::format("{}: {:g} iterations of the loop instead of {:g}", place_of(loop),
-                                         turns, bound->turns)},
-                            work_.of(loop) * (1 - turns / bound->turns)});
+            cuts.push_back({.change = {{*std::move(wrap)},
+                                       fmt::format("{}: {:g} iterations of the loop instead of {:g}",
+                                                   place_of(loop), turns, bound->turns)},
+                            .work = work_.of(loop) * (1 - turns / bound->turns),
+                            .chance = chance,
+                            .family = fmt::format("turns {}", tree_[loop].begin),
+                            .strength = -turns});
     }
 }
 
@@ -302,6 +337,19 @@ bool Cutter::is_computed_in(NodeId loop, std::string_view name) const {
     return false;
 }
 
+/// Returns whether the text does not show that the expression is a vector.
+bool Cutter::may_be_scalar(NodeId id) const {
+    const auto type = expression_type(text_, facts_, id);
+    return !type || type->scalar();
+}
+
+/// Returns the member `h.x` that a name `h` is used for, or the name itself.
+NodeId Cutter::step_value(NodeId id) const {
+    while (tree_[tree_[id].parent].kind == NodeKind::member)
+        id = tree_[id].parent;
+    return id;
+}
+
 /// Adds exits after `t += d`, where the loop computes the step `d`, and after `t += f(p)`: rays that have
 /// arrived, or are far from everything, need no more iterations.
 void Cutter::add_exits(NodeId step, std::vector<Cut>& cuts) const {
@@ -311,23 +359,33 @@ void Cutter::add_exits(NodeId step, std::vector<Cut>& cuts) const {
     const auto tokens = between(text_, tree_[statement].begin, tree_[statement].end - 1);
     if (!tokens)
         return;
+    const NodeId target = tree_.child(step, 0);
+    const std::string way = tree_[target].kind == NodeKind::name && may_be_scalar(target)
+                                ? std::string(text_.word_of(target))
+                                : "";
     const auto add_exit = [&](const std::string& front, std::vector<Wrap> inner, std::string_view value,
                               const Exit& exit) {
+        std::string limit = exit.limit;
+        if (const size_t place = limit.find("{}"); place != limit.npos)
+            limit.replace(place, 2, way);
         inner.push_back(
-            wrapped(text_, *tokens, "{ " + front, fmt::format(" if ({} {}) break; }}", value, exit.limit)));
-        cuts.push_back(
-            {{std::move(inner), fmt::format("{}: leaves the loop after `{}` if {} {}", place_of(step),
-                                            in_short(text_.excerpt(step)), value, exit.limit)},
-             work_.of(loop) * exit.share});
+            wrapped(text_, *tokens, "{ " + front, fmt::format(" if ({} {}) break; }}", value, limit)));
+        cuts.push_back({.change = {std::move(inner),
+                                   fmt::format("{}: leaves the loop after `{}` if {} {}", place_of(step),
+                                               in_short(text_.excerpt(step)), value, limit)},
+                        .work = work_.of(loop) * exit.saved,
+                        .chance = k_chance_of_exit,
+                        .family = fmt::format("{} {}", exit.family, tree_[step].begin),
+                        .strength = exit.strength});
     };
     bool marches = false;
     for (NodeId id = 1; id < step && !marches; ++id) {
-        if (!tree_.is_within(id, tree_.child(step, 1)))
+        if (!tree_.is_within(id, tree_.child(step, 1)) || !may_be_scalar(step_value(id)))
             continue;
         std::string front, value;
         std::vector<Wrap> inner;
         if (tree_[id].kind == NodeKind::name && is_computed_in(loop, text_.word_of(id)))
-            value = fmt::format("abs({})", text_.word_of(id));
+            value = fmt::format("abs({})", text_.excerpt(step_value(id)));
         else if (calls_function(text_, facts_, id) && !is_cheap(id) && type_of(id) && type_of(id)->scalar()) {
             const std::string name = fresh_name(text_, "march_step");
             front = fmt::format("float {} = {}; ", name, text_.excerpt(id));
@@ -338,16 +396,90 @@ void Cutter::add_exits(NodeId step, std::vector<Cut>& cuts) const {
         marches = true;
         for (const Exit& exit : k_exits_of_step)
             add_exit(front, inner, value, exit);
+        if (!way.empty())
+            for (const Exit& exit : k_exits_by_way)
+                add_exit(front, inner, value, exit);
     }
-    if (marches && tree_[tree_.child(step, 0)].kind == NodeKind::name)
+    if (!marches)
+        return;
+    add_longer_steps(step, loop, cuts);
+    if (!way.empty())
         for (const Exit& exit : k_exits_of_way)
-            add_exit("", {}, text_.word_of(tree_.child(step, 0)), exit);
+            add_exit("", {}, way, exit);
+}
+
+/// Adds longer steps of a march: many step less far than their distance allows.
+void Cutter::add_longer_steps(NodeId step, NodeId loop, std::vector<Cut>& cuts) const {
+    const NodeId length = tree_.child(step, 1);
+    const auto tokens = between(text_, tree_[length].begin, tree_[length].end - 1);
+    if (!tokens || kept_[loop])
+        return;
+    for (const Factor& each : k_longer)
+        cuts.push_back(
+            {.change = {{wrapped(text_, *tokens, fmt::format("{} * (", number_text(each.factor)), ")")},
+                        fmt::format("{}: {:g} times as long steps in `{}`", place_of(step), each.factor,
+                                    in_short(text_.excerpt(step)))},
+             .work = work_.of(loop) * each.saved,
+             .chance = k_chance_of_step,
+             .family = fmt::format("step {}", tree_[step].begin),
+             .strength = each.strength});
+}
+
+/// Returns the loop that `if (test) break;` or `if (test) return …;` leaves; k_no_node for any other test.
+NodeId Cutter::loop_left_by(NodeId test) const {
+    NodeId id = test;
+    while (is_expression(tree_[tree_[id].parent].kind))
+        id = tree_[id].parent;
+    const NodeId branch = tree_[id].parent;
+    if (tree_[branch].kind != NodeKind::if_else || tree_.child(branch, 0) != id)
+        return k_no_node;
+    const Node& yes = tree_[tree_.child(branch, 1)];
+    for (size_t i = yes.begin; i < yes.end; ++i)
+        if (text_.word(i) == "break" || text_.word(i) == "return")
+            return loop_around(branch);
+    return k_no_node;
+}
+
+/// Adds other numbers for the limits at which a loop is left: `d < 0.0001` and `t > 100.0`. A name for the
+/// number is changed at its definition, so that tests after the loop agree.
+void Cutter::add_limits(NodeId test, const SingleValues& values, std::vector<Cut>& cuts) const {
+    const std::string_view op = text_.word_of(test);
+    const bool less = op == "<" || op == "<=";
+    const NodeId loop = less || op == ">" || op == ">=" ? loop_left_by(test) : k_no_node;
+    if (loop == k_no_node || work_.of(loop) == 0)
+        return;
+    for (const size_t side : {size_t(0), size_t(1)}) {
+        const NodeId given = without_brackets(tree_, tree_.child(test, side)), value = values.of(given);
+        const NodeId literal = without_brackets(tree_, value == k_no_node ? given : value);
+        const std::string_view word = text_.word_of(literal);
+        const auto size = tree_[literal].kind == NodeKind::literal ? number(word) : std::nullopt;
+        const auto tokens = size ? written_for(text_, literal, literal) : std::nullopt;
+        if (!tokens || word.find_first_of(".eE") == word.npos || word.starts_with("0x"))
+            continue;
+        const bool near = less == (side == 1);
+        if (near ? !(*size > 0 && *size <= k_largest_threshold) : !(*size >= k_least_way))
+            continue;
+        for (const Factor& each : near ? k_coarser : k_nearer) {
+            const std::string limit = number_text(*size * each.factor);
+            cuts.push_back(
+                {.change = {{in_place_of(text_, *tokens, limit)},
+                            fmt::format("{}: leaves the loop by `{}` with {} instead of {}", place_of(test),
+                                        in_short(text_.excerpt(test)), limit, word)},
+                 .work = work_.of(loop) * each.saved,
+                 .chance = k_chance_of_exit,
+                 .family = fmt::format("limit {}", tokens->first),
+                 .strength = each.strength});
+        }
+    }
 }
 
 std::vector<Cut> Cutter::cuts() const {
     std::vector<Cut> cuts;
+    const SingleValues values(text_, facts_);
     for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
         const NodeKind kind = tree_[id].kind;
+        if (kind == NodeKind::binary)
+            add_limits(id, values, cuts);
         if (is_loop(kind))
             add_turns(id, cuts);
         if (kind == NodeKind::assign)

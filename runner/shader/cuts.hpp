@@ -43,15 +43,19 @@ private:
 };
 
 // Proposes what could be left out of a text: terms, factors, statements, iterations of loops (all after a
-// number, or those after a march's step is small or large), the choice of a texture's level, and values that
-// a number could replace. Returns edits only; the caller measures what a cut saves and what it does to the
-// picture.
+// number, or those after a march's step is small or large), the limits that end a loop, the length of a
+// march's steps, the choice of a texture's level, and values that a number could replace. Returns edits only;
+// the caller measures what a cut saves and what it does to the picture.
 
 struct Cut {
     Cure change;
     double work = 0;            ///< estimated operations per pixel that it may save
     bool keeps_values = false;  ///< all values stay, but for a driver's rounding
     bool hangs_on_size = false; ///< the more pixels the picture has, the less the cut changes it
+    double chance = 1;          ///< rough probability that it keeps the picture; orders the trials
+    /// Cuts of one family change the same thing, a stronger one more. Empty: it has none.
+    std::string family{};
+    double strength = 0;
 };
 
 /// A float expression that a number could replace.
@@ -87,6 +91,11 @@ private:
     void add_statement(NodeId id, std::vector<Cut>& cuts) const;
     void add_turns(NodeId loop, std::vector<Cut>& cuts) const;
     void add_exits(NodeId step, std::vector<Cut>& cuts) const;
+    void add_longer_steps(NodeId step, NodeId loop, std::vector<Cut>& cuts) const;
+    void add_limits(NodeId test, const SingleValues& values, std::vector<Cut>& cuts) const;
+    NodeId loop_left_by(NodeId test) const;
+    NodeId step_value(NodeId id) const;
+    bool may_be_scalar(NodeId id) const;
     bool is_computed_in(NodeId loop, std::string_view name) const;
     NodeId loop_around(NodeId id) const;
     void add(std::optional<WrittenTokens> tokens, std::string instead, std::string reason, double work,
@@ -94,11 +103,13 @@ private:
     double work_of_call(NodeId id) const;
     std::optional<ValueType> type_of(NodeId id) const;
     std::string place_of(NodeId id) const;
+    double chance_without(double work, double chance) const;
 
     const ParsedText& text_;
     const SyntaxTree& tree_;
     const TreeFacts& facts_;
     WorkEstimate work_;
+    double whole_ = 0; ///< operations of the whole text
     std::vector<NodeId> endless_;
     std::vector<bool> kept_; ///< per node
 };

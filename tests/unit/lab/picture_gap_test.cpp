@@ -1,5 +1,6 @@
 // The difference of two pictures and its words, also for pictures with NaN.
 #include "lab/probed_pictures.hpp"
+#include "lab/simplify.hpp"
 
 #include <gtest/gtest.h>
 
@@ -51,6 +52,31 @@ TEST(Alikeness, CountsNonFinitePixelsAndLeavesThemOut) {
 
 TEST(Alikeness, EqualNanPixelsAreEqual) {
     EXPECT_EQ(alikeness(picture({k_nan, 0, 0, 0}), picture({k_nan, 0, 0.2f, 0})), "20.0 dB");
+}
+
+/// Returns a black picture with a white rectangle of that width and height at the column.
+image::Image black_with(int column, int width, int height) {
+    image::Image image({160, 90}, 3, image::SampleType::f32);
+    for (int y = 40; y < 40 + height; ++y)
+        for (int x = column; x < column + width; ++x)
+            for (int k = 0; k < 3; ++k)
+                image.f32()[size_t((y * 160 + x) * 3 + k)] = 1;
+    return image;
+}
+
+TEST(Parts, AnEdgeMayMoveByOnePixel) {
+    const Goal goal{Measure::rmse, 0.01, {}};
+    EXPECT_TRUE(keeps_parts(goal, black_with(50, 30, 30), black_with(51, 30, 30)));
+    EXPECT_FALSE(keeps_parts(goal, black_with(50, 30, 30), black_with(53, 30, 30)));
+}
+
+TEST(Parts, ASmallObjectMayNotVanishOrAppear) {
+    const Goal goal{Measure::rmse, 0.01, {}};
+    const image::Image none = black_with(50, 0, 0), line = black_with(50, 1, 5), dot = black_with(50, 1, 1);
+    EXPECT_FALSE(keeps_parts(goal, line, none));
+    EXPECT_FALSE(keeps_parts(goal, dot, none));
+    EXPECT_FALSE(keeps_parts(goal, none, dot));
+    EXPECT_FALSE(keeps_parts(goal, black_with(50, 20, 20), none));
 }
 
 } // namespace tidemark::lab::picture_gap_test

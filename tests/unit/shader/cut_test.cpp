@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 namespace tidemark::glsl::cut_test {
 
@@ -94,6 +95,68 @@ TEST(Cut, AMarchEndsWhereItsStepIsSmallOrLarge) {
         EXPECT_EQ(text.find("abs(u)"), std::string::npos) << "a constant step: " << text;
     for (const std::string& text : texts_of(in_main("float d = dear(u); s += d;")))
         EXPECT_EQ(text.find("break"), std::string::npos) << "no loop: " << text;
+}
+
+TEST(Cut, AMarchEndsWhereItsStepIsSmallForItsWay) {
+    const std::string named = "for (int i = 0; i < 64; ++i) { float d = dear(s); s += d; }";
+    for (const std::string share : {"0.001", "0.004"})
+        EXPECT_TRUE(makes(in_main(named), in_main("for (int i = 0; i < 64; ++i) { float d = dear(s); "
+                                                  "{ s += d; if (abs(d) < " +
+                                                  share + " * abs(s)) break; } }")));
+    for (const std::string& text :
+         texts_of(in_main("vec3 p = vec3(u); for (int i = 0; i < 64; ++i) { float d = dear(p.x); p += d; }")))
+        EXPECT_EQ(text.find("abs(p)"), std::string::npos) << "a vector is no way: " << text;
+}
+
+TEST(Cut, AMarchEndsByTheComponentThatItSteps) {
+    const std::string vector = "vec2 both(float x) { return vec2(sin(x) * cos(x), exp(x)); }\n";
+    EXPECT_TRUE(makes(vector + in_main("for (int i = 0; i < 64; ++i) { vec2 h = both(s); s += h.x; }"),
+                      vector + in_main("for (int i = 0; i < 64; ++i) { vec2 h = both(s); "
+                                       "{ s += h.x; if (abs(h.x) < 0.01) break; } }")));
+}
+
+TEST(Cut, AMarchTakesLongerSteps) {
+    const std::string slow = "for (int i = 0; i < 64; ++i) { float d = dear(s); s += d * 0.5; }";
+    for (const std::string factor : {"1.2", "1.5"})
+        EXPECT_TRUE(makes(in_main(slow), in_main("for (int i = 0; i < 64; ++i) { float d = dear(s); s += " +
+                                                 factor + " * (d * 0.5); }")));
+    for (const std::string& text : texts_of(in_main("while (s < u) { float d = dear(s); s += d; }")))
+        EXPECT_EQ(text.find("1.5 * "), std::string::npos) << "it may be endless: " << text;
+}
+
+TEST(Cut, TheLimitsThatEndALoopAreChanged) {
+    const auto loop = [](const std::string& near, const std::string& far) {
+        return in_main("for (int i = 0; i < 64; ++i) { float d = dear(s); if (d < " + near + " || s > " +
+                       far + ") break; s += d; }");
+    };
+    EXPECT_TRUE(makes(loop("0.001", "100."), loop("0.003", "100.")));
+    EXPECT_TRUE(makes(loop("0.001", "100."), loop("0.01", "100.")));
+    EXPECT_TRUE(makes(loop("0.001", "100."), loop("0.001", "50.0")));
+    EXPECT_TRUE(
+        makes("#define NEAR 1e-4\n" + loop("NEAR", "9.0"), "#define NEAR 0.001\n" + loop("NEAR", "9.0")));
+    EXPECT_TRUE(makes("const float FAR = 80.0;\n" + loop("0.1", "FAR"),
+                      "const float FAR = 20.0;\n" + loop("0.1", "FAR")));
+    EXPECT_FALSE(makes(loop("0.5", "2.0"), loop("1.5", "2.0"))) << "too large for a threshold";
+    EXPECT_FALSE(makes(loop("0.5", "2.0"), loop("0.5", "1.0"))) << "too near for a far plane";
+    EXPECT_FALSE(
+        makes(in_main("if (s < 0.001) return; s = dear(u);"), in_main("if (s < 0.01) return; s = dear(u);")))
+        << "no loop";
+}
+
+TEST(Cut, CutsOfOneFamilyAreOrderedByStrength) {
+    std::map<std::string, std::vector<double>> families;
+    for (const Cut& cut :
+         cuts_of(in_main("for (int i = 0; i < 64; ++i) { float d = dear(s); if (d < 1e-4) break; s += d; }"))
+             .cuts) {
+        EXPECT_GT(cut.chance, 0) << cut.change.reason;
+        if (!cut.family.empty())
+            families[cut.family].push_back(cut.strength);
+    }
+    EXPECT_EQ(families.size(), 7U) << "iterations, step near, leap, relative, way far, longer steps, limit";
+    for (auto& [family, strengths] : families) {
+        std::ranges::sort(strengths);
+        EXPECT_EQ(std::ranges::adjacent_find(strengths), strengths.end()) << family;
+    }
 }
 
 TEST(Cut, ANamedNumberIsChangedAtItsDefinition) {
