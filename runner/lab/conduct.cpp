@@ -461,7 +461,7 @@ public:
             point.failure = to_string(specimen.error());
         auto& pictures = findings_.evidence.pictures.emplace_back();
         if (specimen) {
-            pictures = specimen->pictures(study().views);
+            pictures = as_shown(specimen->pictures(study().views));
             point.compile_milliseconds = specimen->compile_milliseconds();
             point.first_draw_milliseconds = specimen->first_draw_milliseconds();
         }
@@ -502,18 +502,25 @@ private:
 
 } // namespace
 
+std::vector<image::Image> as_shown(std::vector<image::Image> pictures) {
+    for (image::Image& picture : pictures)
+        for (float& sample : picture.f32())
+            if (!std::isfinite(sample))
+                sample = sample > 0 ? 1.0F : 0.0F;
+    return pictures;
+}
+
 Result<Truth> truth_of(std::vector<image::Image> pictures) {
-    Truth truth{std::move(pictures), {}, {}, {}};
-    size_t blind = 0, pixels = 0;
-    for (const image::Image& picture : truth.pictures) {
-        PixelMask& mask = truth.blind.emplace_back();
+    const auto blank = [](const image::Image& picture) {
+        PixelMask mask;
         add_blind(picture, mask);
-        blind += size_t(std::ranges::count(mask, true));
-        pixels += mask.size();
-    }
-    if (const std::string why = too_blind(blind, pixels); !why.empty())
-        return fail(ErrorCode::check_failed, "nothing can be compared with the scene's picture: " + why);
-    return truth;
+        return std::ranges::count(mask, false) == 0;
+    };
+    if (std::ranges::all_of(pictures, blank))
+        return fail(
+            ErrorCode::check_failed,
+            "nothing can be compared with the scene's picture: all of its pixels are NaN or infinite");
+    return Truth{as_shown(std::move(pictures)), {}, {}, {}};
 }
 
 Result<Findings> compare_scenes(const scene::Scene& scene,

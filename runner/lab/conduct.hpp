@@ -34,8 +34,10 @@ Result<Findings> conduct(const scene::Scene& scene, const Study& study, const Ti
 
 // Compares scenes with one of them, whose pictures are the truth. Needs a current context.
 
-/// Uses pictures as the truth, except for pixels that are NaN or infinite. Fails (ErrorCode::check_failed) if
-/// there are too many of those.
+/// Replaces samples that are not finite by what they show here: infinity by 1, the others by 0.
+std::vector<image::Image> as_shown(std::vector<image::Image> pictures);
+
+/// Uses pictures as the truth, as shown. Fails (ErrorCode::check_failed) if no pixel of them is finite.
 Result<Truth> truth_of(std::vector<image::Image> pictures);
 
 /// Runs a study whose points are scenes, and whose truth is the pictures of the first one: `scene`,

@@ -51,8 +51,7 @@ double displayed(const image::Image& picture, int x, int y, int channel) {
     return std::clamp(double(picture.f32()[i]), 0.0, 1.0);
 }
 
-/// Returns how far `value` lies outside of what the picture shows at the pixel and its eight neighbours. NaN
-/// neighbours do not count.
+/// Returns how far `value` lies outside of what the picture shows at the pixel and its eight neighbours.
 double gap_around(double value, const image::Image& picture, int x, int y, int channel) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (int j = std::max(0, y - 1); j <= std::min(y + 1, picture.extent.height - 1); ++j)
@@ -64,8 +63,8 @@ double gap_around(double value, const image::Image& picture, int x, int y, int c
     return std::max({0.0, least - value, value - most});
 }
 
-/// Returns the RMSE of a part as displayed; pixels that are NaN or infinite in the own picture do not count.
-/// An edge that moves by one pixel does not count either: it is in both pictures.
+/// Returns the RMSE of a part as displayed. An edge that moves by one pixel does not count: it is in both
+/// pictures.
 double rmse_of_part(const image::Image& own, const image::Image& cut, int part) {
     const auto [width, height] = own.extent;
     const int column = part % k_part_columns, row = part / k_part_columns;
@@ -76,8 +75,6 @@ double rmse_of_part(const image::Image& own, const image::Image& cut, int part) 
         for (int x = width * column / k_part_columns; x < width * (column + 1) / k_part_columns; ++x)
             for (int k = 0; k < int(channels); ++k) {
                 const size_t i = (size_t(y) * size_t(width) + size_t(x)) * channels + size_t(k);
-                if (!std::isfinite(own.f32()[i]))
-                    continue;
                 ++samples;
                 const double before = displayed(own, x, y, k), after = displayed(cut, x, y, k);
                 if (before == after)
@@ -147,11 +144,11 @@ std::optional<double> CutBench::error_in(Specimen& specimen, std::span<const Vie
     Sight sight;
     const bool all_at_once = render::may_have_feedback(*scene_); // each picture starts at frame 0
     if (all_at_once)
-        sight.pictures = specimen.pictures({views.begin(), views.end()});
+        sight.pictures = as_shown(specimen.pictures({views.begin(), views.end()}));
     double worst = 0;
     for (size_t view = 0; view < views.size(); ++view) {
         if (!all_at_once)
-            sight.pictures.push_back(specimen.picture(views[view]));
+            sight.pictures.push_back(as_shown({specimen.picture(views[view])}).front());
         if (truth.pictures[view].bytes == sight.pictures[view].bytes)
             continue;
         if (!keeps_parts(goal, truth.pictures[view], sight.pictures[view])) // cheaper than the measure

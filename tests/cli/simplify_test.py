@@ -155,7 +155,13 @@ void mainImage(out vec4 c, in vec2 p) { c = 0.9 * texture(iChannel0, p / iResolu
         self.write("dear.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(sqrt(-p.x)); }\n")
         done = self.run_program("simplify", "dear.glsl", *QUICK)
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("nothing can be compared with the scene's picture: 100 % of its pixels are NaN", done.stderr)
+        self.assertIn("nothing can be compared with the scene's picture: all of its pixels are NaN or infinite", done.stderr)
+
+    def test_pixels_of_nan_are_compared_as_shown(self):
+        self.write("dear.glsl", SCENE.replace("c = vec4(colour", "c = vec4(uv.x > 0.5 ? vec3(sqrt(-uv.x)) : colour"))
+        found, said = self.simplify("--exact")
+        self.assertTrue(found["cuts"], said)
+        self.assertRegex(said, r"chosen: step \d+: ")
 
 
 if __name__ == "__main__":
