@@ -398,8 +398,7 @@ LegendText text_of(const LensPlan& plan, const LensSummary& summary, const LensN
 
 /// Replaces the end of words that are cut off.
 void end_with_dots(std::string& words) {
-    words.resize(words.size() - std::min<size_t>(words.size(), 3));
-    words += "...";
+    words = words.substr(0, words.size() < 3 ? 0 : words.size() - 3) + "...";
 }
 
 /// Leaves out what does not fit `rows`: entries first, then the end of the title.

@@ -269,7 +269,7 @@ void mainImage(out vec4 color, in vec2 place) {
         picture = (self.folder / "lens.png").read_bytes()
         width, height = int.from_bytes(picture[16:20], "big"), int.from_bytes(picture[20:24], "big")
         self.assertEqual((width, height % 2), (240, 0))
-        self.assertEqual(height, HEIGHT + 64)  # margins, a bar and four rows: title, basis, numbers of the bar, statistics
+        self.assertEqual(height, HEIGHT + 74)  # margins, a bar and five rows: title, basis, numbers of the bar, two of statistics
         again = self.run_program("capture", "scene.glsl", "--size", f"{WIDTH}x{HEIGHT}", "--lens", "value:3", "-o", "two.png")
         self.assertEqual(again.returncode, 0, again.stderr)
         compared = self.run_program("compare", "lens.png", "two.png")
