@@ -201,7 +201,7 @@ std::string words_on_loops(const glsl::ParsedText& text) {
                             to_string(Lens{.name = LensName::steps, .place = loops[i]}));
     if (loops.empty())
         return "";
-    return fmt::format("; to count another loop, give the line where it begins: {}{}", list,
+    return fmt::format("; to count the iterations of any loop, give the line where it begins: {}{}", list,
                        loops.size() > k_most ? ", ..." : "");
 }
 

@@ -278,7 +278,7 @@ void mainImage(out vec4 color, in vec2 place) {
     def test_a_scene_without_numbers_for_the_lens_is_refused(self):
         flat = "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.5); }"
         self.refuses(3, "--lens steps: no marching loop was found in Image$", flat, "steps")
-        self.refuses(3, "--lens steps: no marching loop was found in Image; to count another loop, give the line where it begins: steps:4$",
+        self.refuses(3, "--lens steps: no marching loop was found in Image; to count the iterations of any loop, give the line where it begins: steps:4$",
                      LOOPS, "steps")
         self.refuses(3, "--lens proof: no marching loop was found in Image", flat, "proof")
         holes = "void mainImage(out vec4 c, in vec2 p) { if (p.x > 9.0) discard; c = vec4(0.5); }"
