@@ -46,7 +46,7 @@ Result<void> plan_lens_output(CapturePlan& plan) {
         return refuse("its picture has neither alpha nor light: remove --alpha and --transfer");
     plan.encoding.lens_numbers = plan.to_picture_files() && plan.output.pattern().extension() == ".exr";
     if (!plan.encoding.lens_numbers) {
-        plan.area.written = lab::legend_extent(plan.area.written);
+        plan.area.written = lab::largest_legend_extent(plan.area.written);
         return {};
     }
     if (options.encoding.depth.empty())
@@ -62,6 +62,8 @@ Result<void> plan_lens(CapturePlan& plan) {
     lab::Lens lens = TRY(or_refused(text, lab::parse_lens(text)));
     lens.pass = plan.frames.state.pass;
     plan.drawing.lens = TRY(or_refused(text, lab::make_lens(plan.scene, lens)));
+    if (!plan.encoding.lens_numbers)
+        plan.area.written = lab::legend_extent(*plan.drawing.lens, plan.frames.state.extent);
     return {};
 }
 
@@ -88,7 +90,9 @@ Result<image::Image> LensDrawing::draw(int frame, const Interrupt& interrupt) {
                                              [&] { return !interrupt.requested(); })));
     if (plan_->encoding.lens_numbers)
         return lab::raw_numbers(numbers_);
-    image::Image picture = lab::draw_lens(lens_, numbers_);
+    const bool alone = plan_->to_picture_files() && !plan_->output.numbered() && !plan_->area.sheet;
+    image::Image picture =
+        lab::draw_lens(lens_, numbers_, alone ? std::nullopt : std::optional(plan_->area.written));
     return plan_->encoding.depth == image::SampleDepth::u8 ? std::move(picture)
                                                            : image::in_floats(std::move(picture));
 }

@@ -191,43 +191,71 @@ Result<std::vector<glsl::MarchLines>> chosen_marches(const PassFunction& image, 
     return chosen;
 }
 
+/// Says how to count loops that are not known as a march; begins with a semicolon. Empty: there are no loops.
+std::string words_on_loops(const glsl::ParsedText& text) {
+    constexpr size_t k_most = 5;
+    const std::vector<SourceLocation> loops = glsl::countable_loops(text);
+    std::string list;
+    for (size_t i = 0; i < std::min(loops.size(), k_most); ++i)
+        list += fmt::format("{}{}", i == 0 ? "" : ", ",
+                            to_string(Lens{.name = LensName::steps, .place = loops[i]}));
+    if (loops.empty())
+        return "";
+    return fmt::format("; to count the iterations of any loop, give the line where it begins: {}{}", list,
+                       loops.size() > k_most ? ", ..." : "");
+}
+
+/// Says that no march was found in the pass, and which buffer has one.
+std::string words_on_no_march(const scene::Scene& scene, size_t pass) {
+    const std::string words = fmt::format("no marching loop was found in {}", scene.passes[pass].name);
+    for (const scene::Pass& other : scene.passes)
+        if (other.kind == scene::PassKind::buffer && other.name != scene.passes[pass].name)
+            if (const auto function = PassFunction::create(scene, other);
+                function && !function->loops().empty())
+                return fmt::format("{}; {} has one: add --pass \"{}\"", words, other.name, other.name);
+    return words;
+}
+
+/// Instruments the march, or the loop of a line; sets the title and what is marked.
+Result<text::MappedText> count_steps(LensPlan& plan, const PassFunction* function,
+                                     const glsl::ParsedText& text, const glsl::TreeFacts& facts) {
+    std::vector<glsl::MarchLines> marches;
+    if (function)
+        marches = TRY(chosen_marches(*function, plan.lens, text, facts));
+    if (marches.empty()) {
+        glsl::ValueText counted = TRY(glsl::count_iterations(text, facts, *plan.lens.place));
+        plan.title = fmt::format("iterations of the loop at {}:{}, all entries", counted.place.file,
+                                 counted.place.line);
+        return std::move(counted.text);
+    }
+    const SourceLocation& test = marches.front().test;
+    plan.title =
+        marches.size() == 1
+            ? fmt::format("iterations of the march at {}:{}", test.file, test.line)
+            : fmt::format("iterations of the first of {} marches that a pixel enters", marches.size());
+    plan.marked = "run out of iterations";
+    return glsl::record_marches(text, facts, marches, glsl::RecordAnswer::steps);
+}
+
 Result<void> plan_steps(const scene::Scene& scene, LensPlan& plan) {
     plan.unit = "iterations";
     plan.absent = "no march";
-    const auto function = PassFunction::create(scene, scene.passes[plan.pass]);
-    if (!function && !plan.lens.place)
-        return fail(ErrorCode::load,
-                    fmt::format("the text cannot be searched for a march: {}; name a loop by its line, as in "
-                                "steps:12",
-                                function.error().message));
-    if (!plan.lens.place && function->loops().empty())
-        return fail(ErrorCode::load,
-                    fmt::format("no marching loop was found in {}; name a loop by its line, as in steps:12",
-                                scene.passes[plan.pass].name));
-    std::string title;
-    bool marked = false;
+    const scene::Pass& pass = scene.passes[plan.pass];
+    const auto function = PassFunction::create(scene, pass);
     const RewriteText rewrite = [&](const auto& text, const auto& facts) -> Result<text::MappedText> {
-        std::vector<glsl::MarchLines> marches;
-        if (function)
-            marches = TRY(chosen_marches(*function, plan.lens, text, facts));
-        if (!marches.empty()) {
-            const SourceLocation& test = marches.front().test;
-            title = marches.size() == 1
-                        ? fmt::format("iterations of the march at {}:{}", test.file, test.line)
-                        : fmt::format("iterations of the first of {} marches that a pixel enters",
-                                      marches.size());
-            marked = true;
-            return glsl::record_marches(text, facts, marches, glsl::RecordAnswer::steps);
-        }
-        glsl::ValueText counted = TRY(glsl::count_iterations(text, facts, *plan.lens.place));
-        title = fmt::format("iterations of the loop at {}:{}, all entries", counted.place.file,
-                            counted.place.line);
-        return std::move(counted.text);
+        if (plan.lens.place)
+            return count_steps(plan, function ? &*function : nullptr, text, facts);
+        if (!function)
+            return fail(ErrorCode::load, fmt::format("the text cannot be searched for a march: {}{}",
+                                                     function.error().message, words_on_loops(text)));
+        if (function->loops().empty())
+            return fail(ErrorCode::load, words_on_no_march(scene, plan.pass) + words_on_loops(text));
+        return count_steps(plan, &*function, text, facts).map_error([&](Error error) {
+            error.message += words_on_loops(text);
+            return error;
+        });
     };
     plan.drawn = TRY(with_hit_text(scene, plan.pass, rewrite));
-    plan.title = std::move(title);
-    if (marked)
-        plan.marked = "run out of iterations";
     return {};
 }
 
@@ -258,7 +286,10 @@ Result<void> plan_value(const scene::Scene& scene, LensPlan& plan) {
     const std::string at = fmt::format("{}:{}", shown.place.file, shown.place.line);
     if (lens.name == LensName::branch) {
         plan.classes = k_sides;
-        plan.title = fmt::format("{} at {}", shown.excerpt, at);
+        constexpr size_t k_longest = 80;
+        plan.title = shown.excerpt.size() > k_longest
+                         ? fmt::format("{}... at {}", shown.excerpt.substr(0, k_longest - 3), at)
+                         : fmt::format("{} at {}", shown.excerpt, at);
         return {};
     }
     plan.components = shown.components == 0 ? 0 : shown.components > 1 ? 3 : 1;
@@ -289,8 +320,7 @@ Result<void> plan_proof(const scene::Scene& scene, LensPlan& plan) {
     if (!function)
         return fail(ErrorCode::load, "the text cannot be analysed: " + function.error().message);
     if (function->loops().empty())
-        return fail(ErrorCode::load,
-                    fmt::format("no marching loop was found in {}", scene.passes[plan.pass].name));
+        return fail(ErrorCode::load, words_on_no_march(scene, plan.pass));
     plan.basis = Basis::proved;
     plan.title = "the march against its first hit";
     plan.absent = "no march";

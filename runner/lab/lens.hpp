@@ -218,11 +218,15 @@ std::array<uint8_t, 3> lens_colour(double part);
 /// Draws the numbers without a legend: RGBA bytes. Absent pixels are black, marked ones white, NaN magenta,
 /// infinities cyan.
 image::Image lens_map(const LensPlan& plan, const LensNumbers& numbers);
-/// Draws the map with a legend below it: RGBA bytes of the size `legend_extent`.
-image::Image draw_lens(const LensPlan& plan, const LensNumbers& numbers);
-/// Returns the size of draw_lens's picture for a map of that size. At least 240 pixels wide; both
-/// sides are even. A narrow legend has more rows.
-Extent legend_extent(Extent map);
+/// Returns the size of a lens's picture that holds the legend of any frame: for sequences, whose pictures
+/// have one size. At least 240 pixels wide; both sides are even. A narrow legend has more rows.
+Extent legend_extent(const LensPlan& plan, Extent map);
+/// Returns a size that holds the legend of any lens.
+Extent largest_legend_extent(Extent map);
+/// Draws the map with a legend below it: RGBA bytes. Without `extent` the legend has as many rows as its text
+/// needs.
+image::Image draw_lens(const LensPlan& plan, const LensNumbers& numbers,
+                       std::optional<Extent> extent = std::nullopt);
 /// Returns the lines of the legend as text: title, range, statistics.
 std::vector<std::string> legend_lines(const LensPlan& plan, const LensNumbers& numbers);
 

@@ -61,6 +61,17 @@ uint32_t bits_of_numbers(const float* numbers) {
     return hash >> 8;
 }
 
+/// Says that __LINE__ has other values in an instrumented text; begins with a semicolon. Empty: the text does
+/// not use it.
+std::string_view words_on_lines(const scene::Scene& scene, size_t pass) {
+    const auto uses = [](const text::MappedText& text) {
+        return text.text().find("__LINE__") != std::string::npos;
+    };
+    return uses(scene.common) || uses(scene.passes[pass].text)
+               ? "; the text uses __LINE__, which has another value there: replace it by a number"
+               : "";
+}
+
 Result<LensNumbers> read_instrumented(const LensPlan& plan, const LensFrame& frame) {
     const image::Image picture = frame.plain.read_floats(plan.pass);
     const bool all_bits = plan.of_buffer && !frame.plain.scene().passes[plan.pass].stores_bytes;
@@ -82,10 +93,11 @@ Result<LensNumbers> read_instrumented(const LensPlan& plan, const LensFrame& fra
             numbers.values.push_back(pixel.mark == Mark::absent ? 0 : packed[i + size_t(k)]);
     }
     if (others > 0)
-        return fail(ErrorCode::load, fmt::format("the instrumented text draws another picture: {} of {} "
-                                                 "pixels differ, so its numbers would not be those of the "
-                                                 "scene",
-                                                 others, drawn.extent.pixels()));
+        return fail(ErrorCode::load,
+                    fmt::format("the instrumented text draws another picture: {} of {} pixels differ, so its "
+                                "numbers would not be those of the scene{}",
+                                others, drawn.extent.pixels(),
+                                words_on_lines(frame.plain.scene(), plan.pass)));
     return numbers;
 }
 

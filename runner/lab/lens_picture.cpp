@@ -25,108 +25,32 @@ constexpr ByteColour k_absent{0, 0, 0}, k_marked_colour{255, 255, 255}, k_nan{25
 constexpr ByteColour k_paper{20, 21, 24}, k_ink{230, 230, 230}, k_faint{165, 166, 170};
 
 /// Columns of the letters from ' ' to '~', five bytes each; bit 0 is the top row.
-constexpr std::string_view k_letters = "0000000000"
-                                       "00005f0000"
-                                       "0007000700"
-                                       "147f147f14"
-                                       "242a7f2a12"
-                                       "2313086462"
-                                       "3649562050"
-                                       "0008070300"
-                                       "001c224100"
-                                       "0041221c00"
-                                       "2a1c7f1c2a"
-                                       "08083e0808"
-                                       "0080703000"
-                                       "0808080808"
-                                       "0000606000"
-                                       "2010080402"
-                                       "3e5149453e"
-                                       "00427f4000"
-                                       "7249494946"
-                                       "2141494d33"
-                                       "1814127f10"
-                                       "2745454539"
-                                       "3c4a494931"
-                                       "4121110907"
-                                       "3649494936"
-                                       "464949291e"
-                                       "0000140000"
-                                       "0040340000"
-                                       "0008142241"
-                                       "1414141414"
-                                       "0041221408"
-                                       "0201590906"
-                                       "3e415d594e"
-                                       "7c1211127c"
-                                       "7f49494936"
-                                       "3e41414122"
-                                       "7f4141413e"
-                                       "7f49494941"
-                                       "7f09090901"
-                                       "3e41415173"
-                                       "7f0808087f"
-                                       "00417f4100"
-                                       "2040413f01"
-                                       "7f08142241"
-                                       "7f40404040"
-                                       "7f021c027f"
-                                       "7f0408107f"
-                                       "3e4141413e"
-                                       "7f09090906"
-                                       "3e4151215e"
-                                       "7f09192946"
-                                       "2649494932"
-                                       "03017f0103"
-                                       "3f4040403f"
-                                       "1f2040201f"
-                                       "3f4038403f"
-                                       "6314081463"
-                                       "0304780403"
-                                       "6159494d43"
-                                       "007f414141"
-                                       "0204081020"
-                                       "004141417f"
-                                       "0402010204"
-                                       "4040404040"
-                                       "0003070800"
-                                       "2054547840"
-                                       "7f28444438"
-                                       "3844444428"
-                                       "384444287f"
-                                       "3854545418"
-                                       "00087e0902"
-                                       "18a4a49c78"
-                                       "7f08040478"
-                                       "00447d4000"
-                                       "2040403d00"
-                                       "7f10284400"
-                                       "00417f4000"
-                                       "7c04780478"
-                                       "7c08040478"
-                                       "3844444438"
-                                       "fc18242418"
-                                       "18242418fc"
-                                       "7c08040408"
-                                       "4854545424"
-                                       "04043f4424"
-                                       "3c4040207c"
-                                       "1c2040201c"
-                                       "3c4030403c"
-                                       "4428102844"
-                                       "4c9090907c"
-                                       "4464544c44"
-                                       "0008364100"
-                                       "0000770000"
-                                       "0041360800"
-                                       "0201020402";
+constexpr std::string_view k_letters = "000000000000005f00000007000700147f147f14242a7f2a12"
+                                       "231308646236495620500008070300001c2241000041221c00"
+                                       "2a1c7f1c2a08083e0808008070300008080808080000606000"
+                                       "20100804023e5149453e00427f400072494949462141494d33"
+                                       "1814127f1027454545393c4a49493141211109073649494936"
+                                       "464949291e0000140000004034000000081422411414141414"
+                                       "004122140802015909063e415d594e7c1211127c7f49494936"
+                                       "3e414141227f4141413e7f494949417f090909013e41415173"
+                                       "7f0808087f00417f41002040413f017f081422417f40404040"
+                                       "7f021c027f7f0408107f3e4141413e7f090909063e4151215e"
+                                       "7f09192946264949493203017f01033f4040403f1f2040201f"
+                                       "3f4038403f631408146303047804036159494d43007f414141"
+                                       "0204081020004141417f040201020440404040400003070800"
+                                       "20545478407f284444383844444428384444287f3854545418"
+                                       "00087e090218a4a49c787f0804047800447d40002040403d00"
+                                       "7f1028440000417f40007c047804787c080404783844444438"
+                                       "fc1824241818242418fc7c08040408485454542404043f4424"
+                                       "3c4040207c1c2040201c3c4030403c44281028444c9090907c"
+                                       "4464544c440008364100000077000000413608000201020402";
 
 constexpr int k_letter_width = 6, k_row_height = 11, k_margin = 4, k_bar_height = 9;
 constexpr int k_narrowest = 240;
 
-/// Returns the number of rows of text above the bar and below it.
-int text_rows(int letters) {
-    return letters >= 80 ? 6 : letters >= 50 ? 10 : 13;
+/// Returns the largest number of rows of text, above the bar and below it.
+int most_rows(int letters) {
+    return letters >= 80 ? 8 : letters >= 50 ? 12 : 16;
 }
 
 unsigned column_of(char letter, int column) {
@@ -190,8 +114,7 @@ std::string legend_number(double value) {
     if (!std::isfinite(value))
         return std::isnan(value) ? "none" : value > 0 ? "inf" : "-inf";
     const double size = std::abs(value);
-    return size >= 1e5 && size < 1e7 && value == std::floor(value) ? fmt::format("{:.0f}", value)
-                                                                   : fmt::format("{:.4g}", value);
+    return size >= 1e4 && size < 1e7 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
 }
 
 std::string share_words(double share) {
@@ -425,84 +348,168 @@ void draw_bar(LensCanvas& canvas, int y, const LensPlan& plan, const LensNumbers
     place(range.high, k_margin + width, summary.most > range.high ? " and more" : "");
 }
 
-/// Writes words into at most `rows` rows. Returns the place below them.
-int draw_rows(LensCanvas& canvas, int y, const std::string& words, size_t rows, const ByteColour& colour) {
-    std::vector<std::string> lines = in_rows(words, size_t(letters_of(canvas.width())));
-    if (lines.size() > rows) {
-        lines.resize(rows);
-        lines.back().resize(std::min(lines.back().size(), size_t(letters_of(canvas.width())) - 3));
-        lines.back() += "...";
+/// Words at a place of the legend.
+struct PlacedWords {
+    int x = 0, row = 0; ///< x in scaled pixels
+    std::optional<ByteColour> box{};
+    std::string words;
+};
+
+constexpr int k_box = 8, k_gap = 12;
+
+/// Places the entries from left to right. An entry that is longer than a row has rows of its own.
+std::vector<PlacedWords> placed(const std::vector<LegendEntry>& entries, int letters) {
+    const int end = k_margin + letters * k_letter_width;
+    std::vector<PlacedWords> places;
+    int x = k_margin, row = 0;
+    for (const LegendEntry& entry : entries) {
+        const int box = entry.box ? k_box + 3 : 0;
+        const int length = box + int(entry.words.size()) * k_letter_width;
+        if (x > k_margin && x + length > end) {
+            x = k_margin;
+            ++row;
+        }
+        const std::vector<std::string> parts =
+            in_rows(entry.words, size_t(letters - (box + k_letter_width - 1) / k_letter_width));
+        for (size_t i = 0; i < parts.size(); ++i)
+            places.push_back({x, i == 0 ? row : ++row, i == 0 ? entry.box : std::nullopt, parts[i]});
+        x = parts.size() > 1 ? end : x + length + k_gap;
     }
-    for (const std::string& line : lines) {
-        canvas.write(k_margin, y, line, colour);
+    return places;
+}
+
+/// The text of a legend in rows.
+struct LegendText {
+    std::vector<std::string> title, basis;
+    bool bar = true;
+    std::vector<PlacedWords> entries;
+
+    int entry_rows() const { return entries.empty() ? 0 : entries.back().row + 1; }
+    int rows() const { return int(title.size() + basis.size()) + (bar ? 1 : 0) + entry_rows(); }
+};
+
+LegendText text_of(const LensPlan& plan, const LensSummary& summary, const LensNumbers& numbers,
+                   int letters) {
+    return {.title = in_rows(plan.title, size_t(letters)),
+            .basis = in_rows(basis_line(plan), size_t(letters)),
+            .bar = plan.classes.empty(),
+            .entries = placed(legend_of(plan, summary, numbers), letters)};
+}
+
+/// Replaces the end of words that are cut off.
+void end_with_dots(std::string& words) {
+    words = words.substr(0, words.size() < 3 ? 0 : words.size() - 3) + "...";
+}
+
+/// Leaves out what does not fit `rows`: entries first, then the end of the title.
+void limit_rows(LegendText& text, int rows) {
+    const int others = int(text.basis.size()) + (text.bar ? 1 : 0);
+    const auto title = size_t(std::max(1, rows - others));
+    if (text.title.size() > title) {
+        text.title.resize(title);
+        end_with_dots(text.title.back());
+    }
+    const int left = rows - others - int(text.title.size()), before = text.entry_rows();
+    std::erase_if(text.entries, [&](const PlacedWords& each) { return each.row >= left; });
+    if (text.entry_rows() < before && !text.entries.empty())
+        end_with_dots(text.entries.back().words);
+}
+
+/// Returns the longest entries that a frame of the plan is likely to have: all kinds of pixels, long numbers.
+LegendText longest_text(const LensPlan& plan, int letters) {
+    constexpr double k_long = -1.234e-5;
+    LensSummary summary{.pixels = 1000, .marked = 123, .nan = 123, .infinite = 123, .parting = 123};
+    summary.least = summary.median = summary.p99 = summary.most = k_long;
+    summary.classes.assign(plan.classes.size(), 123);
+    summary.numbers = summary.pixels - (plan.absent.empty() ? 0 : 123);
+    LensNumbers numbers;
+    if (plan.lens.name == LensName::rounding || plan.lens.name == LensName::proof)
+        numbers.note.assign(70, 'm');
+    LensPlan longest = plan;
+    if (plan.lens.name == LensName::cost) // the weights of the device are known later
+        longest.more_basis.resize(std::max<size_t>(longest.more_basis.size(), 60), 'm');
+    return text_of(longest, summary, numbers, letters);
+}
+
+/// Returns the size of a picture whose legend has so many rows.
+Extent extent_of(Extent map, int rows, bool bar) {
+    const int width = std::max(map.width + map.width % 2, k_narrowest), scale = scale_of(width);
+    const int below = 2 * k_margin + rows * k_row_height + (bar ? k_bar_height + 2 : 0);
+    const int height = (map.height + scale - 1) / scale * scale + scale * below;
+    return {width, height + height % 2};
+}
+
+/// Returns how many letters a row of the legend below a map has.
+int letters_below(Extent map) {
+    return letters_of(extent_of(map, 0, false).width);
+}
+
+int limited_rows(const LegendText& text, int letters) {
+    return std::min(text.rows(), most_rows(letters));
+}
+
+/// Draws rows of words. Returns the place below them.
+int draw_rows(LensCanvas& canvas, int y, const std::vector<std::string>& rows, const ByteColour& colour) {
+    for (const std::string& row : rows) {
+        canvas.write(k_margin, y, row, colour);
         y += k_row_height;
     }
     return y;
 }
 
-/// Writes entries from left to right, above `bottom`.
-void draw_entries(LensCanvas& canvas, int y, const std::vector<LegendEntry>& entries, int bottom) {
-    constexpr int k_box = 8, k_gap = 12;
-    int x = k_margin;
-    for (const LegendEntry& entry : entries) {
-        const int box = entry.box ? k_box + 3 : 0;
-        const int length = box + int(entry.words.size()) * k_letter_width;
-        if (x > k_margin && x + length > canvas.width() - k_margin) {
-            x = k_margin;
-            y += k_row_height;
-        }
-        if (y + k_row_height > bottom)
-            return;
-        if (length > canvas.width() - 2 * k_margin) { // alone in its rows
-            y = draw_rows(canvas, y, entry.words, size_t((bottom - y) / k_row_height), k_ink) - k_row_height;
-            x = canvas.width();
-            continue;
-        }
-        if (entry.box) {
+void draw_entries(LensCanvas& canvas, int top, const std::vector<PlacedWords>& entries) {
+    for (const auto& [x, row, box, words] : entries) {
+        const int y = top + row * k_row_height;
+        if (box) {
             canvas.fill(x, y - 1, k_box, k_box + 1, k_faint);
-            canvas.fill(x + 1, y, k_box - 2, k_box - 1, *entry.box);
+            canvas.fill(x + 1, y, k_box - 2, k_box - 1, *box);
         }
-        canvas.write(x + box, y, entry.words, k_ink);
-        x += length + k_gap;
+        canvas.write(x + (box ? k_box + 3 : 0), y, words, k_ink);
     }
 }
 
 } // namespace
 
-Extent legend_extent(Extent map) {
-    const int width = std::max(map.width + map.width % 2, k_narrowest), scale = scale_of(width);
-    const int rows = text_rows(letters_of(width));
-    const int height = map.height + scale * (2 * k_margin + rows * k_row_height + k_bar_height + 2);
-    return {width, height + height % 2};
+Extent largest_legend_extent(Extent map) {
+    return extent_of(map, most_rows(letters_below(map)), true);
 }
 
-image::Image draw_lens(const LensPlan& plan, const LensNumbers& numbers) {
-    const Extent extent = legend_extent(numbers.extent);
-    const int scale = scale_of(extent.width);
-    LensCanvas canvas(extent, scale);
-    for (int y = 0; y < extent.height; ++y)
-        for (int x = 0; x < extent.width; ++x)
+Extent legend_extent(const LensPlan& plan, Extent map) {
+    const int letters = letters_below(map);
+    const LegendText text = longest_text(plan, letters);
+    return extent_of(map, limited_rows(text, letters), text.bar);
+}
+
+image::Image draw_lens(const LensPlan& plan, const LensNumbers& numbers, std::optional<Extent> extent) {
+    const LensSummary summary = summary_of(plan, numbers);
+    const Extent map_extent = numbers.extent;
+    const int letters = letters_below(map_extent);
+    LegendText text = text_of(plan, summary, numbers, letters);
+    if (!extent)
+        extent = extent_of(map_extent, limited_rows(text, letters), text.bar);
+    const int scale = scale_of(extent->width);
+    LensCanvas canvas(*extent, scale);
+    for (int y = 0; y < extent->height; ++y)
+        for (int x = 0; x < extent->width; ++x)
             canvas.put(x, y, k_paper);
     const image::Image map = lens_map(plan, numbers);
     const auto samples = map.u8();
-    for (int y = 0; y < map.extent.height; ++y)
-        for (int x = 0; x < map.extent.width; ++x) {
-            const size_t at = 4 * (size_t(map.extent.height - 1 - y) * size_t(map.extent.width) + size_t(x));
+    for (int y = 0; y < map_extent.height; ++y)
+        for (int x = 0; x < map_extent.width; ++x) {
+            const size_t at = 4 * (size_t(map_extent.height - 1 - y) * size_t(map_extent.width) + size_t(x));
             canvas.put(x, y, {samples[at], samples[at + 1], samples[at + 2]});
         }
-    const LensSummary summary = summary_of(plan, numbers);
     // The canvas counts scaled pixels from here on; the map's height may not be a multiple of the scale.
-    int y = (map.extent.height + scale - 1) / scale + k_margin;
-    const int rows = text_rows(letters_of(extent.width));
-    const size_t most_rows = rows > 6 ? 3 : 1; // of the title and of the basis
-    const int bottom = y + rows * k_row_height + k_bar_height + 2;
-    y = draw_rows(canvas, y, plan.title, most_rows, k_ink);
-    y = draw_rows(canvas, y, basis_line(plan), most_rows, k_faint);
-    if (plan.classes.empty()) {
+    int y = (map_extent.height + scale - 1) / scale + k_margin;
+    const int below = extent->height / scale - y - k_margin - (text.bar ? k_bar_height + 2 : 0);
+    limit_rows(text, below / k_row_height);
+    y = draw_rows(canvas, y, text.title, k_ink);
+    y = draw_rows(canvas, y, text.basis, k_faint);
+    if (text.bar) {
         draw_bar(canvas, y, plan, numbers, summary);
         y += k_bar_height + 2 + k_row_height;
     }
-    draw_entries(canvas, y, legend_of(plan, summary, numbers), bottom);
+    draw_entries(canvas, y, text.entries);
     return canvas.take();
 }
 

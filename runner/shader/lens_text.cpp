@@ -399,4 +399,24 @@ Result<ValueText> count_iterations(const ParsedText& text, const TreeFacts& fact
     return LoopWriter(text, facts).run(place);
 }
 
+std::vector<SourceLocation> countable_loops(const ParsedText& text) {
+    const SyntaxTree& tree = text.tree();
+    const NodeId main_image = find_main_image(text);
+    std::set<std::pair<size_t, NodeId>> loops; // first word, node
+    for (NodeId id = 1; id < tree.nodes.size() && main_image != k_no_node; ++id)
+        if (is_loop(tree[id].kind))
+            loops.emplace(tree[id].begin, id);
+    std::vector<SourceLocation> places;
+    for (const auto& [begin, loop] : loops) {
+        SourceLocation place = text.used(begin);
+        if (place.file == text.spelled(tree[main_image].word).file)
+            place.file.clear();
+        if (std::ranges::none_of(places, [&](const SourceLocation& other) {
+                return other.line == place.line && other.file == place.file;
+            }))
+            places.push_back(std::move(place));
+    }
+    return places;
+}
+
 } // namespace tidemark::glsl

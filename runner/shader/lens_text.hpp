@@ -62,6 +62,10 @@ Result<ValueText> show_branch(const ParsedText& text, const TreeFacts& facts, co
 Result<ValueText> count_iterations(const ParsedText& text, const TreeFacts& facts,
                                    const SourceLocation& place);
 
+/// Returns where loops begin whose iterations can be counted, in order. A place in the file of mainImage has
+/// no file.
+std::vector<SourceLocation> countable_loops(const ParsedText& text);
+
 /// A kind of operation with a weight of its own.
 enum class Operation {
     sum, ///< and products, comparisons, integers

@@ -269,7 +269,7 @@ void mainImage(out vec4 color, in vec2 place) {
         picture = (self.folder / "lens.png").read_bytes()
         width, height = int.from_bytes(picture[16:20], "big"), int.from_bytes(picture[20:24], "big")
         self.assertEqual((width, height % 2), (240, 0))
-        self.assertGreater(height, HEIGHT + 60)
+        self.assertEqual(height, HEIGHT + 74)  # margins, a bar and five rows: title, basis, numbers of the bar, two of statistics
         again = self.run_program("capture", "scene.glsl", "--size", f"{WIDTH}x{HEIGHT}", "--lens", "value:3", "-o", "two.png")
         self.assertEqual(again.returncode, 0, again.stderr)
         compared = self.run_program("compare", "lens.png", "two.png")
@@ -277,12 +277,28 @@ void mainImage(out vec4 color, in vec2 place) {
 
     def test_a_scene_without_numbers_for_the_lens_is_refused(self):
         flat = "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.5); }"
-        self.refuses(3, "--lens steps: no marching loop was found in Image; name a loop by its line", flat, "steps")
+        self.refuses(3, "--lens steps: no marching loop was found in Image$", flat, "steps")
+        self.refuses(3, "--lens steps: no marching loop was found in Image; to count the iterations of any loop, give the line where it begins: steps:4$",
+                     LOOPS, "steps")
         self.refuses(3, "--lens proof: no marching loop was found in Image", flat, "proof")
         holes = "void mainImage(out vec4 c, in vec2 p) { if (p.x > 9.0) discard; c = vec4(0.5); }"
         self.refuses(3, "--lens cost: the text discards pixels", holes, "cost")
         self.refuses(2, "scene.glsl:1 has no condition", flat, "branch:1")
         self.refuses(2, "scene.glsl:7 neither sets nor reads a variable nothing; it sets shade", LOOPS, "value:7:nothing")
+
+    def test_a_text_that_shows_its_line_numbers_is_refused(self):
+        lines = "void mainImage(out vec4 c, in vec2 p) { float a = float(__LINE__); c = vec4(a / 255.0); }"
+        self.refuses(3, "--lens cost: the instrumented text draws another picture: .*; the text uses __LINE__, .*replace it", lines, "cost")
+
+    def test_a_refusal_names_the_buffer_that_has_a_march(self):
+        self.write("pair/buffer_a.glsl", HALVING.replace("LIMIT", "99"))
+        self.write("pair/image.glsl", '#iChannel0 "Buffer A"\nvoid mainImage(out vec4 c, in vec2 p) {\n    c = texelFetch(iChannel0, ivec2(p), 0);\n}\n')
+        for lens in ("steps", "proof"):
+            run = self.run_program("capture", "pair", "--size", f"{WIDTH}x{HEIGHT}", "--lens", lens, "-o", "lens.png")
+            self.assertEqual(run.returncode, 3, run.stderr)
+            self.assertRegex(run.stderr, f'--lens {lens}: no marching loop was found in Image; Buffer A has one: add --pass "Buffer A"$')
+        again = self.run_program("capture", "pair", "--size", f"{WIDTH}x{HEIGHT}", "--lens", "steps", "--pass", "Buffer A", "-o", "lens.png")
+        self.assertEqual(again.returncode, 0, again.stderr)
 
     def test_an_unknown_lens_is_refused(self):
         self.refuses(2, "give one of cost, steps.*branch:LINE", LOOPS, "speed")
@@ -297,6 +313,8 @@ void mainImage(out vec4 color, in vec2 place) {
                                "value:2", "-o", "t.%d.png", "--json")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual([frame["lens"]["max"] for frame in json.loads(run.stdout)["frames"]], [0, 0.25, 0.5])
+        heads = [(self.folder / f"t.{frame}.png").read_bytes()[16:24] for frame in range(3)]
+        self.assertEqual(len(set(heads)), 1)  # the size is that of the longest legend
 
 
 if __name__ == "__main__":

@@ -70,7 +70,7 @@ TEST(Lens, a_frame_without_numbers_has_a_range_and_a_picture) {
     const LensSummary summary = summary_of({}, numbers);
     EXPECT_TRUE(std::isnan(summary.median));
     EXPECT_LT(range_of({}, summary).low, range_of({}, summary).high);
-    EXPECT_EQ(draw_lens({}, numbers).extent, legend_extent({2, 1}));
+    EXPECT_EQ(draw_lens({}, numbers, legend_extent({}, {2, 1})).extent, legend_extent({}, {2, 1}));
 }
 
 TEST(Lens, the_legend_ends_at_round_numbers) {
@@ -90,6 +90,17 @@ TEST(Lens, the_legend_ends_at_round_numbers) {
     EXPECT_NEAR(range_of(plan, summary).high, 100, 1e-9);
 }
 
+TEST(Lens, numbers_of_the_legend_are_short_and_plain) {
+    EXPECT_EQ(legend_number(0.0000304), "3.04e-05");
+    EXPECT_EQ(legend_number(0.123456), "0.1235");
+    EXPECT_EQ(legend_number(9800), "9800");
+    EXPECT_EQ(legend_number(10600.5), "10600");
+    EXPECT_EQ(legend_number(-50000), "-50000");
+    EXPECT_EQ(legend_number(195691), "195691");
+    EXPECT_EQ(legend_number(12345678), "1.235e+07");
+    EXPECT_EQ(legend_number(-std::numeric_limits<double>::infinity()), "-inf");
+}
+
 TEST(Lens, a_share_is_rounded_to_all_or_nothing_only_if_it_is) {
     EXPECT_EQ(share_words(1), "100 %");
     EXPECT_EQ(share_words(0), "0 %");
@@ -101,18 +112,84 @@ TEST(Lens, a_share_is_rounded_to_all_or_nothing_only_if_it_is) {
     EXPECT_EQ(share_words(0.125), "12.5 %");
 }
 
+LensNumbers ones(Extent extent) {
+    LensNumbers numbers{.extent = extent};
+    numbers.values.assign(extent.pixels(), 1);
+    numbers.marks.assign(extent.pixels(), Mark::number);
+    return numbers;
+}
+
+/// Returns the bytes of the picture's uppermost rows.
+std::vector<uint8_t> top_rows(const image::Image& picture, int rows) {
+    const auto samples = picture.u8();
+    return {samples.end() - ptrdiff_t(4 * rows * picture.extent.width), samples.end()};
+}
+
+/// Returns how many rows at the bottom have one colour.
+int empty_rows(const image::Image& picture) {
+    const auto samples = picture.u8();
+    const size_t row = 4 * size_t(picture.extent.width);
+    for (size_t i = 0; i < samples.size(); ++i)
+        if (samples[i] != samples[i % 4])
+            return int(i / row);
+    return picture.extent.height;
+}
+
 TEST(Lens, a_narrow_legend_has_more_rows) {
     LensPlan plan;
     plan.title = std::string(70, 'm');
-    LensNumbers numbers;
-    numbers.extent = {320, 180};
-    numbers.values.assign(numbers.extent.pixels(), 1);
-    numbers.marks.assign(numbers.extent.pixels(), Mark::number);
+    const LensNumbers numbers = ones({320, 180});
     const image::Image whole = draw_lens(plan, numbers);
     plan.title = std::string(53, 'm');
     EXPECT_NE(draw_lens(plan, numbers).bytes, whole.bytes) << "the rest of the title is in the second row";
-    const int below = legend_extent({320, 180}).height - 180;
-    EXPECT_GT(below, legend_extent({640, 360}).height - 360);
+    const int below = legend_extent(plan, {320, 180}).height - 180;
+    EXPECT_GT(below, legend_extent(plan, {640, 360}).height - 360);
+}
+
+TEST(Lens, a_legend_of_one_picture_has_no_empty_row) {
+    for (const int width : {128, 256, 400, 640, 1920})
+        for (const int length : {10, 60, 150}) {
+            LensPlan plan;
+            plan.title = std::string(size_t(length), 'm');
+            plan.marked = "run out of iterations";
+            const int scale = std::max(1, width / 640), row_height = 11 * scale, margin = 4 * scale;
+            const image::Image picture = draw_lens(plan, ones({width, 72}));
+            EXPECT_GE(empty_rows(picture), margin) << width << " " << length;
+            EXPECT_LT(empty_rows(picture), margin + row_height) << width << " " << length;
+        }
+}
+
+TEST(Lens, the_legends_of_a_sequence_have_one_size) {
+    LensPlan plan;
+    plan.title = "a title";
+    plan.marked = "run out of iterations";
+    plan.absent = "no march";
+    LensNumbers numbers = ones({256, 144});
+    const Extent extent = legend_extent(plan, numbers.extent);
+    const image::Image alone = draw_lens(plan, numbers);
+    EXPECT_LE(alone.extent.height, extent.height);
+    const image::Image first = draw_lens(plan, numbers, extent);
+    EXPECT_EQ(first.extent, extent);
+    EXPECT_EQ(top_rows(first, alone.extent.height), top_rows(alone, alone.extent.height));
+    numbers.values[0] = std::nanf("");
+    numbers.values[1] = std::numeric_limits<float>::infinity();
+    numbers.marks[2] = Mark::absent;
+    const image::Image full = draw_lens(plan, numbers);
+    EXPECT_GT(full.extent.height, alone.extent.height);
+    EXPECT_EQ(top_rows(draw_lens(plan, numbers, extent), full.extent.height),
+              top_rows(full, full.extent.height));
+}
+
+TEST(Lens, a_legend_that_is_too_small_ends_with_dots) {
+    LensPlan plan;
+    plan.title = std::string(2000, 'm');
+    const LensNumbers numbers = ones({256, 144});
+    const image::Image picture = draw_lens(plan, numbers);
+    EXPECT_LE(picture.extent.height, largest_legend_extent({256, 144}).height);
+    plan.title.back() = 'n';
+    EXPECT_EQ(draw_lens(plan, numbers).bytes, picture.bytes) << "the end of the title is left out";
+    plan.title = "short";
+    EXPECT_EQ(draw_lens(plan, numbers, Extent{256, 180}).extent, (Extent{256, 180}));
 }
 
 TEST(Lens, brightness_rises_along_the_colours) {
@@ -144,13 +221,13 @@ TEST(Lens, pixels_without_a_number_have_their_own_colours) {
     EXPECT_EQ(colour(4), (std::array<uint8_t, 3>{0, 0, 0}));
 }
 
-TEST(Lens, a_legend_fits_its_text_and_has_even_sides) {
-    for (const Extent map : {Extent{1, 1}, Extent{321, 181}, Extent{1920, 1080}, Extent{3840, 2160}}) {
-        const Extent whole = legend_extent(map);
-        EXPECT_GE(whole.width, std::max(240, map.width));
-        EXPECT_GT(whole.height, map.height);
-        EXPECT_EQ(whole.width % 2 + whole.height % 2, 0);
-    }
+TEST(Lens, a_picture_with_a_legend_has_even_sides) {
+    for (const Extent map : {Extent{1, 1}, Extent{321, 181}, Extent{1920, 1080}, Extent{3840, 2160}})
+        for (const Extent whole : {legend_extent({}, map), largest_legend_extent(map)}) {
+            EXPECT_GE(whole.width, std::max(240, map.width));
+            EXPECT_GT(whole.height, map.height);
+            EXPECT_EQ(whole.width % 2 + whole.height % 2, 0);
+        }
 }
 
 } // namespace tidemark::lab::lens_test
