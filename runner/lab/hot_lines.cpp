@@ -218,7 +218,7 @@ std::vector<size_t> counted_passes(const render::Renderer& plain, const std::str
 // turn with the plain one.
 
 /// CPU time of a drawing that is long enough to compare; the picture is drawn larger or smaller to come near.
-constexpr double k_least_ms = 10, k_most_ms = 120;
+constexpr double k_least_ms = 40, k_most_ms = 160;
 constexpr int k_longest_side = 2560, k_shortest_side = 120;
 constexpr size_t k_most_timed_rounds = 15;
 /// Part of the time that may be spent on compiling.
