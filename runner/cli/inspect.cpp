@@ -324,6 +324,10 @@ Result<int> inspect_scene(const InspectOptions& options) {
 
 constexpr size_t k_hot_lines = 10;
 
+std::string_view basis_of(const lab::HotLine& line) {
+    return to_string(line.interval ? lab::Basis::measured : lab::Basis::counted);
+}
+
 Json json_of(const lab::HotLines& hot, const scene::Scene& scene, const render::FrameState& state) {
     Json json{{"tidemark", k_version},
               {"scene", scene.file.string()},
@@ -334,19 +338,33 @@ Json json_of(const lab::HotLines& hot, const scene::Scene& scene, const render::
               {"not_counted", hot.not_counted},
               {"lines", Json::array()}};
     for (const lab::HotLine& line : hot.lines)
-        json["lines"].push_back({{"file", line.where.file},
-                                 {"line", line.where.line},
-                                 {"share", line.share},
-                                 {"text", line.text}});
+        json["lines"].push_back(
+            {{"file", line.where.file},
+             {"line", line.where.line},
+             {"share", line.share},
+             {"basis", basis_of(line)},
+             {"interval", line.interval ? Json{line.interval->low, line.interval->high} : Json()},
+             {"counted", line.counted},
+             {"text", line.text}});
     return json;
+}
+
+std::string interval_words(const lab::HotLine& line) {
+    return line.interval
+               ? fmt::format("{:.1f} to {:.1f}", 100 * line.interval->low, 100 * line.interval->high)
+               : "counted";
 }
 
 std::string to_text(const lab::HotLines& hot, const scene::Scene& scene, const render::FrameState& state) {
     std::string text =
         fmt::format("{}, {}x{} at {:g} s: {:.0f} weighted operations per pixel, {}\n", scene.file.string(),
                     state.extent.width, state.extent.height, state.seconds(), hot.operations, hot.basis);
+    if (hot.measured)
+        text += "  share of the time, measured by doing the line twice, with its 95 % interval; counted: the "
+                "line cannot be done twice, its share is that of the operations\n";
     for (const lab::HotLine& line : hot.lines)
-        text += fmt::format("  {:>6}  {}:{}: {}\n", lab::share_words(line.share), line.where.file,
+        text += fmt::format("  {:>6}  {}{}:{}: {}\n", lab::share_words(line.share),
+                            hot.measured ? fmt::format("{:<14}", interval_words(line)) : "", line.where.file,
                             line.where.line, line.text);
     for (const std::string& pass : hot.not_counted)
         text += fmt::format("  not counted: {}\n", pass);
@@ -363,13 +381,15 @@ Result<int> put_hot_lines(const InspectOptions& options) {
     const auto context = TRY(host::HeadlessContext::create(options.device));
     render::FrameState state = lab::state_at(options.time, *extent);
     state.pass = options.pass;
-    const lab::HotLines hot = TRY(lab::hot_lines(scene, state, k_hot_lines, lab::device_weights()));
+    const lab::HotLines hot =
+        TRY(lab::hot_lines(scene, state, k_hot_lines, lab::device_weights(), options.budget));
     TRY(gl::check_work("counting the operations of lines"));
     if (findings_are_diagnostics())
         for (const lab::HotLine& line : hot.lines)
-            say(finding_of(
-                {line.where, Severity::note, lab::share_words(line.share) + " of the work of a frame"},
-                {"hot-line", "The lines of a text that take most of a frame's operations."}));
+            say(finding_of({line.where, Severity::note,
+                            fmt::format("{} of the {} of a frame, {}", lab::share_words(line.share),
+                                        line.interval ? "time" : "work", basis_of(line))},
+                           {"hot-line", "The lines of a text that take most of a frame."}));
     return put(options.json ? dump(json_of(hot, scene, state), 2) + "\n" : to_text(hot, scene, state))
         .map([] { return 0; });
 }
@@ -405,7 +425,7 @@ void add_inspect(Command app, Action& chosen) {
         .one_word()
         .check(one_of(things));
     command.add_flag("--hot-lines", options->hot_lines,
-                     "Lists the ten lines that take most of a frame's operations");
+                     "Lists the ten lines that take most of a frame, measured by doing each twice");
     command.add_option("--time", options->time, "With --hot-lines: the moment")
         .type_name("SECONDS")
         .check(number<double>("a number of seconds"))
@@ -413,9 +433,11 @@ void add_inspect(Command app, Action& chosen) {
     command.add_option("--size", options->size, "With --with and --hot-lines: size of the picture")
         .type_name("WxH")
         .capture_default_str();
-    command.add_option("--budget", options->budget, "With --with: seconds to spend on measuring")
+    command
+        .add_option("--budget", options->budget,
+                    "With --with and --hot-lines: seconds to spend on measuring; 0: --hot-lines counts only")
         .type_name("S")
-        .check(number<double>("a number of seconds above 0", 1e-3))
+        .check(number<double>("a number of seconds from 0", 0))
         .capture_default_str();
     command
         .add_flag("--specialised", options->specialised,
@@ -430,6 +452,8 @@ void add_inspect(Command app, Action& chosen) {
                 return fail(ErrorCode::usage, "inspect: give a SCENE, or --devices");
             if (options->hot_lines)
                 return put_hot_lines(*options);
+            if (!options->with.empty() && options->budget == 0)
+                return fail(ErrorCode::usage, "--budget 0: --with needs time to measure");
             if (!options->with.empty())
                 return inspect_savings({options->scene, options->size, options->pass, options->device,
                                         options->with, options->budget, options->json});

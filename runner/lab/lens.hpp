@@ -160,20 +160,33 @@ Result<LensNumbers> read_lens(const LensPlan& plan, const LensFrame& frame, cons
 /// A line of the text and its part of the work.
 struct HotLine {
     SourceLocation where;
-    std::string text; ///< without surrounding blanks
-    double share = 0; ///< 0 to 1
+    std::string text;                   ///< without surrounding blanks
+    double share = 0;                   ///< 0 to 1; of the time if it was measured, else of the counted work
+    double counted = 0;                 ///< share of the counted work
+    std::optional<Interval> interval{}; ///< 95 %, of a measured share; nothing: it was counted
 };
 struct HotLines {
     double operations = 0;                  ///< weighted, per pixel: the mean
     std::vector<HotLine> lines{};           ///< the most expensive first
     std::string basis{};                    ///< basis_of the weights
     std::vector<std::string> not_counted{}; ///< passes that are left out, each with the reason
+    bool measured = false;                  ///< at least one line was
 };
 /// Counts the lines of all passes that the frame draws, in that moment and size; returns the first `most`.
 /// With the weights of a device that runs pixels together or both sides of branches, it counts what the
-/// device runs. `state.pass`: counts only that pass. A context must be current.
+/// device runs. `state.pass`: counts only that pass. `seconds` above 0: measures the most expensive lines for
+/// about that long, each by doing its operations twice. A context must be current.
 Result<HotLines> hot_lines(const scene::Scene& scene, const render::FrameState& state, size_t most,
-                           const glsl::WorkWeights& weights = {});
+                           const glsl::WorkWeights& weights = {}, double seconds = 0);
+
+/// A share of the time with its 95 % interval.
+struct LineShare {
+    double share = 0;
+    Interval interval{};
+};
+/// Returns what a line takes, from the additional times of the rounds in which it was done twice, each as a
+/// part of the plain time. `added`: counted work that was done in addition, `work`: that of the line.
+LineShare measured_share(const std::vector<double>& more, double work, double added);
 
 /// Statistics of the finite numbers: of all components together.
 struct LensSummary {

@@ -2,7 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/measurement.hpp"
-#include "shader/driver_load.hpp"
+#include "shader/driver_log.hpp"
 #include "shader/shader_source.hpp"
 #include "shader/uniform_expressions.hpp"
 

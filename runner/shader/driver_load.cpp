@@ -1,4 +1,4 @@
-#include "shader/driver_load.hpp"
+#include "shader/driver_log.hpp"
 
 #include "shader/parsed_text.hpp"
 #include "shader/pass_reading.hpp"

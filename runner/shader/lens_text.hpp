@@ -120,6 +120,8 @@ struct WorkText {
     std::vector<WorkSite> sites;
     std::vector<WorkBlock> blocks{}; ///< those of functions in the order of their definitions
     NodeId main_image = k_no_node;
+    std::vector<double> own{};    ///< for each node: its work as counted, without the nodes inside it
+    std::vector<bool> repeated{}; ///< for each node: its value was computed just before, so it counts nothing
 };
 
 enum class WorkAnswer {
@@ -132,5 +134,21 @@ inline constexpr std::string_view k_sites_knob = "tidemark_sites";
 /// what the colour does not depend on.
 Result<WorkText> count_operations(const ParsedText& text, const TreeFacts& facts, WorkAnswer answer,
                                   const WorkWeights& weights = {});
+
+// Does the operations of one line a second time, so that the time of drawing shows what the line costs.
+
+/// The second time has operands that are shifted by a zero that no compiler knows, and its result is added
+/// times that zero: the picture keeps its bytes. Calls of the author's functions are not repeated.
+struct LineTwice {
+    std::string text; ///< for the driver
+    double work = 0;  ///< of the line, as counted: of each operation once
+    double added = 0; ///< counted work of what is done in addition, with the shifts and sums
+};
+/// Fails (ErrorCode::load) if less than half of the line's work can be repeated: heads of loops, calls and
+/// changes of variables stay as they are. `counted` must belong to the same text.
+Result<LineTwice> do_line_twice(const ParsedText& text, const TreeFacts& facts, const WorkText& counted,
+                                const SourceLocation& place, const WorkWeights& weights = {});
+/// Returns the same text with no line done twice, to compare with.
+std::string do_no_line_twice(const ParsedText& text);
 
 } // namespace tidemark::glsl

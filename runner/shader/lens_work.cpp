@@ -213,6 +213,8 @@ public:
     Result<WorkText> run() {
         TRY(check());
         weigh();
+        result_.own.resize(tree_.nodes.size());
+        result_.repeated.resize(tree_.nodes.size());
         result_.main_image = find_main_image(text_);
         for (const NodeId function : tree_.children(0))
             if (tree_[function].kind == NodeKind::function)
@@ -375,14 +377,17 @@ private:
     }
 
     void add_work(NodeId id, double work, Found& found) {
+        result_.own[id] += work;
         const SourceLocation where = text_.used(tree_[id].word);
         found.lines[{where.file, where.line}] += work;
     }
 
     /// Adds the work of an expression that is evaluated whenever the site runs.
     void expression(NodeId id, Found& found) {
-        if (is_repeated(id))
+        if (is_repeated(id)) {
+            result_.repeated[id] = true;
             return;
+        }
         size_t index = 0;
         for (const NodeId child : tree_.children(id)) {
             if (is_separate(child, index++)) {

@@ -5,7 +5,7 @@
 #include "host/forked.hpp"
 #include "host/program_trial.hpp"
 #include "host/supervision.hpp"
-#include "shader/driver_load.hpp"
+#include "shader/driver_log.hpp"
 #include "window/screen.hpp"
 
 #include <fcntl.h>

@@ -1,14 +1,16 @@
 """Whether a line's share of `inspect --hot-lines` is its share of the time: its operations are done twice, or left out.
 
-    python3 tests/bench/hot_lines.py FOLDER [--count 20] [--seed 1] [--least 0.1] [--how twice|out]
+    python3 tests/bench/hot_lines.py FOLDER [--count 20] [--seed 1] [--least 0.1] [--how twice|out] [--budget 20]
         [--program PATH] [--timed PATH] [-o rows.json]
 
 For each line above the least share a copy of the project is made. `twice`: the line's operations are done a second time, with other
 operands, and added to its value times a 0 that no compiler knows, so that the picture keeps its bytes. `out`: the line gets the sum
-of its operands instead. Calls of the author's functions stay as they are, but their arguments are operands of the line. The copy is
-counted again; the change of the count is held against the change of the CPU time (tests/bench/timed.cpp), drawn in turn, medians. A
-copy whose count changes by less than half of the line's share does not show the line, and is left out. Frames of a few milliseconds
-are drawn larger.
+of its operands instead. Calls of the author's functions stay as they are, but their arguments are operands of the line. The share
+that the program measured is held against the change of the CPU time (tests/bench/timed.cpp), drawn in turn, medians. The copy is
+counted again: what `twice` adds beside the line's operations, to make them different, counts in proportion. `out` is held against the
+share itself. A copy whose count changes by less than half of the line's counted share does not show the line, and is left out. Frames
+of a few milliseconds are drawn larger. With --budget 0 the shares are counted; lines that the program could not measure are left out
+otherwise.
 """
 import argparse
 import json
@@ -216,8 +218,8 @@ class Bench:
         self.options = options
         self.size = SIZES[0]
 
-    def hot(self, scene):
-        done = subprocess.run([self.options.program, "inspect", scene, "--hot-lines", "--json", "--size", self.size],
+    def hot(self, scene, budget=0):
+        done = subprocess.run([self.options.program, "inspect", scene, "--hot-lines", "--json", "--size", self.size, "--budget", str(budget)],
                               capture_output=True, text=True, timeout=300)
         return json.loads(done.stdout) if done.returncode == 0 else None
 
@@ -238,14 +240,18 @@ class Bench:
         plain = folder / path.name.replace(".glsl", ".json")
         plain.write_text(json.dumps(whole))
         self.choose_size(str(plain))
-        hot = self.hot(str(plain))
+        hot = self.hot(str(plain), self.options.budget)
         if not hot:
             return []
         rows, copies = [], []
         for line in hot["lines"]:
             if line["share"] < self.options.least:
                 continue
-            row = {"project": path.name, "line": line["line"], "text": line["text"], "share": line["share"], "weights": hot["weights"]}
+            row = {"project": path.name, "line": line["line"], "text": line["text"], "share": line["share"], "basis": line["basis"],
+                   "counted": line["counted"], "interval": line["interval"], "weights": hot["weights"]}
+            if self.options.budget and line["basis"] != "measured":
+                rows.append(row)
+                continue
             for place in passes:
                 text = place["code"]
                 if line["text"] and [each.strip() for each in text.split("\n")][line["line"] - 1:line["line"]] == [line["text"]]:
@@ -257,8 +263,10 @@ class Bench:
                         place["code"] = text
                         recount = self.hot(str(copy))
                         if recount:
-                            row["predicted"] = recount["operations"] / hot["operations"] - 1
-                        if recount and abs(row["predicted"]) >= line["share"] / 2:
+                            row["recounted"] = recount["operations"] / hot["operations"] - 1
+                            row["predicted"] = (line["share"] * row["recounted"] / line["counted"] if self.options.how == "twice"
+                                                else -line["share"])
+                        if recount and abs(row["recounted"]) >= line["counted"] / 2:
                             row["copy"] = str(copy)
                             copies.append(row)
                     break
@@ -287,6 +295,7 @@ def main():
     parser.add_argument("--least", type=float, default=0.1)
     parser.add_argument("--how", choices=("twice", "out"), default="twice")
     parser.add_argument("--rounds", type=int, default=9)
+    parser.add_argument("--budget", type=float, default=20)
     parser.add_argument("--program", default=str(root / "tidemark"))
     parser.add_argument("--timed", default=str(root / "tidemark_timed"))
     parser.add_argument("-o", "--output")
@@ -308,9 +317,10 @@ def main():
                     print(f"{row['project']}:{row['line']}: share {row['share']:.3f}, predicted {row['predicted']:+.3f}, not timed: "
                           f"{row['text'][:70]}", flush=True)
                 elif "measured" not in row:
-                    print(f"{row['project']}:{row['line']}: share {row['share']:.3f}, not changed: {row['text'][:70]}", flush=True)
+                    print(f"{row['project']}:{row['line']}: share {row['share']:.3f} {row['basis']}, not changed: {row['text'][:70]}",
+                          flush=True)
                 else:
-                    print(f"{row['project']}:{row['line']}: share {row['share']:.3f}, predicted {row['predicted']:+.3f}, measured "
+                    print(f"{row['project']}:{row['line']}: share {row['share']:.3f}, counted {row['counted']:.3f}, predicted {row['predicted']:+.3f}, timed "
                           f"{row['measured']:+.3f}, factor {factor(row):.2f}, {row['ms']:.0f} ms: {row['text'][:70]}", flush=True)
     measured = [row for row in rows if "measured" in row]
     near = [row for row in measured if factor(row) <= 1.5]

@@ -89,22 +89,49 @@ class Passes(ProgramTest):
         self.assertIn("only Image and buffers have lenses", run.stderr)
 
     def test_hot_lines_are_those_of_all_passes(self):
-        hot = json.loads(self.succeed("inspect", "counting", "--hot-lines", "--json", "--size", "24x16", "--time", "1").stdout)
+        hot = json.loads(self.succeed("inspect", "counting", "--hot-lines", "--json", "--size", "24x16", "--time", "1", "--budget", "0").stdout)
         self.assertEqual(hot["not_counted"], [])
         files = {line["file"].rpartition("/")[2] for line in hot["lines"]}
         self.assertEqual(files, {"image.glsl", "buffer_a.glsl", "buffer_b.glsl"})
         self.assertTrue(hot["lines"][0]["file"].endswith("buffer_a.glsl"))
         self.assertAlmostEqual(sum(line["share"] for line in hot["lines"]), 1, places=6)
-        one = json.loads(self.succeed("inspect", "counting", "--hot-lines", "--json", "--size", "24x16", "--time", "1", "--pass",
-                                      "Buffer B").stdout)
+        one = json.loads(self.succeed("inspect", "counting", "--hot-lines", "--json", "--size", "24x16", "--time", "1", "--budget",
+                                      "0", "--pass", "Buffer B").stdout)
         self.assertEqual({line["file"].rpartition("/")[2] for line in one["lines"]}, {"buffer_b.glsl"})
+
+    def test_hot_lines_are_measured_by_doing_them_twice(self):
+        self.write("heavy.glsl", """void mainImage(out vec4 c, in vec2 p) {
+    float x = p.x, y = p.y, unread = sin(sin(x + y));
+    for (int i = 0; i < 60; ++i)
+        x = sin(x) + exp(cos(x * 1.1 + y));
+    y += x * 0.5;
+    c = vec4(fract(x), fract(y), 0.0, 1.0);
+}
+""")
+        arguments = ("inspect", "heavy.glsl", "--hot-lines", "--size", "64x36", "--budget", "4")
+        hot = json.loads(self.succeed(*arguments, "--json").stdout)
+        lines = {line["line"]: line for line in hot["lines"]}
+        self.assertEqual(hot["lines"][0]["line"], 4)
+        self.assertEqual(lines[4]["basis"], "measured")
+        self.assertLess(lines[4]["interval"][0], lines[4]["interval"][1])
+        self.assertTrue(lines[4]["interval"][0] <= lines[4]["share"] <= lines[4]["interval"][1])
+        self.assertGreater(lines[4]["counted"], 0.9)
+        self.assertEqual((lines[3]["basis"], lines[3]["interval"]), ("counted", None), "the head of a loop")
+        self.assertEqual(lines[3]["share"], lines[3]["counted"])
+        self.assertNotIn(2, lines, "nothing reads what the line computes")
+        text = self.succeed(*arguments).stdout.decode()
+        self.assertRegex(text, r"(?m)^ +[\d.]+ %  -?[\d.]+ to [\d.]+ +heavy\.glsl:4: x = sin")
+        self.assertRegex(text, r"(?m)^ +[\d.]+ %  counted +heavy\.glsl:3: for")
+        counted = self.succeed(*arguments[:-1], "0").stdout.decode()
+        self.assertNotIn("counted", counted)
+        self.assertRegex(counted, r"(?m)^ +[\d.]+ %  heavy\.glsl:4: x = sin")
 
 
 class Weights(ProgramTest):
     """Weights that the self test has measured."""
 
     def hot(self, cache):
-        run = self.succeed("inspect", "scene.glsl", "--hot-lines", "--json", "--size", "24x16", env=cache)
+        run = self.succeed("inspect", "scene.glsl", "--hot-lines", "--json", "--size", "24x16", "--budget", "0", env=cache)
         return json.loads(run.stdout)
 
     def test_the_self_test_measures_weights_that_are_used_from_then_on(self):

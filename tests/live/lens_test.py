@@ -135,7 +135,7 @@ class Lens(OverlayTest):
             view.click(MARGIN + PADDING + 80, row_centre(6) - 3)
             return edited.read_text() if edited.exists() else ""
 
-        listed = self.succeed("inspect", "a.glsl", "--hot-lines").stdout.decode()
+        listed = self.succeed("inspect", "a.glsl", "--hot-lines", "--budget", "0").stdout.decode()
         hottest = re.search(r"%  a\.glsl:(\d+): ", listed)[1]
         self.assertEqual(wait_for(click, "the editor"), f"+{hottest} a.glsl\n")
 

@@ -1,6 +1,6 @@
 // The estimated load of a text on a driver: small texts pass, and unbounded growth is found.
 #include "glsl_support.hpp"
-#include "shader/driver_load.hpp"
+#include "shader/driver_log.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

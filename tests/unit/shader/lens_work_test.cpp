@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
 
 namespace tidemark::glsl::lens_work_test {
 
@@ -183,6 +185,80 @@ TEST(Work, iterations_weigh_where_the_loop_begins) {
         for (const auto& [where, each] : site.lines)
             second += where.line == 2 ? each : 0;
     EXPECT_EQ(second, 12) << "with its condition and its step";
+}
+
+/// Does the line twice; nothing if that is not possible.
+std::optional<LineTwice> twice(const std::string& text, int line, const WorkWeights& weights = {}) {
+    const auto read = parsed(text);
+    const TreeFacts facts = find_facts(*read);
+    const WorkText work = *count_operations(*read, facts, WorkAnswer::sites, weights);
+    auto made = do_line_twice(*read, facts, work, {"a.glsl", line}, weights);
+    return made ? std::optional(*std::move(made)) : std::nullopt;
+}
+
+/// The author's part of the text, without blanks.
+std::string changed(const std::optional<LineTwice>& made) {
+    std::string text = made ? made->text.substr(made->text.find("tmw0_add(mat4")) : "";
+    text.erase(0, std::min(text.size(), text.find('\n')));
+    std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
+    return text;
+}
+
+TEST(Twice, an_expression_is_computed_again_of_shifted_operands) {
+    const auto made =
+        twice("void mainImage(out vec4 c, in vec2 p) {\nfloat x = sin(p.x);\nc = vec4(x);\n}", 2);
+    ASSERT_TRUE(made);
+    EXPECT_EQ(changed(made), "voidmainImage(outvec4c,invec2p){floatx=tmw0_add(sin(p.x),tmw0_keep(sin("
+                             "tmw0_shift(p.x))));c=vec4(x);}");
+    EXPECT_EQ(made->work, 16);
+    EXPECT_EQ(made->added, 16 + 1 + 2) << "the sine; its shifted operand; a product and a sum";
+}
+
+TEST(Twice, one_operand_of_a_sum_is_shifted_and_both_of_a_quotient) {
+    const std::string before = "void mainImage(out vec4 c, in vec2 p) {\n", after = "\nc = vec4(x);\n}";
+    EXPECT_NE(
+        changed(twice(before + "float x = p.x + p.y;" + after, 2)).find("keep((tmw0_shift(p.x)+(p.y)))"),
+        std::string::npos);
+    EXPECT_NE(changed(twice(before + "float x = p.x / p.y;" + after, 2))
+                  .find("keep((tmw0_shift(p.x)/tmw0_shift(p.y)))"),
+              std::string::npos);
+    EXPECT_NE(changed(twice(before + "float x = 1.0; x *= p.x;" + after, 2)).find("x*=tmw0_add(p.x,"),
+              std::string::npos)
+        << "a compound assignment";
+}
+
+TEST(Twice, a_call_is_made_once_and_its_value_is_an_operand) {
+    const std::string text = "float f(float a) {\nreturn a * a;\n}\nvoid mainImage(out vec4 c, in vec2 p) {\n"
+                             "c = vec4(sin(f(p.x * p.y)));\n}";
+    const std::string made = changed(twice(text, 5));
+    EXPECT_NE(made.find("sin((tmw0_t0=f(tmw0_add(p.x*p.y,"), std::string::npos) << made;
+    EXPECT_NE(made.find("keep(sin(tmw0_shift(tmw0_t0)))"), std::string::npos) << made;
+}
+
+TEST(Twice, constants_and_repeated_values_are_not_computed_again) {
+    const std::string text = "void mainImage(out vec4 c, in vec2 p) {\nfloat a = sin(p.x);\n"
+                             "float b = cos(sin(p.x)) * sin(2.0);\nc = vec4(a + b);\n}";
+    const std::string made = changed(twice(text, 3));
+    EXPECT_NE(made.find("cos((tmw0_t0=sin(p.x)))"), std::string::npos) << made;
+    EXPECT_NE(made.find("keep((cos(tmw0_shift(tmw0_t0))*(sin(2.0))))"), std::string::npos) << made;
+}
+
+TEST(Twice, heads_of_loops_and_lone_calls_are_refused) {
+    const std::string text = "float f(float a) {\nreturn a * a;\n}\nvoid mainImage(out vec4 c, in vec2 p) {\n"
+                             "for (int i = 0; i < 9; ++i)\np.x++;\nfloat a = f(p.x);\nc = vec4(a);\n}";
+    EXPECT_TRUE(twice(text, 2));
+    EXPECT_FALSE(twice(text, 5));
+    EXPECT_FALSE(twice(text, 6));
+    EXPECT_FALSE(twice(text, 7));
+    EXPECT_FALSE(twice(text, 8)) << "no operation";
+}
+
+TEST(Twice, a_counter_of_a_loop_keeps_its_known_values) {
+    const std::string text = "void mainImage(out vec4 c, in vec2 p) {\nfor (int i = 0; i < 9; ++i)\n"
+                             "c.x += exp(p.x) * float(i);\n}";
+    const std::string made = changed(twice(text, 3));
+    EXPECT_NE(made.find("shift(p.x)"), std::string::npos) << made;
+    EXPECT_EQ(made.find("shift(i)"), std::string::npos) << made;
 }
 
 } // namespace tidemark::glsl::lens_work_test
