@@ -217,7 +217,8 @@ Drawn found_in(const fs::path& folder, const fs::path& path, const scene::Scene&
                                 picture->extent.width, picture->extent.height, picture->extent.width,
                                 picture->extent.height)};
         Drawn drawn;
-        drawn.frame.passes.push_back({scene.image().name, image::with_channels(image::in_floats(*picture), 4)});
+        drawn.frame.passes.push_back(
+            {scene.image().name, image::with_channels(image::in_floats(*picture), 4)});
         return drawn;
     }
     return {

@@ -67,8 +67,9 @@ float $over(float a,float b){if(!$has(8))return a/b;precise float r=1.0/b,q=a*r;
 float $mod(float x,float y){if(!$has(8))return mod(x,y);precise float r=x-y*floor($divide(x,y));return r;}
 float $smoothstep(float a,float b,float x){if(!$has(8))return smoothstep(a,b,x);
 precise float d=x-a,e=b-a;float t=clamp($divide(d,e),0.0,1.0);precise float r=t*t*(3.0-2.0*t);return r;}
-float $min(float x,float y){if(!$has(16))return min(x,y);precise float r=x<y?x:y;return r;}
-float $max(float x,float y){if(!$has(16))return max(x,y);precise float r=x>y?x:y;return r;}
+bool $odd(float x,float y){return max($bits(x)&0x7fffffff,$bits(y)&0x7fffffff)>0x7f800000;}
+float $min(float x,float y){if(!$has(16))return min(x,y);if($odd(x,y))return y;return x<y?x:y;}
+float $max(float x,float y){if(!$has(16))return max(x,y);if($odd(x,y))return y;return x>y?x:y;}
 float $clamp(float x,float a,float b){return $has(16)?$min($max(x,a),b):clamp(x,a,b);}
 mat2 $inverse(mat2 m){if(!$has(8))return inverse(m);precise float d=1.0/(m[0][0]*m[1][1]-m[0][1]*m[1][0]);
 precise mat2 r=mat2(d*m[1][1],d*-m[0][1],d*-m[1][0],d*m[0][0]);return r;}
