@@ -262,7 +262,7 @@ namespace {
 
 /// Numbers of a buffer are the same within this part of their size: what the next pass makes of them is
 /// unknown.
-constexpr double k_same_number = 1e-5;
+constexpr double k_same_number = 1e-6;
 
 double shown_level(float sample) {
     return std::isnan(sample) ? 0.0 : std::clamp(double(sample), 0.0, 1.0);

@@ -118,7 +118,7 @@ TEST_F(DeviceDifferenceTest, AStillSceneHasNoPreviousFrame) {
 /// Each frame amplifies the one before it, so that the two buffers have nothing in common any more.
 const std::string k_amplified = "c = fract(37.7 * last + hash(p));";
 
-TEST_F(DeviceDifferenceTest, AFrameWithFeedbackIsDrawnFromTheOtherDevicesPreviousOne) {
+TEST_F(DeviceDifferenceTest, FeedbackIsExplainedFromTheOtherDevicesPreviousFrame) {
     ProbeBench first(with_feedback("here", "#define OTHER sin\n" + k_sine_hash, k_amplified), {}),
         second(
             with_feedback("there", k_swiftshader_sine + "\n#define OTHER other\n" + k_sine_hash, k_amplified),
