@@ -92,13 +92,14 @@ private:
 
 /// The pictures that a process drew, or why there are none.
 struct Drawn {
-    std::vector<PassPicture> passes;
+    lab::FramePictures frame;
     std::string problem;
 };
 
-Json described(const PassPicture& pass) {
+Json described(const PassPicture& pass, bool is_before) {
     const image::Image& picture = pass.picture;
     return {{"pass", pass.pass},
+            {"before", is_before},
             {"width", picture.extent.width},
             {"height", picture.extent.height},
             {"channels", picture.channels}};
@@ -127,11 +128,13 @@ Result<Drawn> drawn_on(const std::string& device, const scene::Scene& scene,
     const auto draw = [&](const Tell& tell) -> Result<void> {
         const auto context = TRY(host::HeadlessContext::create({device}));
         lab::ProbeBench bench(scene, {});
-        for (const PassPicture& pass : TRY(bench.passes(state))) {
-            if (!bytes.append(pass.picture.bytes))
-                return fail(ErrorCode::no_memory, "no memory for the pictures");
-            tell(dump(described(pass)));
-        }
+        const lab::FramePictures frame = TRY(lab::draw_frame(bench, state));
+        for (const auto* const passes : {&frame.passes, &frame.before})
+            for (const PassPicture& pass : *passes) {
+                if (!bytes.append(pass.picture.bytes))
+                    return fail(ErrorCode::no_memory, "no memory for the pictures");
+                tell(dump(described(pass, passes == &frame.before)));
+            }
         return {};
     };
     Drawn drawn;
@@ -153,7 +156,8 @@ Result<Drawn> drawn_on(const std::string& device, const scene::Scene& scene,
             if (!bytes.read(offset, picture.bytes))
                 drawn.problem = "its pictures are lost";
             offset += picture.bytes.size();
-            drawn.passes.push_back({json.at("pass"), std::move(picture)});
+            (json.at("before") ? drawn.frame.before : drawn.frame.passes)
+                .push_back({json.at("pass"), std::move(picture)});
         }));
     if (run.timed_out)
         drawn.problem = fmt::format("no picture within {:.0f} s", k_patience_seconds);
@@ -170,14 +174,14 @@ Result<Drawn> drawn_in_browser(std::optional<web::Browser>& browser, const std::
     const auto page = web::make_page(scene, web::PageForm::whole, run_numbers(state));
     if (!page)
         return Drawn{{}, to_string(page.error())};
-    auto passes = browser->draw(*page, state, lab::first_frame_of(state), k_patience_seconds);
-    if (passes)
-        return Drawn{*std::move(passes), {}};
+    auto frame = browser->draw(*page, state, lab::first_frame_of(state), k_patience_seconds);
+    if (frame)
+        return Drawn{*std::move(frame), {}};
     browser.reset(); // it may be busy, or broken
     return Drawn{{},
-                 passes.error().code == ErrorCode::timed_out
+                 frame.error().code == ErrorCode::timed_out
                      ? fmt::format("no picture within {:.0f} s", k_patience_seconds)
-                     : passes.error().message};
+                     : frame.error().message};
 }
 
 /// Returns what is known of a browser's driver, by what it draws.
@@ -191,7 +195,7 @@ Result<lab::OtherDevice> other_device(std::optional<web::Browser>& browser, cons
     render::FrameState state;
     state.extent = {1, 1};
     const Drawn drawn = TRY(drawn_in_browser(browser, device, scene, state));
-    const bool white = !drawn.passes.empty() && drawn.passes[0].picture.f32()[0] > 0.5f;
+    const bool white = !drawn.frame.passes.empty() && drawn.frame.passes[0].picture.f32()[0] > 0.5f;
     return white ? lab::OtherDevice::swiftshader : lab::OtherDevice::unknown;
 }
 
@@ -213,7 +217,8 @@ Drawn found_in(const fs::path& folder, const fs::path& path, const scene::Scene&
                                 picture->extent.width, picture->extent.height, picture->extent.width,
                                 picture->extent.height)};
         Drawn drawn;
-        drawn.passes.push_back({scene.image().name, image::with_channels(image::in_floats(*picture), 4)});
+        drawn.frame.passes.push_back(
+            {scene.image().name, image::with_channels(image::in_floats(*picture), 4)});
         return drawn;
     }
     return {
@@ -238,7 +243,7 @@ const image::Image& image_of(const scene::Scene& scene, const std::vector<PassPi
 
 /// Finds the causes of a difference on the first device, in a child process.
 Result<void> explain_apart(DeviceDifference& difference, const std::string& device, const scene::Scene& scene,
-                           const render::FrameState& state, const std::vector<PassPicture>& there,
+                           const render::FrameState& state, const lab::FramePictures& there,
                            lab::OtherDevice other) {
     const auto explain = [&]() -> Result<Json> {
         const auto context = TRY(host::HeadlessContext::create({device}));
@@ -292,8 +297,8 @@ Result<SceneOutcome> outcome_of(const DevicesRequest& request, std::optional<web
         result.outcome = here.problem.empty() != there.problem.empty() ? Outcome::one_side : Outcome::neither;
         return result;
     }
-    result.picture_a = image_of(*scene, here.passes);
-    result.picture_b = image_of(*scene, there.passes);
+    result.picture_a = image_of(*scene, here.frame.passes);
+    result.picture_b = image_of(*scene, there.frame.passes);
     result.difference = TRY(lab::compare_devices(result.picture_a, result.picture_b));
     if (result.difference.differing == 0) {
         result.outcome = result.difference.equal ? Outcome::same : Outcome::close;
@@ -301,7 +306,7 @@ Result<SceneOutcome> outcome_of(const DevicesRequest& request, std::optional<web
     }
     if (!other) // asked once, when the first scene differs
         other = TRY(other_device(browser, request.devices[1]));
-    TRY(explain_apart(result.difference, request.devices[0], *scene, state, there.passes, *other));
+    TRY(explain_apart(result.difference, request.devices[0], *scene, state, there.frame, *other));
     result.outcome =
         result.difference.explained >= lab::k_explained_share ? Outcome::explained : Outcome::unexplained;
     return result;

@@ -481,7 +481,7 @@ const std::string_view k_swiftshader_test = "void mainImage(out vec4 c, in vec2 
                                             "abs(sin(1.3 + min(iTime, 0.0)) - 0.963558185))); }";
 
 Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const FrameState& state,
-                     const std::vector<PassPicture>& there, OtherDevice other) {
+                     const FramePictures& there, OtherDevice other) {
     const Stopwatch watch;
     const auto here = TRY(bench.passes(state));
     auto texts = read_texts(bench, false);
@@ -489,11 +489,13 @@ Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const Fram
         difference.problem = "the text cannot be analysed: " + to_string(texts.error());
         return {};
     }
-    // SwiftShader's passes in the order in which they are drawn, each with its pictures of those before it,
-    // so that each difference is explained where it begins. Else Image first, with the buffers as they are
-    // here; where that explains too little, the buffers follow: Image may amplify what they differ by.
+    // SwiftShader's passes, and all with feedback, in the order in which they are drawn, each with the other
+    // device's pictures of what it reads, so that each difference is explained where it begins. Else Image
+    // first, with the buffers as they are here; where that explains too little, the buffers follow: Image may
+    // amplify what they differ by.
     const bool known = other == OtherDevice::swiftshader;
-    if (!known)
+    const bool in_order = known || !there.before.empty();
+    if (!in_order)
         std::stable_partition(texts->begin(), texts->end(),
                               [&](const PassText& text) { return text.pass == bench.scene().image_index(); });
     const render::Renderer* const renderer = TRY(bench.drawn(state));
@@ -501,13 +503,13 @@ Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const Fram
     for (const PassText& text : *texts) {
         const bool is_image = text.pass == bench.scene().image_index();
         const std::string& name = bench.scene().passes[text.pass].name;
-        const image::Image *own = picture_of(here, name), *others = picture_of(there, name);
+        const image::Image *own = picture_of(here, name), *others = picture_of(there.passes, name);
         if (!own || !others || own->extent != others->extent)
             continue;
         const PictureKind kind = is_image ? PictureKind::image : PictureKind::buffer;
         const auto preview = TRY(bench.preview(state, text.pass));
         image::Image fed;
-        if (known && use_pictures(*renderer, text.pass, there)) {
+        if (in_order && use_pictures(*renderer, text.pass, there)) {
             fed = TRY(drawn_own(preview));
             own = &fed;
         }
@@ -532,7 +534,7 @@ Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const Fram
         }
         if (difference.problem.empty())
             difference.problem = explainer.problem();
-        if (known) {
+        if (in_order) {
             difference.explained = first ? explained : std::min(difference.explained, explained);
             first = false;
             for (DeviceCause& cause : explainer.causes())
@@ -541,7 +543,7 @@ Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const Fram
             difference.explained = explained;
             difference.causes = explainer.causes();
         }
-        if (!known && difference.explained >= k_explained_share)
+        if (!in_order && difference.explained >= k_explained_share)
             break;
     }
     return {};

@@ -45,6 +45,15 @@ struct DeviceDifference {
 
 // Pictures of two devices, and textures (device_drawing.cpp).
 
+/// The pictures of a frame, cubemaps excepted.
+struct FramePictures {
+    std::vector<PassPicture> passes;
+    std::vector<PassPicture> before{}; ///< the same passes after the previous frame; empty without feedback
+};
+
+/// Draws a state as ProbeBench::passes does, and reads the previous frame too if the scene has feedback.
+Result<FramePictures> draw_frame(ProbeBench& bench, const FrameState& state);
+
 /// One flag per pixel.
 using Mask = std::vector<bool>;
 
@@ -60,9 +69,9 @@ image::Image comparable(const image::Image& here, const image::Image& there);
 /// Returns the picture of the pass with that name; null: there is none.
 const image::Image* picture_of(const std::vector<PassPicture>& passes, std::string_view name);
 
-/// Puts the other device's pictures into the textures that a pass reads of passes drawn before it in the same
-/// frame. Returns whether it put any.
-bool use_pictures(const render::Renderer& renderer, size_t pass, const std::vector<PassPicture>& there);
+/// Puts the other device's pictures into the textures that a pass reads: of passes drawn before it those of
+/// the same frame, of itself and of later passes those of the previous frame. Returns whether it put any.
+bool use_pictures(const render::Renderer& renderer, size_t pass, const FramePictures& there);
 
 /// The mipmaps of a pass's textures of bytes, with each texel rounded to the nearest byte or as the driver
 /// makes them.
@@ -84,10 +93,10 @@ Result<DeviceDifference> compare_devices(const image::Image& here, const image::
 /// only guess at functions are not tried.
 enum class OtherDevice { unknown, swiftshader };
 
-/// Finds the causes of a difference of Image. `there` are the passes that the other device drew in that
-/// state, as by ProbeBench::passes.
+/// Finds the causes of a difference of Image. `there` is what the other device drew in that state, as by
+/// draw_frame. A frame with feedback is drawn from the other device's previous frame.
 Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const FrameState& state,
-                     const std::vector<PassPicture>& there, OtherDevice other = OtherDevice::unknown);
+                     const FramePictures& there, OtherDevice other = OtherDevice::unknown);
 
 /// A text whose Image is white where sines are SwiftShader's, else black.
 extern const std::string_view k_swiftshader_test;

@@ -262,7 +262,7 @@ namespace {
 
 /// Numbers of a buffer are the same within this part of their size: what the next pass makes of them is
 /// unknown.
-constexpr double k_same_number = 1e-5;
+constexpr double k_same_number = 1e-6;
 
 double shown_level(float sample) {
     return std::isnan(sample) ? 0.0 : std::clamp(double(sample), 0.0, 1.0);
@@ -373,7 +373,21 @@ const image::Image* picture_of(const std::vector<PassPicture>& passes, std::stri
     return found == passes.end() ? nullptr : &found->picture;
 }
 
-bool use_pictures(const render::Renderer& renderer, size_t pass, const std::vector<PassPicture>& there) {
+Result<FramePictures> draw_frame(ProbeBench& bench, const FrameState& state) {
+    FramePictures frame{TRY(bench.passes(state))};
+    if (!TRY(bench.has_feedback()))
+        return frame;
+    const render::Renderer* const renderer = TRY(bench.drawn(state));
+    // No pass is drawn before the first one, so that the buffers still hold the previous frame.
+    const auto preview = TRY(bench.preview(state, renderer->plan().passes.front().pass));
+    for (const render::PlannedPass& planned : renderer->plan().passes)
+        if (const scene::Pass& pass = bench.scene().passes[planned.pass];
+            pass.kind != scene::PassKind::cubemap)
+            frame.before.push_back({pass.name, renderer->read_back(planned.pass)});
+    return frame;
+}
+
+bool use_pictures(const render::Renderer& renderer, size_t pass, const FramePictures& there) {
     bool used = false;
     std::vector<size_t> drawn;
     for (const render::PlannedPass& planned : renderer.plan().passes) {
@@ -385,9 +399,11 @@ bool use_pictures(const render::Renderer& renderer, size_t pass, const std::vect
         const size_t* const source =
             scene::source_pass(renderer.scene().passes[pass].channels[size_t(unit)].input);
         const gl::Texture* const texture = source ? renderer.texture_at(pass, unit) : nullptr;
-        if (!texture || std::ranges::find(drawn, *source) == drawn.end())
+        if (!texture)
             continue;
-        const image::Image* const picture = picture_of(there, renderer.scene().passes[*source].name);
+        const bool is_drawn = std::ranges::find(drawn, *source) != drawn.end();
+        const image::Image* const picture =
+            picture_of(is_drawn ? there.passes : there.before, renderer.scene().passes[*source].name);
         if (!picture || picture->channels != 4 || picture->extent != texture->extent)
             continue;
         gl::upload(*texture, 0, GL_RGBA, GL_FLOAT, std::as_bytes(picture->f32()));

@@ -67,14 +67,23 @@ float $over(float a,float b){if(!$has(8))return a/b;precise float r=1.0/b,q=a*r;
 float $mod(float x,float y){if(!$has(8))return mod(x,y);precise float r=x-y*floor($divide(x,y));return r;}
 float $smoothstep(float a,float b,float x){if(!$has(8))return smoothstep(a,b,x);
 precise float d=x-a,e=b-a;float t=clamp($divide(d,e),0.0,1.0);precise float r=t*t*(3.0-2.0*t);return r;}
-float $min(float x,float y){return $has(16)?(x<y?x:y):min(x,y);}
-float $max(float x,float y){return $has(16)?(x>y?x:y):max(x,y);}
+bool $odd(float x,float y){return max($bits(x)&0x7fffffff,$bits(y)&0x7fffffff)>0x7f800000;}
+float $min(float x,float y){if(!$has(16))return min(x,y);if($odd(x,y))return y;return x<y?x:y;}
+float $max(float x,float y){if(!$has(16))return max(x,y);if($odd(x,y))return y;return x>y?x:y;}
 float $clamp(float x,float a,float b){return $has(16)?$min($max(x,a),b):clamp(x,a,b);}
 mat2 $inverse(mat2 m){if(!$has(8))return inverse(m);precise float d=1.0/(m[0][0]*m[1][1]-m[0][1]*m[1][0]);
 precise mat2 r=mat2(d*m[1][1],d*-m[0][1],d*-m[1][0],d*m[0][0]);return r;}
 mat3 $inverse(mat3 m){return inverse(m);}
 mat4 $inverse(mat4 m){return inverse(m);}
-int $modulo(int a,int b){if(!$has(16)||(a>=0&&b>0))return a%b;b=b==0?-1:b;return a-b*(a/b);}
+int $modulo(int a,int b){if(!$has(16))return a%b;if(b==0||b==-1)return 0;int r=a-b*(a/b);
+return r!=0&&(r<0)!=(b<0)?r+b:r;}
+uint $modulo(uint a,uint b){return $has(16)&&b==0u?a%0xffffffffu:a%b;}
+int $quotient(int a,int b){if(!$has(16)||(b!=0&&b!=-1))return a/b;return a==0x80000000?1:-a;}
+uint $quotient(uint a,uint b){return $has(16)&&b==0u?a/0xffffffffu:a/b;}
+uint $uint(float f){return $has(16)&&!(f>=0.0&&f<4294967296.0)?0u:uint(f);}
+int $place(int i,int n){return $has(16)?clamp(i,0,n-1):i;}
+int $place(uint i,int n){return $has(16)?int(min(i,uint(n-1))):int(i);}
+vec3 $cross(vec3 a,vec3 b){if(!$has(8))return cross(a,b);precise vec3 r=a.yzx*b.zxy-b.yzx*a.zxy;return r;}
 float $fract(float x){return $has(8)?min(x-floor(x),0.99999994):fract(x);}
 float $mix(float x,float y,float a){if(!$has(8))return mix(x,y,a);precise float r=a*(y-x)+x;return r;}
 float $mix(float x,float y,bool a){return a?y:x;}
@@ -101,6 +110,7 @@ float $length(@ v){return $has(8)?sqrt($dot(v,v)):length(v);}
 float $distance(@ a,@ b){if(!$has(8))return distance(a,b);precise @ d=a-b,s=d*d;precise float r=s[0];
 for(int i=1;i<s.length();++i)r+=s[i];return sqrt(r);}
 @ $normalize(@ v){return $has(8)?(1.0/sqrt($dot(v,v)))*v:normalize(v);}
+u@ $u@(@ f){u@ r;for(int i=0;i<f.length();++i)r[i]=$uint(f[i]);return r;}
 @ $reflect(@ i,@ n){if(!$has(8))return reflect(i,n);precise @ r=i-(2.0*$dot(i,n))*n;return r;}
 )";
 
@@ -175,12 +185,17 @@ constexpr SwiftFunction k_swift_functions[] = {
     {"inverse", int(products)},
     {"mix", int(products)},
     {"dot", int(products)},
+    {"cross", int(products)},
     {"length", int(products)},
     {"distance", int(products)},
     {"normalize", int(products)},
     {"reflect", int(products)},
     {"texture", int(mipmaps) | int(weights)},
     {"textureLod", int(mipmaps) | int(weights)},
+    {"uint", int(outside)}, // of floats
+    {"uvec2", int(outside)},
+    {"uvec3", int(outside)},
+    {"uvec4", int(outside)},
 };
 
 std::string replaced(std::string text, std::string_view what, std::string_view with) {
@@ -235,6 +250,15 @@ std::string swift_whole_overloads() {
                 fmt::format("{0} ${2}({0} a,{0} b){{return {2}(a,b);}}\n", type, one, name) +
                 (type == one ? ""
                              : fmt::format("{0} ${2}({0} a,{1} b){{return {2}(a,b);}}\n", type, one, name));
+        for (const std::string_view name : {"modulo", "quotient"})
+            if (type != one) {
+                text += fmt::format("{0} ${1}({0} a,{0} b){{{0} r;"
+                                    "for(int i=0;i<a.length();++i)r[i]=${1}(a[i],b[i]);return r;}}\n",
+                                    type, name);
+                text += fmt::format("{0} ${2}({0} a,{1} b){{return ${2}(a,{0}(b));}}\n"
+                                    "{0} ${2}({1} a,{0} b){{return ${2}({0}(a),b);}}\n",
+                                    type, one, name);
+            }
         text +=
             fmt::format("{0} $clamp({0} x,{0} a,{0} b){{return clamp(x,a,b);}}\n", type) +
             (type == one ? ""
@@ -296,7 +320,42 @@ const SwiftFunction* swift_function(const ParsedText& text, const TreeFacts& fac
     const std::string_view name =
         text.tree()[id].kind == NodeKind::call ? called_name(text, id) : std::string_view{};
     const auto found = std::ranges::find(k_swift_functions, name, &SwiftFunction::name);
-    return found == std::end(k_swift_functions) || facts.function(name) ? nullptr : found;
+    if (found == std::end(k_swift_functions) || facts.function(name))
+        return nullptr;
+    if (const auto made = value_type(name); made && made->base == 'u') { // a conversion
+        const auto from = expression_type(text, facts, text.tree().child(id, 1));
+        return from == ValueType{'f', made->columns, made->rows} ? found : nullptr;
+    }
+    return found;
+}
+
+/// Returns whether the expression has no side effects and is short enough to be repeated.
+bool is_repeatable(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+    const SyntaxTree& tree = text.tree();
+    switch (tree[id].kind) {
+    case NodeKind::name: return !facts.is_type(text.word_of(id));
+    case NodeKind::member: return is_repeatable(text, facts, tree.child(id, 0));
+    case NodeKind::index: {
+        const NodeKind index = tree[tree.child(id, 1)].kind;
+        return (index == NodeKind::name || index == NodeKind::literal) &&
+               is_repeatable(text, facts, tree.child(id, 0));
+    }
+    default: return false;
+    }
+}
+
+/// Returns whether the node reads or writes an element whose number is known only at run time. Chromium keeps
+/// such a number within the array, vector or matrix.
+bool is_element(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+    const SyntaxTree& tree = text.tree();
+    if (tree[id].kind != NodeKind::index || tree.around(id, NodeKind::function) == k_no_node)
+        return false;
+    const NodeId number = tree.child(id, 1);
+    if (number == k_no_node || tree[number].kind == NodeKind::literal ||
+        !is_repeatable(text, facts, tree.child(id, 0)))
+        return false;
+    const auto type = expression_type(text, facts, number);
+    return type && type->scalar() && (type->base == 'i' || type->base == 'u');
 }
 
 /// Returns the function of the prelude for a product of a matrix, a quotient or a remainder; empty for other
@@ -307,17 +366,20 @@ std::string_view swift_operator(const ParsedText& text, const TreeFacts& facts, 
         return {};
     const std::string_view word = text.word_of(id);
     const bool times = word == "*" || word == "*=";
-    if (word == "%") {
-        const ValueType whole{'i', 1, 1};
-        return expression_type(text, facts, tree.child(id, 0)) == whole &&
-                       expression_type(text, facts, tree.child(id, 1)) == whole
-                   ? "modulo"
-                   : std::string_view{};
-    }
-    if (!times && word != "/" && word != "/=")
+    const bool modulo = word == "%" || word == "%=";
+    if (!times && !modulo && word != "/" && word != "/=")
         return {};
     const auto left = expression_type(text, facts, tree.child(id, 0));
     const auto right = expression_type(text, facts, tree.child(id, 1));
+    if (left && right && left->base == right->base && (left->base == 'i' || left->base == 'u')) {
+        if (modulo)
+            return "modulo";
+        return times || tree[without_brackets(tree, tree.child(id, 1))].kind == NodeKind::literal
+                   ? std::string_view{}
+                   : "quotient";
+    }
+    if (modulo)
+        return {};
     if (!left || !right || left->base != 'f' || right->base != 'f')
         return {};
     if (left->matrix() || right->matrix())
@@ -329,7 +391,7 @@ std::string_view swift_operator(const ParsedText& text, const TreeFacts& facts, 
 }
 
 int operator_part(std::string_view name) {
-    return int(name == "modulo" ? outside : products);
+    return int(name == "modulo" || name == "quotient" ? outside : products);
 }
 
 } // namespace
@@ -368,6 +430,9 @@ Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, 
                 edits.wrap(id, "(" + target + "=", ")");
                 edits.replace(tree[id].word, ",");
             }
+        } else if ((parts & int(outside)) != 0 && is_element(text, facts, id)) {
+            edits.wrap(tree.child(id, 1), prefix + "place(",
+                       fmt::format(",({}).length())", words_of(text, tree.child(id, 0))));
         } else {
             continue;
         }
@@ -390,6 +455,8 @@ Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, 
 int swiftshader_parts(const ParsedText& text, const TreeFacts& facts, NodeId id) {
     if (const SwiftFunction* const function = swift_function(text, facts, id))
         return function->parts;
+    if (is_element(text, facts, id))
+        return int(outside);
     const std::string_view name = swift_operator(text, facts, id);
     return name.empty() ? 0 : operator_part(name);
 }

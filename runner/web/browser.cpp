@@ -48,7 +48,8 @@ const std::array<BrowserDriver, 3>& browser_drivers() {
 
 constexpr std::string_view k_programs[] = {"chromium", "chromium-browser", "google-chrome"};
 
-/// Draws frames in the page's own renderer, with Image in floats, and returns every pass but cubemaps.
+/// Draws frames in the page's own renderer, with Image in floats, and returns every pass but cubemaps; with
+/// feedback also those of the previous frame.
 constexpr std::string_view k_draw = R"((async asked => {
     const div = document.querySelector(".tidemark");
     while (!["running", "failed"].includes(div.dataset.state))
@@ -59,12 +60,10 @@ constexpr std::string_view k_draw = R"((async asked => {
     Object.assign(renderer.image.target, {format: gl.RGBA32F, size: null});
     renderer.resize(...asked.size);
     renderer.restart();
-    for (const moment of renderer.hasFeedback ? asked.frames : asked.frames.slice(-1))
-        renderer.draw({...moment, mouse, keyboard, camera, knobs});
-    const names = passes.filter(pass => pass.kind !== "sound").map(pass => pass.name), pictures = [];
-    renderer.passes.forEach((pass, i) => {
+    const names = passes.filter(pass => pass.kind !== "sound").map(pass => pass.name);
+    const pictures = () => renderer.passes.flatMap((pass, i) => {
         if (pass.kind === "cubemap")
-            return;
+            return [];
         const [width, height] = pass.target.size, samples = new Float32Array(4 * width * height);
         gl.bindFramebuffer(gl.READ_FRAMEBUFFER, pass.target.latest.faces[0]);
         gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, samples);
@@ -72,9 +71,14 @@ constexpr std::string_view k_draw = R"((async asked => {
         let text = "";
         for (let at = 0; at < bytes.length; at += part)
             text += String.fromCharCode(...bytes.subarray(at, at + part));
-        pictures.push({pass: names[i], width, height, samples: btoa(text)});
+        return [{pass: names[i], width, height, samples: btoa(text)}];
     });
-    return gl.isContextLost() ? {problem: "the graphics driver was reset"} : {pictures};
+    const draw = moment => renderer.draw({...moment, mouse, keyboard, camera, knobs});
+    if (renderer.hasFeedback)
+        asked.frames.slice(0, -1).forEach(draw);
+    const before = renderer.hasFeedback ? pictures() : [];
+    draw(asked.frames.at(-1));
+    return gl.isContextLost() ? {problem: "the graphics driver was reset"} : {pictures: pictures(), before};
 }))";
 
 /// Fills `bytes` from base64 text without blanks; returns whether there were exactly as many.
@@ -168,8 +172,8 @@ struct Browser::State {
     Result<Json> call(std::string_view method, const Json& parameters, Clock::time_point deadline,
                       const std::string& session = {});
     Result<Json> evaluate(const std::string& script, const std::string& session, Clock::time_point deadline);
-    Result<std::vector<lab::PassPicture>> draw(const std::string& session, const Json& asked,
-                                               Clock::time_point deadline);
+    Result<lab::FramePictures> draw(const std::string& session, const Json& asked,
+                                    Clock::time_point deadline);
 };
 
 Result<void> Browser::State::start(const BrowserDriver& driver) {
@@ -284,8 +288,8 @@ Result<Json> Browser::State::evaluate(const std::string& script, const std::stri
     return done.value(Json::json_pointer("/result/value"), Json());
 }
 
-Result<std::vector<lab::PassPicture>> Browser::State::draw(const std::string& session, const Json& asked,
-                                                           Clock::time_point deadline) {
+Result<lab::FramePictures> Browser::State::draw(const std::string& session, const Json& asked,
+                                                Clock::time_point deadline) {
     TRY(call("Inspector.enable", Json::object(), deadline, session));
     // A page that is loading may lose a script that was begun, so the loading is waited for.
     for (;;) {
@@ -300,14 +304,15 @@ Result<std::vector<lab::PassPicture>> Browser::State::draw(const std::string& se
     const Json drawn = TRY(evaluate(fmt::format("{}({})", k_draw, host::dump(asked)), session, deadline));
     if (drawn.contains("problem"))
         return fail(ErrorCode::no_context, drawn["problem"].get<std::string>());
-    std::vector<lab::PassPicture> pictures;
-    for (const Json& pass : drawn.at("pictures")) {
-        image::Image picture({pass.at("width"), pass.at("height")}, 4, image::SampleType::f32);
-        if (!from_base64(pass.at("samples").get_ref<const std::string&>(), picture.bytes))
-            return fail(ErrorCode::no_context, "the page's pictures are damaged");
-        pictures.push_back({pass.at("pass"), std::move(picture)});
-    }
-    return pictures;
+    lab::FramePictures frame;
+    for (const auto& [pictures, name] : {std::pair(&frame.passes, "pictures"), {&frame.before, "before"}})
+        for (const Json& pass : drawn.at(name)) {
+            image::Image picture({pass.at("width"), pass.at("height")}, 4, image::SampleType::f32);
+            if (!from_base64(pass.at("samples").get_ref<const std::string&>(), picture.bytes))
+                return fail(ErrorCode::no_context, "the page's pictures are damaged");
+            pictures->push_back({pass.at("pass"), std::move(picture)});
+        }
+    return frame;
 }
 
 Browser::Browser(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -321,8 +326,8 @@ Result<Browser> Browser::start(std::string_view device) {
     return Browser(std::move(state));
 }
 
-Result<std::vector<lab::PassPicture>> Browser::draw(const std::string& page, const render::FrameState& state,
-                                                    int first, double seconds) {
+Result<lab::FramePictures> Browser::draw(const std::string& page, const render::FrameState& state, int first,
+                                         double seconds) {
     const auto deadline =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
     const std::filesystem::path file = state_->folder.path() / "scene.html";

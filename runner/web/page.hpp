@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/error.hpp"
-#include "lab/probe_bench.hpp"
+#include "lab/device_difference.hpp"
 #include "scene/knob.hpp"
 #include "scene/scene.hpp"
 
@@ -50,10 +50,10 @@ public:
     ~Browser();
 
     /// Draws a whole page's passes in a state, those with feedback from frame `first` on, like
-    /// lab::ProbeBench::passes. Fails with the page's message if it does not compile, and with
+    /// lab::draw_frame. Fails with the page's message if it does not compile, and with
     /// ErrorCode::timed_out after `seconds`; the browser may then be busy and should be started anew.
-    Result<std::vector<lab::PassPicture>> draw(const std::string& page, const render::FrameState& state,
-                                               int first, double seconds);
+    Result<lab::FramePictures> draw(const std::string& page, const render::FrameState& state, int first,
+                                    double seconds);
 
 private:
     struct State;

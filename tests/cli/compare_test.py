@@ -304,6 +304,26 @@ class Browsers(OnDevices):
         self.assertEqual((scene["verdict"], scene["causes"][0]["cause"]), ("explained", "sine"))
         self.assertEqual(scene["causes"][0]["places"][0]["line"], 1)
 
+    def test_feedback_is_explained_from_the_browsers_previous_frame(self):
+        """Each frame amplifies the one before it, so that Buffer A soon has nothing in common on the two devices."""
+        hash, _ = self.HASH.splitlines()
+        self.write("project/image.glsl", '#iChannel0 "buffer_a.glsl"\nvoid mainImage(out vec4 c, in vec2 p) {'
+                                         " c = texelFetch(iChannel0, ivec2(p), 0); }\n")
+        self.write("project/buffer_a.glsl", f'#iChannel0 "self"\n{hash}\nvoid mainImage(out vec4 c, in vec2 p) {{'
+                                            " c = fract(texelFetch(iChannel0, ivec2(p), 0) * 37.7 + hash(p)); }\n")
+        scene = self.outcomes("surfaceless,chromium:swiftshader", "project")["project"]
+        self.assertGreater(scene["differing"], 500)
+        self.assertEqual((scene["verdict"], scene["causes"][0]["cause"], scene["causes"][0]["pass"]),
+                         ("explained", "sine", "Buffer A"))
+        self.assertEqual(scene["causes"][0]["places"][0]["line"], 2)
+
+    def test_undefined_whole_numbers_are_explained(self):
+        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    int low = int(p.x) - 40;\n"
+                             "    c = vec4(float(low % 7) / 7.0, 0.5, 0.5, 1.0);\n}\n")
+        scene = self.outcomes("surfaceless,chromium:swiftshader", "a.glsl")["a.glsl"]
+        self.assertEqual((scene["verdict"], scene["causes"][0]["cause"]), ("explained", "undefined"))
+        self.assertEqual(scene["causes"][0]["places"][0]["line"], 3)
+
     def test_without_chromium(self):
         self.write("a.glsl", self.HASH)
         done = self.run_program("compare", "--devices", "surfaceless,chromium", "a.glsl", env=environment(PATH="/nowhere"))

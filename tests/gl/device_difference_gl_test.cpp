@@ -13,12 +13,33 @@ protected:
                                 OtherDevice other = OtherDevice::unknown) const {
         const FrameState state = state_at(2, k_extent);
         ProbeBench first(scene_of(here), {}), second(scene_of(there), {});
-        const auto left = first.passes(state), right = second.passes(state);
+        return difference(first, second, state, other);
+    }
+
+    /// A scene whose Buffer A reads its own last frame, which Image shows. `buffer` sets `c` from `last`.
+    scene::Scene with_feedback(const std::string& folder, const std::string& before,
+                               const std::string& buffer) const {
+        std::filesystem::create_directory(path_of(folder));
+        put(folder + "/buffer_a.glsl", "#iChannel0 \"self\"\n" + before +
+                                           "\nvoid mainImage(out vec4 c, in vec2 p) {\n"
+                                           "vec4 last = texelFetch(iChannel0, ivec2(p), 0);\n" +
+                                           buffer + "\n}\n");
+        const auto image = put(folder + "/image.glsl",
+                               "#iChannel0 \"buffer_a.glsl\"\nvoid mainImage(out vec4 c, in vec2 p) {\n"
+                               "c = fract(texelFetch(iChannel0, ivec2(p), 0));\n}\n");
+        const auto scene = scene::load_scene(image.parent_path());
+        EXPECT_TRUE(scene) << to_string(scene.error());
+        return scene.value_or(scene::Scene{});
+    }
+
+    static DeviceDifference difference(ProbeBench& first, ProbeBench& second, const FrameState& state,
+                                       OtherDevice other) {
+        const auto left = draw_frame(first, state), right = draw_frame(second, state);
         if (!left || !right) {
             ADD_FAILURE() << "a text does not compile";
             return {};
         }
-        auto found = compare_devices(left->back().picture, right->back().picture);
+        auto found = compare_devices(left->passes.back().picture, right->passes.back().picture);
         EXPECT_TRUE(found);
         const auto explained = explain(*found, first, state, *right, other);
         EXPECT_TRUE(explained) << to_string(explained.error());
@@ -46,14 +67,15 @@ TEST_F(DeviceDifferenceTest, ADifferentSineIsFoundWithItsLine) {
     EXPECT_EQ(found.explained, 1.0);
 }
 
+const std::string k_swiftshader_sine =
+    "float other(float x) {\nprecise float t = x * -0.159154937 + 0.25, z = 0.25 - abs(t - "
+    "roundEven(t)), s = z * z;\n"
+    "precise float r = ((74.4388885 * s - 41.1693687) * s + 6.28230858) * z;\nreturn r;\n}";
+
 TEST_F(DeviceDifferenceTest, SwiftShadersSinesAreReproduced) {
-    const std::string theirs =
-        "float other(float x) {\nprecise float t = x * -0.159154937 + 0.25, z = 0.25 - abs(t - "
-        "roundEven(t)), s = z * z;\n"
-        "precise float r = ((74.4388885 * s - 41.1693687) * s + 6.28230858) * z;\nreturn r;\n}";
-    const auto found =
-        difference("#define OTHER sin\n" + k_sine_hash + k_image,
-                   theirs + "\n#define OTHER other\n" + k_sine_hash + k_image, OtherDevice::swiftshader);
+    const auto found = difference("#define OTHER sin\n" + k_sine_hash + k_image,
+                                  k_swiftshader_sine + "\n#define OTHER other\n" + k_sine_hash + k_image,
+                                  OtherDevice::swiftshader);
     EXPECT_GT(found.differing, 300u);
     ASSERT_EQ(found.causes.size(), 1u);
     EXPECT_EQ(found.causes[0].name, "sine");
@@ -69,6 +91,60 @@ TEST_F(DeviceDifferenceTest, AnotherSineIsNotTakenForSwiftShaders) {
         difference("#define OTHER sin\n" + k_sine_hash + k_image,
                    "#define OTHER(x) sin(x + 1.0)\n" + k_sine_hash + k_image, OtherDevice::swiftshader);
     EXPECT_LT(found.explained, 0.2);
+}
+
+/// A count of frames and a third, which no byte and no half float holds.
+TEST_F(DeviceDifferenceTest, ThePreviousFrameIsReadInFloats) {
+    ProbeBench bench(with_feedback("count", "", "c = vec4(last.x + 1.0, 1.0 / 3.0, -last.x, 1e-20);"), {});
+    const auto frame = draw_frame(bench, state_at(2, k_extent));
+    ASSERT_TRUE(frame) << to_string(frame.error());
+    const auto colour = [](const std::vector<PassPicture>& passes) {
+        const auto samples = picture_of(passes, "Buffer A")->f32();
+        return std::vector<float>(samples.end() - 4, samples.end());
+    };
+    // Nine frames are drawn: that of the state and eight before it.
+    EXPECT_EQ(colour(frame->passes), (std::vector<float>{9, 1.0f / 3, -8, 1e-20f}));
+    EXPECT_EQ(colour(frame->before), (std::vector<float>{8, 1.0f / 3, -7, 1e-20f}));
+}
+
+TEST_F(DeviceDifferenceTest, AStillSceneHasNoPreviousFrame) {
+    ProbeBench bench(scene_of("float hash(vec2 p) { return 0.2; }" + std::string(k_image)), {});
+    const auto frame = draw_frame(bench, state_at(2, k_extent));
+    ASSERT_TRUE(frame) << to_string(frame.error());
+    EXPECT_EQ(frame->passes.size(), 1u);
+    EXPECT_TRUE(frame->before.empty());
+}
+
+/// Each frame amplifies the one before it, so that the two buffers have nothing in common any more.
+const std::string k_amplified = "c = fract(37.7 * last + hash(p));";
+
+TEST_F(DeviceDifferenceTest, FeedbackIsExplainedFromTheOtherDevicesPreviousFrame) {
+    ProbeBench first(with_feedback("here", "#define OTHER sin\n" + k_sine_hash, k_amplified), {}),
+        second(
+            with_feedback("there", k_swiftshader_sine + "\n#define OTHER other\n" + k_sine_hash, k_amplified),
+            {});
+    const auto found = difference(first, second, state_at(2, k_extent), OtherDevice::swiftshader);
+    EXPECT_GT(found.differing, 1500u);
+    ASSERT_FALSE(found.causes.empty());
+    EXPECT_EQ(found.causes[0].name, "sine");
+    EXPECT_EQ(found.causes[0].pass, "Buffer A");
+    EXPECT_TRUE(found.causes[0].reproduced);
+    ASSERT_EQ(found.causes[0].places.size(), 1u);
+    EXPECT_EQ(found.causes[0].places[0].line, 3);
+    EXPECT_EQ(found.explained, 1.0);
+}
+
+/// The same amplification, but of a difference that no model makes.
+TEST_F(DeviceDifferenceTest, AnUnknownDifferenceInFeedbackStaysUnexplained) {
+    const std::string hash = "#define OTHER sin\n" + k_sine_hash;
+    ProbeBench first(with_feedback("here", hash, k_amplified), {}),
+        second(with_feedback("there", hash, k_amplified + "\nc.x = fract(c.x + 0.25);"), {});
+    EXPECT_LT(difference(first, second, state_at(2, k_extent), OtherDevice::swiftshader).explained, 0.1);
+    ProbeBench eighths(with_feedback("eighths", "", "c = fract(last + 0.125);"), {}),
+        more(with_feedback("more", "", "c = fract(last + 0.375);"), {});
+    const auto found = difference(eighths, more, state_at(2, k_extent), OtherDevice::unknown);
+    EXPECT_EQ(found.differing, k_extent.pixels());
+    EXPECT_EQ(found.explained, 0.0);
 }
 
 TEST_F(DeviceDifferenceTest, AnUndefinedPowerIsFoundWithItsLine) {

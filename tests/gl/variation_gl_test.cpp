@@ -208,4 +208,47 @@ TEST_F(VariationTest, ALineDoneTwiceKeepsThePicture) {
     EXPECT_EQ(lines, (std::vector{2, 3, 5, 6, 8, 9, 11, 12, 14, 15, 16}));
 }
 
+/// Operators and conversions that GLSL leaves undefined, with the values that Chromium 156 computed of them
+/// with SwiftShader at run time.
+TEST_F(VariationTest, UndefinedOperationsAreSwiftShaders) {
+    const auto vary = [](const glsl::ParsedText& text, const glsl::TreeFacts& facts,
+                         const glsl::MayVary& may) {
+        return glsl::vary_like_swiftshader(text, facts, 127, false, may);
+    };
+    const std::string before = "#define Z iFrame\n#define O (1.0 + float(iFrame))\n"
+                               "int count[3] = int[3](10, 11, 12);\n"
+                               "float nan() { float zero = float(iFrame); return zero / zero; }\n";
+    const std::vector<std::pair<std::string, float>> known = {
+        {"float((Z - 7) % (Z + 3))", 2},
+        {"float((Z - 7) % (Z - 3))", -1},
+        {"float((Z + 7) % (Z - 3))", -2},
+        {"float((Z + 7) % Z)", 0},
+        {"float((ivec2(Z - 7) % 3).y)", 2},
+        {"float((Z + 7) / Z)", -7},
+        {"float((Z - 7) / Z)", 7},
+        {"float((Z - 2147483647 - 1) / (Z - 1))", 1},
+        {"float(uint(Z + 7) % uint(Z))", 7},
+        {"float(uint(Z + 7) / uint(Z))", 0},
+        {"float(uint(-2.5 * O))", 0},
+        {"float(uint(1e20 * O))", 0},
+        {"float(uvec2(-2.5 * vec2(O)).y)", 0},
+        {"float(count[Z - 2])", 10},
+        {"float(count[Z + 5])", 12},
+        {"max(nan(), 0.5 * O)", 0.5f},
+        {"float(floatBitsToInt(max(0.5 * O, nan())) & 0x7fffffff)", 2143289344.0f}, // NaN
+        {"float(floatBitsToInt(min(0.5 * O, nan())) & 0x7fffffff)", 2143289344.0f}, // NaN
+    };
+    std::vector<std::string> expressions;
+    for (const auto& [expression, value] : known)
+        expressions.push_back(expression);
+    const std::vector<float> found = varied(vary, int(glsl::SwiftShaderPart::outside), expressions, before);
+    for (size_t i = 0; i < known.size(); ++i)
+        EXPECT_EQ(found[i], known[i].second) << expressions[i];
+    size_t unlike = 0;
+    const std::vector<float> own = varied(vary, 0, expressions, before);
+    for (size_t i = 0; i < known.size(); ++i)
+        unlike += own[i] != known[i].second;
+    EXPECT_GT(unlike, 9u) << "this driver's values are other ones";
+}
+
 } // namespace tidemark::lab::variation_gl_test
