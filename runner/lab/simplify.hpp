@@ -44,7 +44,8 @@ struct CutTrial {
 };
 
 /// Returns whether the error in each part of the picture is at most 3 times the goal for the whole picture: a
-/// small object that is missing hardly changes the mean.
+/// small object that is missing hardly changes the mean. A difference counts only as far as a value lies
+/// outside of those of the other picture's 3x3 pixels there: an edge may move by one pixel.
 bool keeps_parts(const Goal& goal, const image::Image& own, const image::Image& cut);
 
 /// Returns moments and places of the mouse at which a cut may show although it does not in `views`: those

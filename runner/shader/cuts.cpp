@@ -202,6 +202,11 @@ Cutter::Cutter(const ParsedText& text, const TreeFacts& facts)
             whole_ = std::max(whole_, work_.of(id));
 }
 
+/// Returns the name of the family of cuts that change this node, which no other file's node has.
+std::string Cutter::family_of(std::string_view what, NodeId id) const {
+    return fmt::format("{} {} {}", what, place_of(id), tree_[id].begin);
+}
+
 /// Returns the chance that the picture stays without a part: the larger its share of the work, the more of
 /// the picture it makes.
 double Cutter::chance_without(double work, double chance) const {
@@ -310,7 +315,7 @@ void Cutter::add_turns(NodeId loop, std::vector<Cut>& cuts) const {
                                                    place_of(loop), turns, bound->turns)},
                             .work = work_.of(loop) * (1 - turns / bound->turns),
                             .chance = chance,
-                            .family = fmt::format("turns {}", tree_[loop].begin),
+                            .family = family_of("turns", loop),
                             .strength = -turns});
     }
 }
@@ -375,7 +380,7 @@ void Cutter::add_exits(NodeId step, std::vector<Cut>& cuts) const {
                                                in_short(text_.excerpt(step)), value, limit)},
                         .work = work_.of(loop) * exit.saved,
                         .chance = k_chance_of_exit,
-                        .family = fmt::format("{} {}", exit.family, tree_[step].begin),
+                        .family = family_of(exit.family, step),
                         .strength = exit.strength});
     };
     bool marches = false;
@@ -421,7 +426,7 @@ void Cutter::add_longer_steps(NodeId step, NodeId loop, std::vector<Cut>& cuts) 
                                     in_short(text_.excerpt(step)))},
              .work = work_.of(loop) * each.saved,
              .chance = k_chance_of_step,
-             .family = fmt::format("step {}", tree_[step].begin),
+             .family = family_of("step", step),
              .strength = each.strength});
 }
 
@@ -467,7 +472,7 @@ void Cutter::add_limits(NodeId test, const SingleValues& values, std::vector<Cut
                                         in_short(text_.excerpt(test)), limit, word)},
                  .work = work_.of(loop) * each.saved,
                  .chance = k_chance_of_exit,
-                 .family = fmt::format("limit {}", tokens->first),
+                 .family = family_of("limit", literal),
                  .strength = each.strength});
         }
     }

@@ -103,6 +103,7 @@ private:
     double work_of_call(NodeId id) const;
     std::optional<ValueType> type_of(NodeId id) const;
     std::string place_of(NodeId id) const;
+    std::string family_of(std::string_view what, NodeId id) const;
     double chance_without(double work, double chance) const;
 
     const ParsedText& text_;

@@ -43,6 +43,12 @@ def worst_flip(program, own, cut, moments, folder):
     return worst
 
 
+def contents(scene):
+    """The bytes of a scene's file, or of all files of its folder."""
+    return [file.read_bytes() for file in sorted(scene.rglob("*")) if file.is_file()] if scene.is_dir() \
+        else scene.read_bytes()
+
+
 def simplified(program, source, budget, lot):
     """What became of one shader: a dictionary, or None if it does not load."""
     with tempfile.TemporaryDirectory() as name:
@@ -66,6 +72,7 @@ def simplified(program, source, budget, lot):
         gain = re.search(r"chosen: .*?: ([\d.]+) x", done.stderr)
         row["gain"] = float(gain[1]) if gain else 1.0
         if gain:
+            row["written"] = contents(folder / before.name) != contents(folder / scene)
             moments = sorted(lot.uniform(0, 120) for _ in range(MOMENTS))
             row["worst"] = worst_flip(program, before.name, scene, moments, folder)
         return row
@@ -93,6 +100,7 @@ def main():
         print(json.dumps(row), flush=True)
     gains = sorted(row["gain"] for row in rows if row.get("gain", 1) > 1)
     wrong = [row for row in rows if "worst" in row and (row["worst"] is None or row["worst"][0] > MOST_FLIP)]
+    wrong += [row for row in rows if not row.get("written", True)]  # the twenty pictures would be of one text
     late = [row for row in rows if row["seconds"] > 1.5 * options.budget]
     print(f"{len(rows)} shaders: {len(gains)} gain ({', '.join(f'{gain:.2f}' for gain in gains)} x), {len(wrong)} wrong at "
           f"one of {MOMENTS} unseen moments, {len(late)} over 1.5 times the budget, "
