@@ -68,13 +68,11 @@ double gap_around(double value, const image::Image& picture, int x, int y, int c
 double rmse_of_part(const image::Image& own, const image::Image& cut, int part) {
     const auto [width, height] = own.extent;
     const int column = part % k_part_columns, row = part / k_part_columns;
-    const auto channels = size_t(own.channels);
     double squares = 0;
     size_t samples = 0;
     for (int y = height * row / k_part_rows; y < height * (row + 1) / k_part_rows; ++y)
         for (int x = width * column / k_part_columns; x < width * (column + 1) / k_part_columns; ++x)
-            for (int k = 0; k < int(channels); ++k) {
-                const size_t i = (size_t(y) * size_t(width) + size_t(x)) * channels + size_t(k);
+            for (int k = 0; k < own.channels; ++k) {
                 ++samples;
                 const double before = displayed(own, x, y, k), after = displayed(cut, x, y, k);
                 if (before == after)
@@ -245,7 +243,7 @@ constexpr double k_looking = 0.15, k_alone = 0.45, k_together = 0.7, k_timing = 
 /// The verdict's pictures are made smaller if everything would else take more than this share of the budget.
 constexpr double k_everything = 1.1;
 /// The verdict's rounds end at this share of the budget if other work of the machine slows them down.
-constexpr double k_last = 1.35;
+constexpr double k_last = 1.2;
 /// The least share of the budget that the verdict's rounds get.
 constexpr double k_least_timing = 0.1;
 /// Savings of single cuts that differ by less than this count as equal.

@@ -1,5 +1,4 @@
 #include "shader/driver_log.hpp"
-
 #include "shader/parsed_text.hpp"
 #include "shader/pass_reading.hpp"
 #include "shader/tree_facts.hpp"
