@@ -82,20 +82,16 @@ void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p / iResolution.x
         self.assertIn("p *= 2.0;", (self.folder / "smooth.glsl").read_text())
         self.assertIn("0.5 * fract(p / iResolution.xy)", (self.folder / "dear.glsl").read_text())
 
-    def test_a_slow_march_ends_earlier_or_steps_further(self):
-        """No number of iterations can go: a grazing ray needs them. Steps and thresholds are needlessly small."""
-        text = """float map(vec3 p) {
-    float d = length(p) - 1.0;
-    for (int i = 0; i < 12; ++i) d += 1e-9 * sin(p.x * float(i) + d);
-    return min(d, p.y + 1.2);
-}
+    def test_a_march_ends_at_a_coarser_limit(self):
+        """Floats do not get as near as 1e-7, so that rays take all 400 steps."""
+        text = """float map(vec3 p) { return min(length(p) - 1.0, p.y + 1.2); }
 void mainImage(out vec4 c, in vec2 p) {
     vec3 d = normalize(vec3((2.0 * p - iResolution.xy) / iResolution.y, 1.6)), o = vec3(0.3 * sin(iTime), 0.2, -3.0);
     float t = 0.0;
     for (int i = 0; i < 400; ++i) {
         float h = map(o + t * d);
-        if (h < 0.00001 || t > 40.0) break;
-        t += h * 0.3;
+        if (h < 0.0000001 || t > 40.0) break;
+        t += h;
     }
     vec3 q = o + t * d;
     c = vec4(t > 40.0 ? d * 0.5 + 0.5 : 0.5 + 0.4 * sin(2.0 * q), 1.0);
@@ -105,7 +101,7 @@ void mainImage(out vec4 c, in vec2 p) {
         self.write("before.glsl", text)
         found, said = self.simplify("--write", "--views", "1;4.3")
         reasons = " ".join(cut["cut"] for cut in found["cuts"])
-        self.assertRegex(reasons, r"times as long steps|leaves the loop", said)
+        self.assertRegex(reasons, "leaves the loop by `h < 0.0000001` with ", said)
         for name in "before", "dear":
             self.succeed("capture", f"{name}.glsl", "--size", "96x54", "--time", "77", "-o", f"{name}.png")
         done = self.succeed("compare", "before.png", "dear.png", "--json")
