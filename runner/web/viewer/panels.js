@@ -84,6 +84,7 @@ class Lenses {
     constructor(link) {
         this.link = link;
         this.choices = [];
+        this.asked = null; // the last request, until a state shows it
         this.list = choice("Lens", () => this.#ask());
         this.place = element("input", {type: "text", className: "tidemark-number", ariaLabel: "Line of the lens", placeholder: "line",
                                        title: "LINE or FILE:LINE", onchange: () => this.#ask()});
@@ -97,10 +98,10 @@ class Lenses {
     #ask() {
         const name = this.list.select.value, {takesLine, needsLine, second} = this.#fields(name);
         const line = takesLine ? this.place.value.trim() : "", rest = line && second ? this.variable.value.trim() : "";
-        if (line || !needsLine)
-            this.link.send("lens", {lens: [name, line, rest].filter(Boolean).join(":")});
-        else
-            this.place.focus();
+        if (!line && needsLine)
+            return this.place.focus();
+        this.link.send("lens", {lens: [name, line, rest].filter(Boolean).join(":")});
+        this.asked = {name, until: performance.now() + 5000};
     }
 
     // Shows the fields of the lens, and returns its choice.
@@ -114,10 +115,13 @@ class Lenses {
 
     show({choices, chosen, place, variable}, lens) {
         this.element.hidden = choices.length === 0;
+        const shown = chosen === null ? "" : choices[chosen].name;
+        if (this.asked?.name === shown || performance.now() > this.asked?.until)
+            this.asked = null;
         const waits = this.element.contains(document.activeElement) && !this.place.hidden; // the user is typing
-        if (!waits) {
+        if (!waits && !this.asked) { // a state from before the request would undo the choice
             this.choices = choices;
-            offer(this.list, [["", "off"], ...choices.map(({name}) => [name, name])], chosen === null ? "" : choices[chosen].name);
+            offer(this.list, [["", "off"], ...choices.map(({name}) => [name, name])], shown);
             for (const [i, {says, refusal}] of choices.entries())
                 this.list.select.options[i + 1].title = refusal || says;
             this.#fields(this.list.select.value);
