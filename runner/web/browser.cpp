@@ -146,7 +146,7 @@ struct Browser::State {
     int to_child = -1, from_child = -1;
     Leftover leftover{};
     std::string received{};
-    int number = 0;            ///< of the last message
+    int number = 0; ///< of the last message
 
     State() = default;
     State(const State&) = delete;
