@@ -461,7 +461,7 @@ public:
             point.failure = to_string(specimen.error());
         auto& pictures = findings_.evidence.pictures.emplace_back();
         if (specimen) {
-            pictures = as_shown(specimen->pictures(study().views));
+            pictures = specimen->pictures(study().views);
             point.compile_milliseconds = specimen->compile_milliseconds();
             point.first_draw_milliseconds = specimen->first_draw_milliseconds();
         }
@@ -473,6 +473,8 @@ public:
         if (!points.front().failure.empty())
             return fail(ErrorCode::load, points.front().failure);
         const Truth truth = TRY(truth_of(findings_.evidence.pictures.front()));
+        for (auto& pictures : findings_.evidence.pictures)
+            pictures = as_shown(std::move(pictures));
         for (size_t i = 0; i < points.size(); ++i) {
             if (!points[i].failure.empty())
                 continue;

@@ -228,20 +228,15 @@ double seconds_of(const Stopwatch& clock) {
     return clock.elapsed().wall / 1000;
 }
 
-/// Returns whether the pictures have the same bytes on a screen; of a buffer, the same numbers.
+/// Returns whether the pictures have the same colours on a screen; of a buffer, the same numbers.
 bool is_same_picture(const image::Image& one, const image::Image& other, bool of_screen) {
     const auto a = one.f32(), b = other.f32();
-    const auto shown = [](float sample) {
-        return std::floor((sample > 0 ? std::min(sample, 1.0f) : 0.0f) * 255.0f + 0.5f);
-    };
-    for (size_t i = 0; i < a.size(); ++i) {
-        if (of_screen && i % 4 == 3)
-            continue;
-        const bool same =
-            of_screen ? shown(a[i]) == shown(b[i]) : a[i] == b[i] || (std::isnan(a[i]) && std::isnan(b[i]));
-        if (!same)
+    if (!of_screen)
+        return std::ranges::equal(
+            a, b, [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+    for (size_t i = 0; i < a.size(); i += 4)
+        if (bytes_of_colour(&a[i]) != bytes_of_colour(&b[i]))
             return false;
-    }
     return true;
 }
 

@@ -243,6 +243,9 @@ image::Image draw_lens(const LensPlan& plan, const LensNumbers& numbers,
 /// Returns the lines of the legend as text: title, range, statistics.
 std::vector<std::string> legend_lines(const LensPlan& plan, const LensNumbers& numbers);
 
+/// Returns the three bytes of a colour as shown, as instrumented texts compute them too: NaN is 0.
+uint32_t bytes_of_colour(const float* colour);
+
 /// Returns the numbers as a picture of RGBA floats: up to three numbers; alpha is 0 where absent, 2 where
 /// marked, else 1.
 image::Image raw_numbers(const LensNumbers& numbers);

@@ -29,14 +29,6 @@ float shown(float sample) {
     return sample > 0 ? std::min(sample, 1.0f) : 0;
 }
 
-/// The bytes of a picture's colours as an instrumented text computes them.
-uint32_t bytes_of_colour(const float* colour) {
-    uint32_t bytes = 0;
-    for (int i = 0; i < 3; ++i)
-        bytes = 256 * bytes + uint32_t(std::floor(shown(colour[i]) * 255.0f + 0.5f));
-    return bytes;
-}
-
 constexpr float k_marked_factor = 4294967296.0f;
 
 /// Splits what `$lens` returned (shader/lens_text.hpp).
@@ -272,6 +264,13 @@ Result<LensNumbers> read_proof(const LensPlan& plan, const LensFrame& frame, con
 }
 
 } // namespace
+
+uint32_t bytes_of_colour(const float* colour) {
+    uint32_t bytes = 0;
+    for (int i = 0; i < 3; ++i)
+        bytes = 256 * bytes + uint32_t(std::floor(shown(colour[i]) * 255.0f + 0.5f));
+    return bytes;
+}
 
 Result<LensNumbers> read_lens(const LensPlan& plan, const LensFrame& frame, const KeepGoing& keep_going) {
     switch (plan.lens.name) {

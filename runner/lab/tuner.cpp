@@ -299,10 +299,10 @@ private:
                 continue;
             }
             sight.pictures = (*turned)->pictures(set.study.views);
-            if (request_.as_it_is)
-                sight.pictures = as_shown(std::move(sight.pictures));
             if (request_.as_it_is && truth.pictures.empty())
                 truth = TRY(truth_of(sight.pictures));
+            if (request_.as_it_is)
+                sight.pictures = as_shown(std::move(sight.pictures));
             for (size_t view = 0; view < set.study.views.size(); ++view)
                 point.views.push_back(outcome_of(sight, truth, view));
             point.all = outcome_of_all(sight, truth, point.views);

@@ -78,6 +78,12 @@ class Tune(ProgramTest):
                          MARCH.replace("i < 8", f"i < {turns}").replace("d < 0.001", f"d < {threshold}"))
         self.succeed("study", "march.glsl", "--vary", "march.glsl:4:25=4,8,16", "--size", "32x18", "--budget", "2")
 
+    def test_a_picture_of_nan_is_refused_as_reference(self):
+        self.write("sum.glsl", SUM.replace("vec3(sum /", "vec3(sqrt(-1.0 - sum) /"))
+        done = self.run_program("tune", "sum.glsl", *QUICK, "--as-it-is", "--max-error", "flip=0.02")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("nothing can be compared with the scene's picture", done.stderr)
+
     def test_the_unchanged_scene_as_reference(self):
         found, said = self.tune("--as-it-is", "--max-error", "flip=0.02")
         self.assertIn("unchanged: ", said)
