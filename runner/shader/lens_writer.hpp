@@ -1,4 +1,4 @@
-// What all instruments of lenses share: the edits of a text, and the text around it with its mainHit.
+// Edits that all instrumented texts of lenses share, and the text around them with its mainHit.
 #pragma once
 
 #include "base/error.hpp"

@@ -33,7 +33,7 @@ struct KeptPicture {
 };
 
 /// A video of what is shown, which a thread encodes while frames are drawn: each shown frame fills the time
-/// until the next one. Frames are left out, and counted, while the encoder is behind.
+/// until the next one. Frames are left out, and counted, while the encoder is too slow.
 class VideoRecording {
 public:
     /// Starts to encode. `name`: of the file, which must not exist. `wake` is called on the thread when it is

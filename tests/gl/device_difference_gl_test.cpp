@@ -8,7 +8,7 @@ constexpr Extent k_extent{64, 36};
 
 class DeviceDifferenceTest : public render::RenderTest {
 protected:
-    /// What `there` draws beside `here`, explained by varying `here`.
+    /// The difference of the picture of `there` from that of `here`, explained by varying `here`.
     DeviceDifference difference(const std::string& here, const std::string& there,
                                 OtherDevice other = OtherDevice::unknown) const {
         const FrameState state = state_at(2, k_extent);

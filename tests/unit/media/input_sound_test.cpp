@@ -35,7 +35,7 @@ TEST(LoopedSoundTest, samples_are_unchanged_and_loop) {
     const LoopedSound sound(counted(3), 1000);
     EXPECT_EQ(left_of(sound, 0, 8), (Samples{1, 2, 3, 1, 2, 3, 1, 2}));
     EXPECT_EQ(left_of(sound, 5, 2), (Samples{3, 1}));
-    EXPECT_EQ(left_of(sound, -2, 4), (Samples{0, 0, 1, 2})); // nothing is heard before iTime 0
+    EXPECT_EQ(left_of(sound, -2, 4), (Samples{0, 0, 1, 2})); // silent before iTime 0
     EXPECT_EQ(left_of(sound, 3'000'000'000, 3), (Samples{1, 2, 3}));
 }
 
