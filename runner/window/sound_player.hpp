@@ -52,7 +52,7 @@ private:
             return channel.file == other.channel.file && written == other.written;
         }
     };
-    /// Inputs to load. A missing value stays as it is.
+    /// The sounds to load. A missing value stays as it is.
     struct Order {
         struct Pass {
             std::optional<host::SharedContext> context; ///< none: the scene has no Sound pass
