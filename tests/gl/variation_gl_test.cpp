@@ -197,13 +197,23 @@ TEST_F(VariationTest, ALineDoneTwiceKeepsThePicture) {
             shown.push_back(int(std::lround(255.0f * std::clamp(sample, 0.0f, 1.0f))));
         return shown;
     };
+    /// Samples that differ by more than a level: another CPU's code may round the last digit otherwise, and
+    /// `fract` makes a jump of it.
+    const auto unlike = [](const std::vector<int>& a, const std::vector<int>& b) {
+        EXPECT_EQ(a.size(), b.size());
+        size_t count = 0;
+        for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+            count += std::abs(a[i] - b[i]) > 1;
+        return count;
+    };
     const auto plain = bytes(glsl::do_no_line_twice(**text));
+    ASSERT_EQ(plain.size(), 32u * 16 * 4);
     const std::string file = (*text)->spelled((*text)->tree()[glsl::find_main_image(**text)].word).file;
     std::vector<int> lines;
     for (int line = 1; line <= 17; ++line)
         if (const auto twice = glsl::do_line_twice(**text, facts, *counted, {file, line})) {
             lines.push_back(line);
-            EXPECT_TRUE(bytes(twice->text) == plain) << "line " << line;
+            EXPECT_LE(unlike(bytes(twice->text), plain), 5u) << "line " << line;
         }
     EXPECT_EQ(lines, (std::vector{2, 3, 5, 6, 8, 9, 11, 12, 14, 15, 16}));
 }

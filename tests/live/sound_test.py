@@ -48,14 +48,24 @@ class SoundTest(OverlayTest):
     def wait_for_samples(self, count: int) -> None:
         wait_for(lambda: len(self.samples()[0]) > count, f"{count} samples")
 
+    def wait_for_silence(self) -> int:
+        """Waits until nothing is heard for a second, and gives the number of samples heard until then."""
+        heard = -1
+        def silent() -> bool:
+            nonlocal heard
+            before, heard = heard, len(self.samples()[0])
+            if heard != before:
+                time.sleep(1)
+            return heard == before
+        wait_for(silent, "silence")
+        return heard
+
     def expect_silence_when_paused(self, view: View) -> None:
         view.pause()
         paused_at = float(view.title().split("paused at ")[1].split()[0])
-        time.sleep(0.3)
+        self.wait_for_silence()
         times, _ = self.samples()
         self.assertLess(abs(times[-1] - paused_at), 0.6)  # a quarter of a second is handed over ahead
-        time.sleep(0.3)
-        self.assertEqual(len(self.samples()[0]), len(times))
 
 
 class Sound(SoundTest):
@@ -172,10 +182,7 @@ class Inputs(SoundTest):
         self.wait_for_samples(RATE // 2)
         view.show_controls()
         view.drag_bar(SPEED_BEGIN + 50, SPEED_END)
-        time.sleep(0.5)
-        before = len(self.samples()[0])
-        time.sleep(0.5)
-        self.assertEqual(len(self.samples()[0]), before)
+        before = self.wait_for_silence()
         view.key("v")
         self.wait_for_samples(before)
 
@@ -188,10 +195,7 @@ class Inputs(SoundTest):
         steps = self.samples()[1]
         self.assertLess(max(abs(b - a) for a, b in zip(steps, steps[1:])), 0.01)  # without a click
         view.key("u")
-        time.sleep(0.5)
-        before = len(self.samples()[0])
-        time.sleep(0.5)
-        self.assertEqual(len(self.samples()[0]), before)
+        before = self.wait_for_silence()
         view.key("u")
         self.wait_for_samples(before + 1000)
         self.assertAlmostEqual(self.samples()[1][-1], 0.1, places=3)
@@ -214,10 +218,7 @@ class Inputs(SoundTest):
         before = view.picture()
         view.click(MUTE[0], MUTE[1])
         view.wait_for_change(before)
-        time.sleep(0.5)
-        count = len(self.samples()[0])
-        time.sleep(0.5)
-        self.assertEqual(len(self.samples()[0]), count)
+        count = self.wait_for_silence()
         view.click(MUTE[0], MUTE[1])
         self.wait_for_samples(count)
 
@@ -237,10 +238,7 @@ class Inputs(SoundTest):
         self.write_wav("song.wav", clock(30, -0.5))
         wait_for(lambda: abs(self.samples()[1][-1] + 0.5) < 1e-3, "the new song")
         self.write("a.glsl", IMAGE)
-        time.sleep(2)
-        before = len(self.samples()[0])
-        time.sleep(0.5)
-        self.assertEqual(len(self.samples()[0]), before)
+        self.wait_for_silence()
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_the_audio_of_a_video_plays(self):
