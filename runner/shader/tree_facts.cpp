@@ -119,7 +119,7 @@ public:
     std::optional<ValueType> of(NodeId id) const {
         switch (tree_[id].kind) {
         case NodeKind::literal: return type_of_literal(text_.word_of(id));
-        case NodeKind::name: return of_name(id);
+        case NodeKind::name: return value_of(declared_name(id));
         case NodeKind::parenthesis:
         case NodeKind::prefix:
         case NodeKind::postfix: return of(tree_.child(id, 0));
@@ -128,19 +128,29 @@ public:
             const auto left = of(tree_.child(id, 0)), right = of(tree_.child(id, 1));
             return left && right ? type_of_operation(text_.word_of(id), *left, *right) : std::nullopt;
         }
-        case NodeKind::member: {
-            const auto whole = of(tree_.child(id, 0));
-            return whole ? type_of_member(*whole, text_.word_of(id)) : std::nullopt;
-        }
+        case NodeKind::member: return of_member(id);
+        case NodeKind::index: return of_index(id);
         case NodeKind::call: return of_call(id);
         default: return std::nullopt;
         }
     }
 
 private:
-    std::optional<ValueType> of_name(NodeId id) const {
+    /// What a name, an element or a member was declared as.
+    struct Declared {
+        std::string_view type;
+        size_t dimensions = 0;
+        bool operator==(const Declared&) const = default;
+    };
+
+    std::optional<ValueType> value_of(const std::optional<Declared>& declared) const {
+        return declared && declared->dimensions == 0 ? value_type(declared->type) : std::nullopt;
+    }
+
+    /// Returns what all declarations of the name agree on: those of its function, else the global ones.
+    std::optional<Declared> declared_name(NodeId id) const {
         const NodeId function = tree_.around(id, NodeKind::function);
-        NodeId local = k_no_node, global = k_no_node;
+        std::vector<Declared> local, global;
         for (NodeId each = 1; each < tree_.nodes.size(); ++each) {
             const NodeKind kind = tree_[each].kind;
             if ((kind != NodeKind::declarator && kind != NodeKind::parameter) ||
@@ -150,23 +160,61 @@ private:
             const NodeId inside = tree_.around(each, NodeKind::function);
             if (inside != function && inside != k_no_node)
                 continue;
-            NodeId& found = inside == k_no_node ? global : local;
-            if (found != k_no_node)
-                return std::nullopt;
-            found = each;
+            const NodeId type = tree_.child(kind == NodeKind::parameter ? each : tree_[each].parent, 0);
+            (inside == k_no_node ? global : local)
+                .push_back({type_name(text_, type), dimensions(text_, type, each)});
         }
-        const NodeId declared = local != k_no_node ? local : global;
-        if (declared == k_no_node)
+        const std::vector<Declared>& found = local.empty() ? global : local;
+        const bool agree = std::ranges::all_of(found, [&](const Declared& each) { return each == found[0]; });
+        return found.empty() || !agree ? std::nullopt : std::optional(found[0]);
+    }
+
+    std::optional<Declared> declared(NodeId id) const {
+        switch (tree_[id].kind) {
+        case NodeKind::name: return declared_name(id);
+        case NodeKind::parenthesis: return declared(tree_.child(id, 0));
+        case NodeKind::index: {
+            auto whole = declared(tree_.child(id, 0));
+            if (!whole || whole->dimensions == 0)
+                return std::nullopt;
+            --whole->dimensions;
+            return whole;
+        }
+        case NodeKind::member: {
+            const auto whole = declared(tree_.child(id, 0));
+            const auto structure = whole && whole->dimensions == 0 ? facts_.structures.find(whole->type)
+                                                                   : facts_.structures.end();
+            if (structure != facts_.structures.end())
+                for (const StructureMember& each : structure->second)
+                    if (each.name == text_.word_of(id) && !each.array)
+                        return Declared{each.type};
             return std::nullopt;
-        const NodeId type =
-            tree_.child(tree_[declared].kind == NodeKind::parameter ? declared : tree_[declared].parent, 0);
-        return dimensions(text_, type, declared) == 0 ? value_type(type_name(text_, type)) : std::nullopt;
+        }
+        default: return std::nullopt;
+        }
+    }
+
+    /// Returns the type of an element of an array, of a vector's component or of a matrix's column.
+    std::optional<ValueType> of_index(NodeId id) const {
+        if (const auto element = declared(id))
+            return value_of(element);
+        const auto whole = of(tree_.child(id, 0));
+        if (!whole)
+            return std::nullopt;
+        return whole->columns > 1 ? ValueType{whole->base, 1, whole->rows} : ValueType{whole->base, 1, 1};
+    }
+
+    std::optional<ValueType> of_member(NodeId id) const {
+        if (const auto member = declared(id))
+            return value_of(member);
+        const auto whole = of(tree_.child(id, 0));
+        return whole ? type_of_member(*whole, text_.word_of(id)) : std::nullopt;
     }
 
     std::optional<ValueType> of_call(NodeId id) const {
         const std::string_view name = called_name(text_, id);
         if (const FunctionFacts* const own = facts_.function(name))
-            return of_own(*own);
+            return of_own(*own, id);
         if (const auto constructed = value_type(name))
             return constructed;
         const BuiltinFunction* const builtin = find_builtin(name);
@@ -184,16 +232,36 @@ private:
         return type_of_call(*builtin, arguments);
     }
 
-    /// Returns the common type of all overloads; nothing if they differ.
-    std::optional<ValueType> of_own(const FunctionFacts& function) const {
-        std::optional<ValueType> type;
-        for (const NodeId definition : function.definitions) {
-            const auto each = value_type(type_name(text_, tree_.child(definition, 0)));
-            if (!each || (type && *type != *each))
-                return std::nullopt;
-            type = each;
+    /// Returns whether the call has as many arguments as the definition has parameters, and none that is
+    /// known to have another type.
+    bool fits(NodeId definition, NodeId call) const {
+        size_t index = 0;
+        for (const NodeId part : tree_.children(definition)) {
+            if (tree_[part].kind != NodeKind::parameter)
+                continue;
+            if (++index >= tree_.child_count(call))
+                return false;
+            const NodeId type = tree_.child(part, 0);
+            const auto argument = of(tree_.child(call, index));
+            if (argument && dimensions(text_, type, part) == 0 &&
+                argument != value_type(type_name(text_, type)))
+                return false;
         }
-        return type;
+        return index + 1 == tree_.child_count(call);
+    }
+
+    /// Returns the common type of the overloads that fit the call, or of all if none does (numbers may be
+    /// converted); nothing if they differ.
+    std::optional<ValueType> of_own(const FunctionFacts& function, NodeId call) const {
+        std::vector<std::optional<ValueType>> fitting, all;
+        for (const NodeId definition : function.definitions) {
+            all.push_back(value_type(type_name(text_, tree_.child(definition, 0))));
+            if (function.definitions.size() > 1 && fits(definition, call))
+                fitting.push_back(all.back());
+        }
+        const auto& types = fitting.empty() ? all : fitting;
+        const bool agree = std::ranges::all_of(types, [&](const auto& each) { return each == types[0]; });
+        return types.empty() || !agree ? std::nullopt : types[0];
     }
 
     const ParsedText& text_;

@@ -4,11 +4,11 @@
         [--program PATH] [--timed PATH] [-o rows.json]
 
 For each line above the least share a copy of the project is made. `twice`: the line's operations are done a second time, with other
-operands, and added to its value times a 0 that no compiler knows, so that the picture keeps its bytes. `out`: the line gets the sum
-of its operands instead. Calls of the author's functions stay as they are, but their arguments are operands of the line. The share
-that the program measured is held against the change of the CPU time (tests/bench/timed.cpp), drawn in turn, medians. The copy is
-counted again: what `twice` adds beside the line's operations, to make them different, counts in proportion. `out` is held against the
-share itself. A copy whose count changes by less than half of the line's counted share does not show the line, and is left out. Frames
+operands, and added to its value times a 0 that no compiler knows, so that the picture keeps its bytes; a second copy has the other
+operands without the operations, and is taken off. `out`: the line gets the sum of its operands instead. Calls of the author's functions stay as they are, but their arguments are operands of the line. The share
+that the program measured is held against the change of the CPU time (tests/bench/timed.cpp), drawn in turn, medians. The copies are
+counted again: a copy that does a part of the line twice is held against that part of the share. `out` is held against the share
+itself. A copy whose count changes by less than half of the line's counted share does not show the line, and is left out. Frames
 of a few milliseconds are drawn larger. With --budget 0 the shares are counted; lines that the program could not measure are left out
 otherwise.
 """
@@ -74,10 +74,10 @@ def arguments_of(text):
 
 
 class Expression:
-    """The operands of an expression, and the expression with each shifted."""
+    """The operands of an expression, as they are and shifted, and the expression with each shifted."""
 
     def __init__(self, text, functions, macros):
-        self.leaves, self.good = [], True
+        self.leaves, self.shifts, self.good = [], [], True
         self.shifted = self._read(text, functions, macros)
 
     def _read(self, text, functions, macros):
@@ -108,6 +108,7 @@ class Expression:
                     self.good &= functions[word] in FLOATS
                     own = [self._read(each, functions, macros) for each in arguments_of(inside) if not re.fullmatch(r"[\w.\s]+", each)]
                     kept = " + ".join(["iMouse.w"] + [f"keep_({each})" for each in own])
+                    self.shifts.append(f"{functions[word]}(iMouse.w)")
                     result.append(f"{functions[word]}({kept})")
                 elif word in macros:
                     self.good = False
@@ -129,7 +130,8 @@ class Expression:
                 end = closing(text, end + more.end() - 1) if more.group(1) == "[" else end + more.end()
             leaf = text[i:end]
             self.leaves.append(leaf)
-            result.append(f"shift_({leaf})")
+            self.shifts.append(f"shift_({leaf})")
+            result.append(self.shifts[-1])
             i = end
         return "".join(result)
 
@@ -187,6 +189,9 @@ def changed_line(code, line, how):
             continue
         if how == "twice":
             instead = f"({value}) + {kind}(iMouse.w * keep_({kind}({expression.shifted})))"
+        elif how == "shifted":
+            kept = " + ".join(f"keep_({shift})" for shift in dict.fromkeys(expression.shifts))
+            instead = f"({value}) + {kind}(iMouse.w * ({kept}))"
         else:
             instead = f"{kind}({' + '.join(f'keep_({leaf})' for leaf in expression.leaves)})"
         edits.append((at, stop, instead))
@@ -255,29 +260,31 @@ class Bench:
             for place in passes:
                 text = place["code"]
                 if line["text"] and [each.strip() for each in text.split("\n")][line["line"] - 1:line["line"]] == [line["text"]]:
-                    new = changed_line(text, line["line"], self.options.how)
-                    if new:
-                        place["code"] = new
-                        copy = folder / f"{plain.stem}_{len(copies)}.json"
-                        copy.write_text(json.dumps(whole))
-                        place["code"] = text
-                        recount = self.hot(str(copy))
-                        if recount:
-                            row["recounted"] = recount["operations"] / hot["operations"] - 1
-                            row["predicted"] = (line["share"] * row["recounted"] / line["counted"] if self.options.how == "twice"
-                                                else -line["share"])
-                        if recount and abs(row["recounted"]) >= line["counted"] / 2:
-                            row["copy"] = str(copy)
-                            copies.append(row)
+                    pair = []
+                    for how in ("twice", "shifted") if self.options.how == "twice" else ("out",):
+                        place["code"] = changed_line(text, line["line"], how)
+                        if place["code"]:
+                            pair.append(str(folder / f"{plain.stem}_{len(copies)}_{how}.json"))
+                            pathlib.Path(pair[-1]).write_text(json.dumps(whole))
+                    place["code"] = text
+                    recounts = [self.hot(copy) for copy in pair]
+                    if recounts and all(recounts):
+                        base = recounts[1] if len(pair) == 2 else hot
+                        row["recounted"] = (recounts[0]["operations"] - base["operations"]) / hot["operations"]
+                        row["predicted"] = (line["share"] * row["recounted"] / line["counted"] if len(pair) == 2 else -line["share"])
+                        if abs(row["recounted"]) >= line["counted"] / 2:
+                            copies.append((row, pair))
                     break
             rows.append(row)
         if copies:
-            times = self.times([str(plain)] + [row["copy"] for row in copies], self.options.rounds)
-            for row, copy in zip(copies, times[1:]):
-                if "times" in copy and "times" in times[0]:
-                    row["measured"] = statistics.median(b / a for a, b in zip(times[0]["times"], copy["times"])) - 1
-                    row["ms"] = times[0]["ms"]
-                del row["copy"]
+            times = iter(self.times([str(plain)] + [copy for _, pair in copies for copy in pair], self.options.rounds))
+            first = next(times)
+            for row, pair in copies:
+                timed = [next(times) for _ in pair]
+                if all("times" in each for each in [first] + timed):
+                    base = timed[1]["times"] if len(pair) == 2 else first["times"]
+                    row["measured"] = statistics.median((b - a) / c for a, b, c in zip(base, timed[0]["times"], first["times"]))
+                    row["ms"] = first["ms"]
         return rows
 
 

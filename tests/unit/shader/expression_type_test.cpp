@@ -10,8 +10,12 @@ std::string type_of(const std::string& expression) {
     const auto read = parsed(
         "uniform sampler2D s;\nuniform mat3 turn;\nstruct Ray { vec3 o; };\nfloat twice = 2.0;\n"
         "vec2 own(vec2 p) { return p; }\nfloat two(int x) { return 1.0; }\nint two(float x) { return 1; }\n"
+        "vec2 some(vec2 p) { return p; }\nvec3 some(vec3 p) { return p; }\n"
+        "float some(vec3 p, vec3 q) { return 1.0; }\nfloat three(int x) { return 1.0; }\n"
+        "vec2 three(ivec2 x) { return vec2(x); }\n"
         "void f(float twice) { vec4 v; float a[3]; Ray ray; float d; { vec2 d; } int n; }\n"
-        "float g(vec3 p, float x) { ivec2 i; float a[3]; Ray ray; return " +
+        "float g(vec3 p, float x) { ivec2 i; float a[3]; Ray ray; Ray many[2];\n"
+        "{ vec2 same; } { vec2 same; } { vec2 other; } { float other; } return " +
         expression + "; }\n");
     const SyntaxTree& tree = read->tree();
     const TreeFacts facts = find_facts(*read);
@@ -38,13 +42,27 @@ TEST(ExpressionType, FollowsDeclarationsAndFunctions) {
     EXPECT_EQ(type_of("fwidth(p)"), "vec3");
     EXPECT_EQ(type_of("i + 1"), "ivec2");
     EXPECT_EQ(type_of("twice"), "float"); // f has another one
+    EXPECT_EQ(type_of("ray.o"), "vec3");
+    EXPECT_EQ(type_of("many[1].o.xy"), "vec2");
+    EXPECT_EQ(type_of("a[1]"), "float");
+    EXPECT_EQ(type_of("p[1]"), "float");
+    EXPECT_EQ(type_of("turn[1]"), "vec3");
+    EXPECT_EQ(type_of("turn[1][0]"), "float");
+    EXPECT_EQ(type_of("same"), "vec2");
+    EXPECT_EQ(type_of("two(1)"), "float");
+    EXPECT_EQ(type_of("some(p)"), "vec3");
+    EXPECT_EQ(type_of("some(p.xy)"), "vec2");
+    EXPECT_EQ(type_of("some(p, p)"), "float");
 }
 
 TEST(ExpressionType, IsUnknownWithoutADeclaration) {
     EXPECT_EQ(type_of("ray"), "");
-    EXPECT_EQ(type_of("ray.o"), "");
+    EXPECT_EQ(type_of("ray.missing"), "");
     EXPECT_EQ(type_of("a"), "");
-    EXPECT_EQ(type_of("two(1)"), ""); // its overloads differ
+    EXPECT_EQ(type_of("many[1]"), "");
+    EXPECT_EQ(type_of("other"), "");
+    EXPECT_EQ(type_of("some(missing)"), ""); // its overloads differ
+    EXPECT_EQ(type_of("three(missing)"), "");
     EXPECT_EQ(type_of("missing"), "");
     EXPECT_EQ(type_of("missing(p)"), "");
 }
