@@ -5,12 +5,12 @@
 
 For each line above the least share a copy of the project is made. `twice`: the line's operations are done a second time, with other
 operands, and added to its value times a 0 that no compiler knows, so that the picture keeps its bytes; a second copy has the other
-operands without the operations, and is taken off. `out`: the line gets the sum of its operands instead. Calls of the author's functions stay as they are, but their arguments are operands of the line. The share
-that the program measured is held against the change of the CPU time (tests/bench/timed.cpp), drawn in turn, medians. The copies are
-counted again: a copy that does a part of the line twice is held against that part of the share. `out` is held against the share
-itself. A copy whose count changes by less than half of the line's counted share does not show the line, and is left out. Frames
-of a few milliseconds are drawn larger. With --budget 0 the shares are counted; lines that the program could not measure are left out
-otherwise.
+operands without the operations, and is taken off. `out`: the line gets the sum of its operands instead. Calls of the author's
+functions are not repeated, but operations in their arguments are. The share that the program measured is held against the change of
+the CPU time (tests/bench/timed.cpp), drawn in turn, medians. The copies are counted again: a copy that does a part of the line twice
+is held against that part of the share. `out` is held against the share itself. A copy whose count changes by less than half of the
+line's counted share does not show the line, and is left out. Frames of a few milliseconds are drawn larger. With --budget 0 the
+shares are counted; lines that the program could not measure are left out otherwise.
 """
 import argparse
 import json
@@ -73,12 +73,25 @@ def arguments_of(text):
     return [part.strip() for part in parts + [text[begin:]] if part.strip()]
 
 
+def saving(text, functions, count):
+    """The expression; the value of each call of the author's functions is kept in a variable, outer calls first."""
+    found = next((m for m in re.finditer(r"\b(\w+)\s*\(", text) if m.group(1) in functions), None)
+    if not found:
+        return text
+    after = closing(text, found.end() - 1)
+    name = f"saved{count[0]}_"
+    count[0] += 1
+    inside = saving(text[found.end():after - 1], functions, count)
+    return f"{text[:found.start()]}({name} = {found.group(1)}({inside})){saving(text[after:], functions, count)}"
+
+
 class Expression:
     """The operands of an expression, as they are and shifted, and the expression with each shifted."""
 
     def __init__(self, text, functions, macros):
-        self.leaves, self.shifts, self.good = [], [], True
+        self.leaves, self.shifts, self.saved, self.good = [], [], [], True
         self.shifted = self._read(text, functions, macros)
+        self.plain = saving(text, functions, [0])
 
     def _read(self, text, functions, macros):
         result, i = [], 0
@@ -106,10 +119,13 @@ class Expression:
                 if word in functions:
                     self.leaves.append(text[i:after])
                     self.good &= functions[word] in FLOATS
+                    name = f"saved{len(self.saved)}_"
+                    self.saved.append(functions[word])
+                    shift = f"shift_({name})"
+                    self.shifts.append(shift)
                     own = [self._read(each, functions, macros) for each in arguments_of(inside) if not re.fullmatch(r"[\w.\s]+", each)]
-                    kept = " + ".join(["iMouse.w"] + [f"keep_({each})" for each in own])
-                    self.shifts.append(f"{functions[word]}(iMouse.w)")
-                    result.append(f"{functions[word]}({kept})")
+                    kept = " + ".join(f"keep_({each})" for each in own)
+                    result.append(f"({shift}" + (f" + {functions[word]}({kept}))" if own else ")"))
                 elif word in macros:
                     self.good = False
                 elif word.startswith("tex") and word not in functions:
@@ -160,7 +176,7 @@ def changed_line(code, line, how):
         return None
     begin = sum(len(each) + 1 for each in lines[:line - 1])
     end = begin + len(lines[line - 1])
-    edits, at, declares, after = [], begin, None, begin
+    edits, saved, at, declares, after = [], [], begin, None, begin
     while True:
         found = STATEMENT.search(clean, at, end)
         if not found:
@@ -188,19 +204,23 @@ def changed_line(code, line, how):
         if kind not in FLOATS or not expression.good or not expression.leaves:
             continue
         if how == "twice":
-            instead = f"({value}) + {kind}(iMouse.w * keep_({kind}({expression.shifted})))"
+            instead = f"({expression.plain}) + {kind}(iMouse.w * keep_({kind}({expression.shifted})))"
         elif how == "shifted":
             kept = " + ".join(f"keep_({shift})" for shift in dict.fromkeys(expression.shifts))
-            instead = f"({value}) + {kind}(iMouse.w * ({kept}))"
+            instead = f"({expression.plain}) + {kind}(iMouse.w * ({kept}))"
         else:
             instead = f"{kind}({' + '.join(f'keep_({leaf})' for leaf in expression.leaves)})"
+        if how != "out":
+            instead = re.sub(r"\bsaved(\d+)_", lambda m: f"saved{len(saved) + int(m.group(1))}_", instead)
+            saved.extend(expression.saved)
         edits.append((at, stop, instead))
         at = stop
     if not edits:
         return None
     for start, stop, instead in reversed(edits):
         clean = clean[:start] + instead + clean[stop:]
-    return helpers() + "\n" + clean
+    kept = " ".join(f"{kind} saved{i}_;" for i, kind in enumerate(saved))
+    return helpers() + kept + "\n" + clean
 
 
 LEAST_MS = 10  # of a frame, lest the driver's own work counts
@@ -271,7 +291,7 @@ class Bench:
                     if recounts and all(recounts):
                         base = recounts[1] if len(pair) == 2 else hot
                         row["recounted"] = (recounts[0]["operations"] - base["operations"]) / hot["operations"]
-                        row["predicted"] = (line["share"] * row["recounted"] / line["counted"] if len(pair) == 2 else -line["share"])
+                        row["predicted"] = line["share"] * min(1, row["recounted"] / line["counted"]) if len(pair) == 2 else -line["share"]
                         if abs(row["recounted"]) >= line["counted"] / 2:
                             copies.append((row, pair))
                     break
