@@ -1,7 +1,10 @@
 #include "base/error.hpp"
 #include "lab/instrumented_pass.hpp"
+#include "lab/probe_inputs.hpp"
+#include "lab/scene_numbers.hpp"
 #include "lab/simplify.hpp"
 #include "lab/text_findings.hpp"
+#include "render/frame_plan.hpp"
 #include "render/frame_stepper.hpp"
 #include "scene/host_uniforms.hpp"
 #include "shader/cuts.hpp"
@@ -12,8 +15,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -221,6 +227,336 @@ bool is_inside(const glsl::Cure& inner, const glsl::Cure& outer) {
                    end_of(in) <= end_of(out);
         });
     });
+}
+
+namespace {
+
+constexpr size_t k_fewest_trials = 3, k_most_trials = 25;
+constexpr double k_enough_milliseconds = 120; ///< for the timing rounds
+/// A trial is not timed again if one round takes more than this share of the former time by both clocks.
+constexpr double k_hopeless = 1.1;
+/// Limit of the other views, and their last moment in seconds: later a float's rounding shows in many scenes.
+constexpr size_t k_most_others = 160;
+constexpr double k_latest_moment = 1000;
+/// A picture is divided into this many parts; the RMSE of each may be this many times the allowed error.
+constexpr int k_part_columns = 16, k_part_rows = 9;
+constexpr double k_most_in_a_part = 3;
+
+/// Small differences that the measure rounds to zero count as more than zero.
+double error_of(Measure measure, const Outcome& outcome) {
+    if (outcome.picture.samples.equal())
+        return 0;
+    return std::max(error_by(measure, outcome), std::numeric_limits<double>::min());
+}
+
+/// Returns the CPU time if the CPU draws, else the wall time.
+double clocked(const Elapsed& elapsed, bool by_cpu) {
+    return by_cpu ? elapsed.cpu : elapsed.wall;
+}
+
+double displayed(const image::Image& picture, int x, int y, int channel) {
+    const size_t i =
+        (size_t(y) * size_t(picture.extent.width) + size_t(x)) * size_t(picture.channels) + size_t(channel);
+    return std::clamp(double(picture.f32()[i]), 0.0, 1.0);
+}
+
+/// Returns how far `value` lies outside of what the picture shows at the pixel and its eight neighbours.
+double gap_around(double value, const image::Image& picture, int x, int y, int channel) {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (int j = std::max(0, y - 1); j <= std::min(y + 1, picture.extent.height - 1); ++j)
+        for (int i = std::max(0, x - 1); i <= std::min(x + 1, picture.extent.width - 1); ++i) {
+            const double near = displayed(picture, i, j, channel);
+            least = std::min(least, near);
+            most = std::max(most, near);
+        }
+    return std::max({0.0, least - value, value - most});
+}
+
+/// Returns the RMSE of a part as displayed. An edge that moves by one pixel does not count: it is in both
+/// pictures.
+double rmse_of_part(const image::Image& own, const image::Image& cut, int part) {
+    const auto [width, height] = own.extent;
+    const int column = part % k_part_columns, row = part / k_part_columns;
+    double squares = 0;
+    size_t samples = 0;
+    for (int y = height * row / k_part_rows; y < height * (row + 1) / k_part_rows; ++y)
+        for (int x = width * column / k_part_columns; x < width * (column + 1) / k_part_columns; ++x)
+            for (int k = 0; k < own.channels; ++k) {
+                ++samples;
+                const double before = displayed(own, x, y, k), after = displayed(cut, x, y, k);
+                if (before == after)
+                    continue;
+                const double gap =
+                    std::max(gap_around(before, cut, x, y, k), gap_around(after, own, x, y, k));
+                squares += gap * gap;
+            }
+    return std::sqrt(squares / double(std::max<size_t>(1, samples)));
+}
+
+} // namespace
+
+bool keeps_parts(const Goal& goal, const image::Image& own, const image::Image& cut) {
+    for (int part = 0; part < k_part_columns * k_part_rows; ++part)
+        if (rmse_of_part(own, cut, part) > k_most_in_a_part * *goal.most_error)
+            return false;
+    return true;
+}
+
+std::vector<View> other_views(const scene::Scene& scene, const std::vector<View>& views, size_t most) {
+    const auto reads = [&](std::string_view name) {
+        return std::ranges::any_of(scene.passes, [&](const scene::Pass& pass) {
+            return (scene.common.text() + pass.text.text()).find(name) != std::string::npos;
+        });
+    };
+    double last = k_latest_moment;
+    if (render::may_have_feedback(scene))
+        last = std::ranges::max(views, {}, [](const View& view) {
+                   return view.state.seconds();
+               }).state.seconds();
+    const Promises promises;
+    const SearchSpace space(scene, promises, {true, reads("iMouse")});
+    std::vector<View> others;
+    for (const SearchPoint& point : space.survey()) {
+        if (others.size() >= most)
+            break;
+        if (point.time > last || point.knobs != space.plain().knobs)
+            continue;
+        View view{.name = fmt::format("t={:g}", point.time), .state = render::at_time(point.time)};
+        view.mouse = point.mouse.value_or(glm::dvec2(0));
+        others.push_back(std::move(view));
+    }
+    return others;
+}
+
+namespace {
+
+/// Bits of one uniform: each switches one cut.
+constexpr size_t k_bits = 30;
+/// A text that the driver refuses is halved until the cuts at fault are found, at most so often.
+constexpr size_t k_most_refusals = 10;
+
+std::string name_of_switches(size_t number) {
+    return fmt::format("tidemark_cuts{}", number);
+}
+
+std::string replaced(std::string text, char sign, const std::string& with) {
+    for (size_t at = text.find(sign); at != text.npos; at = text.find(sign, at + with.size()))
+        text.replace(at, 1, with);
+    return text;
+}
+
+/// Returns the switched form of the cut for that bit.
+glsl::Cure switched(const glsl::Cut& cut, size_t bit) {
+    const std::string test =
+        fmt::format("(({} & {}) != 0)", name_of_switches(bit / k_bits), size_t(1) << (bit % k_bits));
+    glsl::Cure cure{cut.switched, cut.change.reason};
+    for (glsl::Wrap& wrap : cure.wraps)
+        for (std::string* const text : {&wrap.front, &wrap.behind})
+            *text = replaced(replaced(*text, '$', test), '@', fmt::format("{}", bit));
+    return cure;
+}
+
+} // namespace
+
+std::optional<CutSwitches> CutSwitches::link(const scene::Scene& scene, Extent extent,
+                                             std::span<const glsl::Cut> cuts, std::vector<size_t> which) {
+    std::vector<glsl::Cure> cures;
+    for (size_t bit = 0; bit < which.size(); ++bit)
+        cures.push_back(switched(cuts[which[bit]], bit));
+    auto whole = changed(scene, cures);
+    if (!whole)
+        return std::nullopt;
+    const size_t first = whole->knobs.size();
+    for (size_t number = 0; number * k_bits < which.size(); ++number)
+        whole->knobs.push_back({.name = name_of_switches(number), .type = scene::KnobType::int1});
+    auto specimen = Specimen::create(*whole, {}, extent, HitSource::none);
+    if (!specimen)
+        return std::nullopt;
+    return CutSwitches(*std::move(specimen), std::move(which), std::move(whole->knobs), first);
+}
+
+std::optional<CutSwitches> CutSwitches::create(const scene::Scene& scene, Extent extent,
+                                               std::span<const glsl::Cut> cuts, std::vector<size_t> which,
+                                               const KeepGoing& keep_going) {
+    std::ranges::sort(which);
+    std::vector<std::vector<size_t>> left{std::move(which)}; // to be tried
+    std::vector<size_t> accepted;
+    size_t refusals = 0;
+    while (!left.empty() && refusals < k_most_refusals && keep_going()) {
+        std::vector<size_t> part = std::move(left.back());
+        left.pop_back();
+        if (part.empty())
+            continue;
+        auto linked = link(scene, extent, cuts, part);
+        if (linked && refusals == 0)
+            return linked;
+        if (linked) {
+            std::ranges::move(part, std::back_inserter(accepted));
+            continue;
+        }
+        ++refusals;
+        if (part.size() == 1)
+            continue;
+        const auto middle = part.begin() + std::ptrdiff_t(part.size() / 2);
+        left.emplace_back(middle, part.end());
+        left.emplace_back(part.begin(), middle);
+    }
+    std::ranges::sort(accepted);
+    return accepted.empty() ? std::nullopt : link(scene, extent, cuts, std::move(accepted));
+}
+
+void CutSwitches::make(std::span<const size_t> cuts) {
+    for (size_t number = first_; number < knobs_.size(); ++number)
+        knobs_[number].value = {};
+    for (const size_t cut : cuts) {
+        const auto place = std::ranges::lower_bound(which_, cut);
+        const auto bit = size_t(place - which_.begin());
+        assert(place != which_.end() && *place == cut);
+        knobs_[first_ + bit / k_bits].value[0] += double(size_t(1) << (bit % k_bits));
+    }
+    specimen_.turn(knobs_);
+}
+
+Result<CutBench> CutBench::create(const scene::Scene& scene, Extent extent, std::vector<View> views,
+                                  double seconds) {
+    auto own = TRY(Specimen::create(scene, {}, extent));
+    CutBench bench(scene, extent, std::move(views), std::move(own));
+    const Stopwatch drawing;
+    bench.truth_ = TRY(truth_of(bench.own_.pictures(bench.views_)));
+    const double later = drawing.elapsed().wall - bench.own_.first_draw_milliseconds();
+    bench.draw_seconds_ = later * 1e-3 / double(std::max<size_t>(1, bench.views_.size() - 1));
+    bench.compile_seconds_ =
+        (bench.own_.compile_milliseconds() + bench.own_.first_draw_milliseconds()) * 1e-3;
+    const Stopwatch clock;
+    for (const View& view : other_views(scene, bench.views_, k_most_others)) {
+        if (clock.elapsed().wall * 1e-3 > seconds)
+            break;
+        if (auto truth = truth_of(bench.own_.pictures({view}))) {
+            bench.other_views_.push_back(view);
+            bench.other_truths_.push_back(*std::move(truth));
+        }
+    }
+    return bench;
+}
+
+/// Returns the error in the worst view, or nothing if it exceeds the goal.
+std::optional<double> CutBench::error_in(Specimen& specimen, std::span<const View> views, const Truth& truth,
+                                         const Goal& goal) const {
+    Sight sight;
+    const bool all_at_once = render::may_have_feedback(*scene_); // each picture starts at frame 0
+    if (all_at_once)
+        sight.pictures = as_shown(specimen.pictures({views.begin(), views.end()}));
+    double worst = 0;
+    for (size_t view = 0; view < views.size(); ++view) {
+        if (!all_at_once)
+            sight.pictures.push_back(as_shown({specimen.picture(views[view])}).front());
+        if (truth.pictures[view].bytes == sight.pictures[view].bytes)
+            continue;
+        if (!keeps_parts(goal, truth.pictures[view], sight.pictures[view])) // cheaper than the measure
+            return std::nullopt;
+        const double error = error_of(goal.measure, outcome_of(sight, truth, view));
+        if (!(error <= *goal.most_error))
+            return std::nullopt;
+        worst = std::max(worst, error);
+    }
+    return worst;
+}
+
+bool CutBench::take_as_reference(CutSwitches& switches, const Goal& goal) {
+    switches.make({});
+    auto truth = truth_of(switches.specimen().pictures(views_));
+    if (!truth || !error_in(switches.specimen(), views_, truth_, goal))
+        return false;
+    switches.truth = *std::move(truth);
+    return true;
+}
+
+std::optional<double> CutBench::error_of_switched(CutSwitches& switches, std::span<const size_t> cuts,
+                                                  const Goal& goal) {
+    switches.make(cuts);
+    return error_in(switches.specimen(), views_, switches.truth, goal);
+}
+
+double CutBench::time_of_switched(CutSwitches& switches, size_t cut) {
+    double with = 0, without = 0;
+    for (const View& view : views_) {
+        switches.make(std::span(&cut, 1));
+        with += switches.specimen().time(view, false).elapsed.wall;
+        switches.make({});
+        without += switches.specimen().time(view, false).elapsed.wall;
+    }
+    return with / without;
+}
+
+std::optional<CutTrial> CutBench::try_cuts(std::span<const glsl::Cure> cuts, Specimen& other,
+                                           const Goal& goal, bool everywhere) {
+    const auto scene = changed(*scene_, cuts);
+    auto specimen = scene ? Specimen::create(*scene, {}, extent_) : fail(ErrorCode::load, "");
+    if (!specimen)
+        return std::nullopt;
+    CutTrial trial{*std::move(specimen)};
+    const auto error = error_in(trial.specimen, views_, truth_, goal);
+    if (!error)
+        return std::nullopt;
+    trial.error = *error;
+    trial.time = relative_time(trial.specimen, other);
+    if (trial.time > k_pays || !everywhere)
+        return trial;
+    for (size_t i = 0; i < other_views_.size(); ++i) {
+        const auto elsewhere =
+            error_in(trial.specimen, std::span(&other_views_[i], 1), other_truths_[i], goal);
+        if (!elsewhere)
+            return std::nullopt;
+        trial.error = std::max(trial.error, *elsewhere);
+    }
+    return trial;
+}
+
+double CutBench::milliseconds() {
+    std::vector<double> rounds;
+    for (size_t round = 0; round < k_fewest_trials; ++round) {
+        double sum = 0;
+        for (const View& view : views_)
+            sum += own_.time(view, false).elapsed.wall;
+        rounds.push_back(sum / double(views_.size()));
+    }
+    return median(rounds);
+}
+
+double CutBench::seconds_of_trial() {
+    const auto drawn = double(views_.size() * (1 + 2 * k_fewest_trials));
+    return milliseconds() * 1e-3 * drawn;
+}
+
+/// Returns the median ratio of the times, over rounds that draw both alternately.
+double CutBench::relative_time(Specimen& one, Specimen& other) const {
+    std::vector<Elapsed> ones, others;
+    const Stopwatch clock;
+    for (size_t round = 0; round < k_most_trials; ++round) {
+        if (round >= k_fewest_trials && clock.elapsed().wall > k_enough_milliseconds)
+            break;
+        Elapsed sums[2]{};
+        for (const View& view : views_)
+            for (Specimen* const each : {&one, &other}) {
+                const Elapsed elapsed = each->time(view, false).elapsed;
+                sums[each == &other].wall += elapsed.wall;
+                sums[each == &other].cpu += elapsed.cpu;
+            }
+        ones.push_back(sums[0]);
+        others.push_back(sums[1]);
+        if (sums[0].wall > k_hopeless * sums[1].wall && sums[0].cpu > k_hopeless * sums[1].cpu)
+            break;
+    }
+    double wall = 0, cpu = 0;
+    for (const Elapsed& elapsed : others) {
+        wall += elapsed.wall;
+        cpu += elapsed.cpu;
+    }
+    const bool by_cpu = cpu > 0.5 * wall;
+    std::vector<double> ratios;
+    for (size_t i = 0; i < ones.size(); ++i)
+        ratios.push_back(clocked(ones[i], by_cpu) / clocked(others[i], by_cpu));
+    return median(ratios);
 }
 
 } // namespace tidemark::lab

@@ -16,230 +16,34 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <set>
 
 namespace tidemark::lab {
 namespace {
 
-constexpr size_t k_fewest_trials = 3, k_most_trials = 25;
-constexpr double k_enough_milliseconds = 120; ///< for the timing rounds
-/// A cut is considered if a frame takes at most this share of its former time.
-constexpr double k_pays = 0.985;
-/// A trial is not timed again if one round takes more than this share of the former time by both clocks.
-constexpr double k_hopeless = 1.1;
-/// Limit of the other views, and their last moment in seconds: later a float's rounding shows in many scenes.
-constexpr size_t k_most_others = 160;
-constexpr double k_latest_moment = 1000;
-/// A picture is divided into this many parts; the RMSE of each may be this many times the allowed error.
-constexpr int k_part_columns = 16, k_part_rows = 9;
-constexpr double k_most_in_a_part = 3;
-
-/// Small differences that the measure rounds to zero count as more than zero.
-double error_of(Measure measure, const Outcome& outcome) {
-    if (outcome.picture.samples.equal())
-        return 0;
-    return std::max(error_by(measure, outcome), std::numeric_limits<double>::min());
-}
-
-/// Returns the CPU time if the CPU draws, else the wall time.
-double clocked(const Elapsed& elapsed, bool by_cpu) {
-    return by_cpu ? elapsed.cpu : elapsed.wall;
-}
-
-double displayed(const image::Image& picture, int x, int y, int channel) {
-    const size_t i =
-        (size_t(y) * size_t(picture.extent.width) + size_t(x)) * size_t(picture.channels) + size_t(channel);
-    return std::clamp(double(picture.f32()[i]), 0.0, 1.0);
-}
-
-/// Returns how far `value` lies outside of what the picture shows at the pixel and its eight neighbours.
-double gap_around(double value, const image::Image& picture, int x, int y, int channel) {
-    double least = std::numeric_limits<double>::infinity(), most = -least;
-    for (int j = std::max(0, y - 1); j <= std::min(y + 1, picture.extent.height - 1); ++j)
-        for (int i = std::max(0, x - 1); i <= std::min(x + 1, picture.extent.width - 1); ++i) {
-            const double near = displayed(picture, i, j, channel);
-            least = std::min(least, near);
-            most = std::max(most, near);
-        }
-    return std::max({0.0, least - value, value - most});
-}
-
-/// Returns the RMSE of a part as displayed. An edge that moves by one pixel does not count: it is in both
-/// pictures.
-double rmse_of_part(const image::Image& own, const image::Image& cut, int part) {
-    const auto [width, height] = own.extent;
-    const int column = part % k_part_columns, row = part / k_part_columns;
-    double squares = 0;
-    size_t samples = 0;
-    for (int y = height * row / k_part_rows; y < height * (row + 1) / k_part_rows; ++y)
-        for (int x = width * column / k_part_columns; x < width * (column + 1) / k_part_columns; ++x)
-            for (int k = 0; k < own.channels; ++k) {
-                ++samples;
-                const double before = displayed(own, x, y, k), after = displayed(cut, x, y, k);
-                if (before == after)
-                    continue;
-                const double gap =
-                    std::max(gap_around(before, cut, x, y, k), gap_around(after, own, x, y, k));
-                squares += gap * gap;
-            }
-    return std::sqrt(squares / double(std::max<size_t>(1, samples)));
-}
-
-} // namespace
-
-bool keeps_parts(const Goal& goal, const image::Image& own, const image::Image& cut) {
-    for (int part = 0; part < k_part_columns * k_part_rows; ++part)
-        if (rmse_of_part(own, cut, part) > k_most_in_a_part * *goal.most_error)
-            return false;
-    return true;
-}
-
-std::vector<View> other_views(const scene::Scene& scene, const std::vector<View>& views, size_t most) {
-    const auto reads = [&](std::string_view name) {
-        return std::ranges::any_of(scene.passes, [&](const scene::Pass& pass) {
-            return (scene.common.text() + pass.text.text()).find(name) != std::string::npos;
-        });
-    };
-    double last = k_latest_moment;
-    if (render::may_have_feedback(scene))
-        last = std::ranges::max(views, {}, [](const View& view) {
-                   return view.state.seconds();
-               }).state.seconds();
-    const Promises promises;
-    const SearchSpace space(scene, promises, {true, reads("iMouse")});
-    std::vector<View> others;
-    for (const SearchPoint& point : space.survey()) {
-        if (others.size() >= most)
-            break;
-        if (point.time > last || point.knobs != space.plain().knobs)
-            continue;
-        View view{.name = fmt::format("t={:g}", point.time), .state = render::at_time(point.time)};
-        view.mouse = point.mouse.value_or(glm::dvec2(0));
-        others.push_back(std::move(view));
-    }
-    return others;
-}
-
-Result<CutBench> CutBench::create(const scene::Scene& scene, Extent extent, std::vector<View> views,
-                                  double seconds) {
-    auto own = TRY(Specimen::create(scene, {}, extent));
-    CutBench bench(scene, extent, std::move(views), std::move(own));
-    bench.truth_ = TRY(truth_of(bench.own_.pictures(bench.views_)));
-    const Stopwatch clock;
-    for (const View& view : other_views(scene, bench.views_, k_most_others)) {
-        if (clock.elapsed().wall * 1e-3 > seconds)
-            break;
-        if (auto truth = truth_of(bench.own_.pictures({view}))) {
-            bench.other_views_.push_back(view);
-            bench.other_truths_.push_back(*std::move(truth));
-        }
-    }
-    return bench;
-}
-
-/// Returns the error in the worst view, or nothing if it exceeds the goal.
-std::optional<double> CutBench::error_in(Specimen& specimen, std::span<const View> views, const Truth& truth,
-                                         const Goal& goal) const {
-    Sight sight;
-    const bool all_at_once = render::may_have_feedback(*scene_); // each picture starts at frame 0
-    if (all_at_once)
-        sight.pictures = as_shown(specimen.pictures({views.begin(), views.end()}));
-    double worst = 0;
-    for (size_t view = 0; view < views.size(); ++view) {
-        if (!all_at_once)
-            sight.pictures.push_back(as_shown({specimen.picture(views[view])}).front());
-        if (truth.pictures[view].bytes == sight.pictures[view].bytes)
-            continue;
-        if (!keeps_parts(goal, truth.pictures[view], sight.pictures[view])) // cheaper than the measure
-            return std::nullopt;
-        const double error = error_of(goal.measure, outcome_of(sight, truth, view));
-        if (!(error <= *goal.most_error))
-            return std::nullopt;
-        worst = std::max(worst, error);
-    }
-    return worst;
-}
-
-std::optional<CutTrial> CutBench::try_cuts(std::span<const glsl::Cure> cuts, Specimen& other,
-                                           const Goal& goal) {
-    const auto scene = changed(*scene_, cuts);
-    auto specimen = scene ? Specimen::create(*scene, {}, extent_) : fail(ErrorCode::load, "");
-    if (!specimen)
-        return std::nullopt;
-    CutTrial trial{*std::move(specimen)};
-    const auto error = error_in(trial.specimen, views_, truth_, goal);
-    if (!error)
-        return std::nullopt;
-    trial.error = *error;
-    trial.time = relative_time(trial.specimen, other);
-    if (trial.time > k_pays)
-        return trial;
-    for (size_t i = 0; i < other_views_.size(); ++i) {
-        const auto elsewhere =
-            error_in(trial.specimen, std::span(&other_views_[i], 1), other_truths_[i], goal);
-        if (!elsewhere)
-            return std::nullopt;
-        trial.error = std::max(trial.error, *elsewhere);
-    }
-    return trial;
-}
-
-double CutBench::milliseconds() {
-    std::vector<double> rounds;
-    for (size_t round = 0; round < k_fewest_trials; ++round) {
-        double sum = 0;
-        for (const View& view : views_)
-            sum += own_.time(view, false).elapsed.wall;
-        rounds.push_back(sum / double(views_.size()));
-    }
-    return median(rounds);
-}
-
-double CutBench::seconds_of_trial() {
-    const auto drawn = double(views_.size() * (1 + 2 * k_fewest_trials));
-    return milliseconds() * 1e-3 * drawn;
-}
-
-/// Returns the median ratio of the times, over rounds that draw both alternately.
-double CutBench::relative_time(Specimen& one, Specimen& other) const {
-    std::vector<Elapsed> ones, others;
-    const Stopwatch clock;
-    for (size_t round = 0; round < k_most_trials; ++round) {
-        if (round >= k_fewest_trials && clock.elapsed().wall > k_enough_milliseconds)
-            break;
-        Elapsed sums[2]{};
-        for (const View& view : views_)
-            for (Specimen* const each : {&one, &other}) {
-                const Elapsed elapsed = each->time(view, false).elapsed;
-                sums[each == &other].wall += elapsed.wall;
-                sums[each == &other].cpu += elapsed.cpu;
-            }
-        ones.push_back(sums[0]);
-        others.push_back(sums[1]);
-        if (sums[0].wall > k_hopeless * sums[1].wall && sums[0].cpu > k_hopeless * sums[1].cpu)
-            break;
-    }
-    double wall = 0, cpu = 0;
-    for (const Elapsed& elapsed : others) {
-        wall += elapsed.wall;
-        cpu += elapsed.cpu;
-    }
-    const bool by_cpu = cpu > 0.5 * wall;
-    std::vector<double> ratios;
-    for (size_t i = 0; i < ones.size(); ++i)
-        ratios.push_back(clocked(ones[i], by_cpu) / clocked(others[i], by_cpu));
-    return median(ratios);
-}
-
-namespace {
-
 /// Longer side of the search pictures; for cuts that depend on the size, of finer ones.
-constexpr int k_small = 128, k_fine = 512;
+constexpr int k_small = 128, k_fine = 512, k_smallest = 64;
+/// The smallest pictures are used for the program with switches if those of `k_small` would take more than
+/// this share of the time budget.
+constexpr double k_slow_screening = 0.15;
 /// The finer pictures are used if one trial takes at most this share of the time budget.
 constexpr double k_fine_trial = 0.1;
 /// Shares of the time budget: `k_looking`, `k_alone` and `k_together` end the search for places and the
 /// trials of cuts alone and together; `k_timing` is for the verdict.
-constexpr double k_looking = 0.15, k_alone = 0.45, k_together = 0.7, k_timing = 0.25,
+constexpr double k_looking = 0.2, k_screened = 0.5, k_alone = 0.6, k_together = 0.7, k_timing = 0.25,
                  k_others = 0.03; ///< `k_others` is for drawing the other views once
+/// A program that shows the values of expressions takes at most about so many times as long to compile as the
+/// scene itself.
+constexpr double k_showing_compile = 4;
+/// A program with switches takes about so many times as long to compile as the scene itself.
+constexpr double k_switched_compile = 2;
+/// Limit of the cuts in one program with switches.
+constexpr size_t k_switched_together = 32;
+/// Weight of the estimated work beside the measured time of a switched cut.
+constexpr double k_estimated = 0.5;
+/// A combination is as fast as another one if it takes at most this share of its time.
+constexpr double k_as_fast = 1.02;
 /// The verdict's pictures are made smaller if everything would else take more than this share of the budget.
 constexpr double k_everything = 1.1;
 /// The verdict's rounds end at this share of the budget if other work of the machine slows them down.
@@ -274,15 +78,25 @@ public:
 
     Result<Simplified> run() {
         const Extent small = small_of(request_.extent, k_small);
-        CutPlaces places = TRY(find_cuts(scene_, request_.views, small, [&] { return goes_on(k_looking); }));
+        auto bench = TRY(CutBench::create(scene_, small, request_.views, k_others * request_.seconds));
+        longest_trial_ = bench.compile_seconds();
+        CutPlaces places = TRY(find_cuts(scene_, request_.views, small, [&] {
+            return goes_on(k_looking, k_showing_compile * bench.compile_seconds());
+        }));
         std::erase_if(places.cuts,
                       [&](const glsl::Cut& cut) { return !request_.can_be_written(cut.change); });
-        auto bench = TRY(CutBench::create(scene_, small, request_.views, k_others * request_.seconds));
         auto fine = fine_bench(bench, places.cuts);
         CutBench& finer = fine ? *fine : bench;
-        try_alone(bench, finer, places.cuts);
+        known_ = places.cuts.size();
+        auto coarse = coarse_bench(bench, places.cuts.size());
+        CutBench& screening = coarse ? *coarse : bench;
+        const auto order =
+            screen(screening, coarse ? small_of(request_.extent, k_smallest) : small, places.cuts);
+        try_all(bench, screening, places.cuts);
+        try_alone(bench, finer, places.cuts, order);
         others_ = bench.other_view_count();
         combine(std::ranges::any_of(good_, &ChosenCut::hangs_on_size) ? finer : bench);
+        std::ranges::stable_sort(way_, std::greater<>(), &Step::time);
         Simplified found{{TRY(judge(bench)), {}}, {}};
         choose(found, std::move(places.left));
         return found;
@@ -296,9 +110,10 @@ private:
         return watch_.keep_going() && seconds() + needed < part * request_.seconds;
     }
 
-    std::optional<CutTrial> tried(CutBench& bench, std::span<const glsl::Cure> cuts, Specimen& other) {
+    std::optional<CutTrial> tried(CutBench& bench, std::span<const glsl::Cure> cuts, Specimen& other,
+                                  bool everywhere = true) {
         const double before = seconds();
-        auto trial = bench.try_cuts(cuts, other, searched_);
+        auto trial = bench.try_cuts(cuts, other, searched_, everywhere);
         longest_trial_ = std::max(longest_trial_, seconds() - before);
         return trial;
     }
@@ -312,6 +127,15 @@ private:
         if (std::ranges::none_of(cuts, &glsl::Cut::hangs_on_size) || trial > k_fine_trial * request_.seconds)
             return std::nullopt;
         auto made = CutBench::create(scene_, fine, request_.views, k_others * request_.seconds);
+        return made ? std::optional(*std::move(made)) : std::nullopt;
+    }
+
+    /// Returns a bench with the smallest pictures for the program with switches; nullopt if the scene is fast
+    /// enough without.
+    std::optional<CutBench> coarse_bench(const CutBench& bench, size_t cuts) const {
+        if (bench.draw_seconds() * double(request_.views.size() * cuts) < k_slow_screening * request_.seconds)
+            return std::nullopt;
+        auto made = CutBench::create(scene_, small_of(request_.extent, k_smallest), request_.views, 0);
         return made ? std::optional(*std::move(made)) : std::nullopt;
     }
 
@@ -336,25 +160,177 @@ private:
             family.refused = std::min(family.refused, cut.strength);
     }
 
-    void try_alone(CutBench& bench, CutBench& finer, const std::vector<glsl::Cut>& cuts) {
-        watch_.begin("cuts tried", cuts.size());
-        for (const glsl::Cut& cut : cuts) {
+    /// A cut that keeps the picture by the switched program.
+    struct Screened {
+        size_t cut = 0;
+        size_t program = 0; ///< index into `switches_`
+        double error = 0;
+        double promise = 0; ///< rough share of the time that it saves
+    };
+
+    /// Draws the cuts that have a switched form with few programs, and keeps in `screened_` those that stay
+    /// within the goal. Returns the order in which to try cuts alone: these first, then those that were not
+    /// drawn.
+    std::vector<size_t> screen(CutBench& bench, Extent extent, const std::vector<glsl::Cut>& cuts) {
+        std::vector<size_t> candidates;
+        for (size_t i = 0; i < cuts.size(); ++i)
+            if (!cuts[i].switched.empty())
+                candidates.push_back(i);
+        watch_.begin("cuts screened", candidates.size());
+        std::vector<bool> seen(cuts.size());
+        double needed = k_switched_compile * bench.compile_seconds();
+        for (size_t first = 0; first < candidates.size() && goes_on(k_screened, needed);
+             first += k_switched_together) {
+            const auto from = candidates.begin() + std::ptrdiff_t(first);
+            const size_t count = std::min(k_switched_together, candidates.size() - first);
+            const double before = seconds();
+            auto switches = CutSwitches::create(scene_, extent, cuts, {from, from + std::ptrdiff_t(count)},
+                                                [&] { return goes_on(k_screened, needed); });
+            if (!switches || !bench.take_as_reference(*switches, searched_))
+                continue;
+            needed = seconds() - before;
+            switches_.push_back(*std::move(switches));
+            screen_those(bench, cuts, seen);
+        }
+        std::ranges::stable_sort(screened_, std::greater<>(), &Screened::promise);
+        put_stronger_first(cuts);
+        std::vector<size_t> order;
+        for (const Screened& each : screened_)
+            order.push_back(each.cut);
+        for (size_t i = 0; i < cuts.size(); ++i)
+            if (!seen[i])
+                order.push_back(i);
+        return order;
+    }
+
+    /// Exchanges the cuts of each family, so that a stronger one comes before a weaker one.
+    void put_stronger_first(const std::vector<glsl::Cut>& cuts) {
+        for (size_t i = 0; i < screened_.size(); ++i)
+            for (size_t k = i + 1; k < screened_.size(); ++k) {
+                const glsl::Cut &one = cuts[screened_[i].cut], &other = cuts[screened_[k].cut];
+                if (!one.family.empty() && one.family == other.family && one.strength < other.strength)
+                    std::swap(screened_[i], screened_[k]);
+            }
+    }
+
+    /// Draws the cuts of the last program.
+    void screen_those(CutBench& bench, const std::vector<glsl::Cut>& cuts, std::vector<bool>& seen) {
+        double most = 1;
+        for (const glsl::Cut& cut : cuts)
+            most = std::max(most, cut.work);
+        for (const size_t i : switches_.back().which()) {
+            if (!goes_on(k_screened))
+                return;
+            watch_.advance();
+            const auto known = families_.find(cuts[i].family);
+            const bool hopeless = known != families_.end() && cuts[i].strength >= known->second.refused;
+            const auto error = hopeless
+                                   ? std::nullopt
+                                   : bench.error_of_switched(switches_.back(), std::span(&i, 1), searched_);
+            seen[i] = true;
+            if (error) {
+                const double saved = std::max(0.0, 1 - bench.time_of_switched(switches_.back(), i));
+                screened_.push_back(
+                    {i, switches_.size() - 1, *error, saved + k_estimated * cuts[i].work / most});
+                continue;
+            }
+            tried_ += !hopeless;
+            refused_ += !hopeless;
+            if (!cuts[i].family.empty())
+                remember(cuts[i], false);
+        }
+    }
+
+    /// Returns whether `cut` is inside the text of another one, which is not the same text.
+    static bool is_gone(const ChosenCut& cut, const std::vector<ChosenCut>& others) {
+        return std::ranges::any_of(others, [&](const ChosenCut& other) {
+            return !is_inside(other.change, cut.change) && is_inside(cut.change, other.change);
+        });
+    }
+
+    /// Returns as many of the screened cuts as keep the goal together, by their switched programs.
+    std::vector<ChosenCut> all_that_keep(CutBench& bench, const std::vector<glsl::Cut>& cuts) {
+        std::vector<Screened> order = screened_;
+        std::ranges::stable_sort(order, {}, [](const Screened& each) { return each.error > 0; });
+        std::vector<ChosenCut> chosen;
+        std::vector<std::vector<size_t>> made(switches_.size());
+        std::vector<double> errors(switches_.size());
+        std::set<std::string> families;
+        for (const Screened& each : order) {
+            const glsl::Cut& cut = cuts[each.cut];
+            const ChosenCut next{cut.change, each.error, std::numeric_limits<double>::quiet_NaN()};
+            if ((!cut.family.empty() && families.contains(cut.family)) || is_gone(next, chosen) ||
+                std::ranges::any_of(
+                    chosen, [&](const ChosenCut& other) { return is_inside(other.change, next.change); }))
+                continue;
+            if (!goes_on(k_alone))
+                break;
+            made[each.program].push_back(each.cut);
+            const auto error =
+                bench.error_of_switched(switches_[each.program], made[each.program], searched_);
+            const double others = std::accumulate(errors.begin(), errors.end(), 0.0) - errors[each.program];
+            if (!error || others + *error > *searched_.most_error) {
+                made[each.program].pop_back();
+                continue;
+            }
+            errors[each.program] = *error;
+            families.insert(cut.family);
+            chosen.push_back(next);
+        }
+        return chosen;
+    }
+
+    /// Tries all cuts that keep the goal together: one program may save what each of them saves.
+    void try_all(CutBench& bench, CutBench& screening, const std::vector<glsl::Cut>& cuts) {
+        if (screened_.empty())
+            return;
+        std::vector<std::vector<ChosenCut>> left{all_that_keep(screening, cuts)};
+        while (!left.empty() && goes_on(k_alone, longest_trial_)) {
+            const std::vector<ChosenCut> part = std::move(left.back());
+            left.pop_back();
+            if (part.size() < 2)
+                continue;
+            const auto trial = tried(bench, changes_of(part), bench.own());
+            if (trial && trial->time <= k_pays)
+                way_.push_back({part, trial->time});
+            if (trial)
+                continue;
+            const auto middle = part.begin() + std::ptrdiff_t(part.size() / 2);
+            left.emplace_back(middle, part.end());
+            left.emplace_back(part.begin(), middle);
+        }
+    }
+
+    /// Returns whether a combination has the cut: the other views have been drawn with it.
+    bool is_on_way(const glsl::Cure& cut) const {
+        return std::ranges::any_of(way_, [&](const Step& step) {
+            return std::ranges::find(step.cuts, cut, &ChosenCut::change) != step.cuts.end();
+        });
+    }
+
+    void try_alone(CutBench& bench, CutBench& finer, const std::vector<glsl::Cut>& cuts,
+                   const std::vector<size_t>& order) {
+        watch_.begin("cuts tried", order.size());
+        for (const size_t i : order) {
+            const glsl::Cut& cut = cuts[i];
             // Time to combine and to judge is needed only if something was found.
-            if (!goes_on(good_.empty() ? k_together : k_alone) || !goes_on(k_together, longest_trial_))
+            if (!goes_on(good_.empty() && way_.empty() ? k_together : k_alone) ||
+                !goes_on(k_together, longest_trial_))
                 break;
             watch_.advance();
             if (is_decided(cut))
                 continue;
             ++tried_;
             CutBench& own = cut.hangs_on_size ? finer : bench;
-            const auto trial = tried(own, std::span(&cut.change, 1), own.own());
+            const auto trial = tried(own, std::span(&cut.change, 1), own.own(), !is_on_way(cut.change));
             refused_ += !trial;
             if (!cut.family.empty())
                 remember(cut, trial.has_value());
             if (trial && trial->time <= k_pays)
                 good_.push_back({cut.change, trial->error, trial->time, cut.hangs_on_size});
+            else
+                useless_.push_back(cut.change);
         }
-        known_ = cuts.size();
         // Cuts without any visible error come first; among those that save as much, the one with more work.
         // Then come those that save the most for their error.
         std::ranges::stable_sort(good_, std::greater<>(), [](const ChosenCut& cut) {
@@ -367,28 +343,59 @@ private:
     /// Adds one cut after another, as long as the error stays within the goal.
     void combine(CutBench& bench) {
         watch_.begin("cuts combined", good_.size());
-        if (good_.empty())
+        if (good_.empty() || combine_all(bench))
             return;
-        way_.push_back({good_.front()}); // tried alone already
+        if (!is_on_way(good_.front().change)) // tried everywhere
+            way_.push_back({{good_.front()}, good_.front().time});
         double best = good_.front().time;
+        std::vector<ChosenCut> last{good_.front()};
         for (const ChosenCut& cut : std::span(good_).subspan(1)) {
             watch_.advance();
             if (!goes_on(k_together))
                 break;
-            std::vector<ChosenCut> next = way_.back();
-            const bool gone = std::ranges::any_of(next, [&](const ChosenCut& other) {
-                return !is_inside(other.change, cut.change) && is_inside(cut.change, other.change);
-            });
-            if (gone)
+            std::vector<ChosenCut> next = last;
+            if (is_gone(cut, next))
                 continue;
-            std::erase_if(next, [&](const ChosenCut& other) { return is_inside(other.change, cut.change); });
-            next.push_back(cut);
+            add(next, cut);
             const auto trial = tried(bench, changes_of(next), bench.own());
             if (!trial || trial->time > k_pays * best)
                 continue;
             best = trial->time;
-            way_.push_back(std::move(next));
+            last = next;
+            way_.push_back({std::move(next), best});
         }
+    }
+
+    /// Adds the cut in the place of those inside it.
+    static void add(std::vector<ChosenCut>& cuts, const ChosenCut& cut) {
+        std::erase_if(cuts, [&](const ChosenCut& other) { return is_inside(other.change, cut.change); });
+        cuts.push_back(cut);
+    }
+
+    /// Tries one combination: the cuts that pay alone, and those of the fastest combination so far that were
+    /// not timed alone. Returns whether it is as fast as any other; then the longer way is not needed.
+    bool combine_all(CutBench& bench) {
+        std::vector<ChosenCut> all;
+        const auto best = std::ranges::min_element(way_, {}, &Step::time);
+        if (best != way_.end())
+            for (const ChosenCut& cut : best->cuts)
+                if (std::ranges::find(useless_, cut.change) == useless_.end() &&
+                    std::ranges::find(good_, cut.change, &ChosenCut::change) == good_.end())
+                    all.push_back(cut);
+        for (const ChosenCut& cut : good_)
+            if (!is_gone(cut, all))
+                add(all, cut);
+        if (all.size() < 2 || !goes_on(k_together, longest_trial_))
+            return false;
+        const auto trial = tried(bench, changes_of(all), bench.own());
+        double limit = good_.front().time;
+        if (best != way_.end())
+            limit = std::min(limit, best->time);
+        if (!trial || trial->time > k_as_fast * limit)
+            return false;
+        way_.clear(); // others have cuts that save nothing
+        way_.push_back({std::move(all), trial->time});
+        return true;
     }
 
     /// Returns the seconds that are left up to a share of the budget to time the verdict's pictures, after
@@ -408,7 +415,8 @@ private:
     /// Returns the last step and others evenly spaced before it, as many as the time allows.
     std::vector<size_t> judged_steps(double seconds_a_round) const {
         std::vector<size_t> steps;
-        const double points = k_timing * request_.seconds / (double(k_fewest_rounds) * seconds_a_round);
+        const double points =
+            k_timing * request_.seconds / (double(k_fewest_rounds) * seconds_a_round + longest_trial_);
         const auto affordable = size_t(std::clamp(points - 1, 1.0, double(k_most_knob_steps)));
         const size_t count = std::min(way_.size(), affordable);
         for (size_t i = 1; i <= count; ++i)
@@ -424,9 +432,9 @@ private:
         steps_ = judged_steps(round);
         std::vector<std::pair<std::string, scene::Scene>> scenes;
         for (const size_t step : steps_)
-            if (auto scene = changed(scene_, changes_of(way_[step])))
-                scenes.emplace_back(fmt::format("step {}: {} cut{}", step + 1, way_[step].size(),
-                                                way_[step].size() == 1 ? "" : "s"),
+            if (auto scene = changed(scene_, changes_of(way_[step].cuts)))
+                scenes.emplace_back(fmt::format("step {}: {} cut{}", step + 1, way_[step].cuts.size(),
+                                                way_[step].cuts.size() == 1 ? "" : "s"),
                                     *std::move(scene));
         Study study;
         study.about = "Cuts in the scene's text, compared with the unchanged scene.";
@@ -491,7 +499,7 @@ private:
             if (!may || (best && best->all.time().median <= point.all.time().median))
                 continue;
             best = &point;
-            found.chosen = way_[steps_[i - 1]];
+            found.chosen = way_[steps_[i - 1]].cuts;
         }
         if (!best) {
             say.push_back("no cut is measurably faster and keeps " + to_string(request_.goal) +
@@ -540,6 +548,11 @@ private:
         return sum;
     }
 
+    struct Step {
+        std::vector<ChosenCut> cuts;
+        double time = 1; ///< as a share of the unchanged scene's
+    };
+
     /// The strongest cut of a family that kept the picture, and the weakest that did not.
     struct Family {
         double kept = -std::numeric_limits<double>::infinity();
@@ -557,9 +570,12 @@ private:
     double longest_trial_ = 0; ///< seconds
     Extent judged_{};          ///< size of the verdict's pictures
     std::map<std::string, Family> families_{};
-    std::vector<ChosenCut> good_{};             ///< cuts that pay alone
-    std::vector<std::vector<ChosenCut>> way_{}; ///< combinations; each keeps the error
-    std::vector<size_t> steps_{};               ///< indices of the combinations to judge
+    std::vector<ChosenCut> good_{};     ///< cuts that pay alone
+    std::vector<glsl::Cure> useless_{}; ///< cuts that were timed alone or refused, and do not pay
+    std::vector<CutSwitches> switches_{};
+    std::vector<Screened> screened_{}; ///< those that promise the most first
+    std::vector<Step> way_{};          ///< combinations; each keeps the error
+    std::vector<size_t> steps_{};      ///< indices of the combinations to judge
 };
 
 } // namespace

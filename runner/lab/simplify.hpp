@@ -37,6 +37,9 @@ bool is_inside(const glsl::Cure& inner, const glsl::Cure& outer);
 // Compares a scene with cuts with the unchanged scene: the error of its pictures, and its share of the time.
 // Needs a current context.
 
+/// A cut or a combination is considered if a frame takes at most this share of its former time.
+inline constexpr double k_pays = 0.985;
+
 struct CutTrial {
     Specimen specimen;
     double error = 0; ///< in the worst view; 0: all bytes of the floats are equal
@@ -53,6 +56,36 @@ bool keeps_parts(const Goal& goal, const image::Image& own, const image::Image& 
 /// ones only moments up to the last of `views`. At most `most`.
 std::vector<View> other_views(const scene::Scene& scene, const std::vector<View>& views, size_t most);
 
+/// One program with many cuts, each of which a uniform switches on: one compilation shows what all of them
+/// change. Its times say little about a cut's own program.
+class CutSwitches {
+public:
+    /// /// Compiles those of the cuts `which`, indices into `cuts` of cuts with a switched form, that the
+    /// driver accepts. Returns nullopt if there are none, or if `keep_going` ends it.
+    static std::optional<CutSwitches> create(const scene::Scene& scene, Extent extent,
+                                             std::span<const glsl::Cut> cuts, std::vector<size_t> which,
+                                             const KeepGoing& keep_going);
+
+    /// /// Returns the indices of the accepted cuts, in ascending order.
+    const std::vector<size_t>& which() const { return which_; }
+    /// Makes the cuts with these indices from the next picture on, and no others.
+    void make(std::span<const size_t> cuts);
+    Specimen& specimen() { return specimen_; }
+
+    Truth truth{}; ///< the pictures without a cut; set by CutBench::take_as_reference()
+
+private:
+    CutSwitches(Specimen specimen, std::vector<size_t> which, std::vector<scene::Knob> knobs, size_t first)
+        : specimen_(std::move(specimen)), which_(std::move(which)), knobs_(std::move(knobs)), first_(first) {}
+    static std::optional<CutSwitches> link(const scene::Scene& scene, Extent extent,
+                                           std::span<const glsl::Cut> cuts, std::vector<size_t> which);
+
+    Specimen specimen_;
+    std::vector<size_t> which_;
+    std::vector<scene::Knob> knobs_; ///< of the scene, then the switches
+    size_t first_;                   ///< index of the first switch
+};
+
 class CutBench {
 public:
     /// Draws the unchanged scene in `views` and, for at most `seconds`, in its other_views(). Fails
@@ -67,10 +100,23 @@ public:
     double seconds_of_trial();
     /// Returns in how many views a cut that saves time is also drawn.
     size_t other_view_count() const { return other_views_.size(); }
+    /// Seconds to compile the unchanged scene and to draw its first picture.
+    double compile_seconds() const { return compile_seconds_; }
+    /// Seconds to draw one view of it; rough.
+    double draw_seconds() const { return draw_seconds_; }
+    /// /// Draws the switches without a cut, for error_of_switched(). Returns false if that exceeds the goal.
+    bool take_as_reference(CutSwitches& switches, const Goal& goal);
+    /// Returns the error of the cuts in the worst view, or nullopt if it exceeds the goal. The other views do
+    /// not count.
+    std::optional<double> error_of_switched(CutSwitches& switches, std::span<const size_t> cuts,
+                                            const Goal& goal);
+    /// Returns the time with the cut switched on, as a share of the time without; rough.
+    double time_of_switched(CutSwitches& switches, size_t cut);
     /// Draws the scene with the cuts, and times it against `other`. Returns nullopt if the cuts cannot be
     /// made, the driver rejects the text, or the error exceeds the goal in the whole picture or in a part.
-    /// If the cuts save time, the other views count, too.
-    std::optional<CutTrial> try_cuts(std::span<const glsl::Cure> cuts, Specimen& other, const Goal& goal);
+    /// If the cuts save time, the other views count, too, unless `everywhere` is false.
+    std::optional<CutTrial> try_cuts(std::span<const glsl::Cure> cuts, Specimen& other, const Goal& goal,
+                                     bool everywhere = true);
 
 private:
     CutBench(const scene::Scene& scene, Extent extent, std::vector<View> views, Specimen own)
@@ -85,6 +131,8 @@ private:
     std::vector<View> views_;
     Specimen own_;
     Truth truth_{};
+
+    double compile_seconds_ = 0, draw_seconds_ = 0;
     std::vector<View> other_views_{};
     std::vector<Truth> other_truths_{}; ///< one per other view
 };
@@ -101,8 +149,9 @@ struct SimplifyRequest : SearchRequest {
 /// A cut that was chosen.
 struct ChosenCut {
     glsl::Cure change;
-    double error = 0;           ///< of this cut alone, in the search pictures
-    double time = 1;            ///< of a frame with this cut alone, as a share of the time without it
+    double error = 0; ///< of this cut alone, in the search pictures
+    /// Of a frame with this cut alone, as a share of the time without it; NaN: not timed alone.
+    double time = 1;
     bool hangs_on_size = false; ///< see glsl::Cut
 };
 

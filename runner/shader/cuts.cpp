@@ -17,35 +17,6 @@
 namespace tidemark::glsl {
 namespace {
 
-constexpr double k_unknown_turns = 16, k_texture = 8, k_costly = 4;
-/// Upper limit of an estimate; recursion or nested loops would make it infinite.
-constexpr double k_most = 1e12;
-
-double turns_of(const ParsedText& text, NodeId loop) {
-    const auto bound = loop_bound(text, loop);
-    return bound && bound->number != k_no_node ? std::max(1.0, bound->turns) : k_unknown_turns;
-}
-
-/// Returns the weight of one operation or built-in function; 0 for all else.
-double weight_of(const ParsedText& text, NodeId id) {
-    switch (text.tree()[id].kind) {
-    case NodeKind::prefix:
-    case NodeKind::postfix:
-    case NodeKind::binary:
-    case NodeKind::assign:
-    case NodeKind::conditional: return 1;
-    case NodeKind::call: {
-        const std::string_view name = called_name(text, id);
-        const BuiltinFunction* const function = find_builtin(name);
-        return !function                     ? 0
-               : name.starts_with("tex")     ? k_texture
-               : function->is(Trait::costly) ? k_costly
-                                             : 1;
-    }
-    default: return 0;
-    }
-}
-
 bool calls_function(const ParsedText& text, const TreeFacts& facts, NodeId id) {
     return text.tree()[id].kind == NodeKind::call && facts.function(called_name(text, id));
 }
@@ -66,18 +37,19 @@ struct Exit {
     double saved, strength;
     const char* family;
 };
-constexpr std::array k_exits_of_step{Exit{"< 0.01", 0.5, 2, "near"}, Exit{"< 0.001", 0.4, 1, "near"},
-                                     Exit{"> 20.0", 0.2, 1, "leap"}};
+constexpr std::array k_exits_of_step{Exit{"< 0.01", 0.5, 3, "near"}, Exit{"< 0.003", 0.45, 2, "near"},
+                                     Exit{"< 0.001", 0.4, 1, "near"}, Exit{"> 20.0", 0.2, 1, "leap"}};
 constexpr std::array k_exits_of_way{Exit{"> 20.0", 0.3, 2, "far"}, Exit{"> 100.0", 0.15, 1, "far"}};
-constexpr std::array k_exits_by_way{Exit{"< 0.004 * abs({})", 0.5, 2, "relative"},
+constexpr std::array k_exits_by_way{Exit{"< 0.004 * abs({})", 0.5, 3, "relative"},
+                                    Exit{"< 0.002 * abs({})", 0.45, 2, "relative"},
                                     Exit{"< 0.001 * abs({})", 0.4, 1, "relative"}};
 /// Factors of a number: of a threshold of a distance, of a limit of a way, of a march's step.
 struct Factor {
     double factor, saved, strength;
 };
-constexpr std::array k_coarser{Factor{3, 0.25, 1}, Factor{10, 0.4, 2}};
-constexpr std::array k_nearer{Factor{0.5, 0.3, 1}, Factor{0.25, 0.4, 2}};
-constexpr std::array k_longer{Factor{1.2, 0.16, 1}, Factor{1.5, 0.3, 2}};
+constexpr std::array k_coarser{Factor{2, 0.15, 1}, Factor{3, 0.25, 2}, Factor{10, 0.4, 3}};
+constexpr std::array k_nearer{Factor{0.75, 0.15, 1}, Factor{0.5, 0.3, 2}, Factor{0.25, 0.4, 3}};
+constexpr std::array k_longer{Factor{1.1, 0.09, 1}, Factor{1.2, 0.16, 2}, Factor{1.5, 0.3, 3}};
 constexpr double k_largest_threshold = 0.1, k_least_way = 4;
 /// Chances that a march keeps the picture if it ends earlier, or if its steps are longer.
 constexpr double k_chance_of_exit = 0.5, k_chance_of_step = 0.4;
@@ -95,6 +67,28 @@ std::optional<WrittenTokens> between(const ParsedText& text, size_t first, size_
     if (text.spelled(first).file.empty() || text.spelled(first).file != text.spelled(last).file)
         return std::nullopt;
     return WrittenTokens{words[first].used, words[last].used};
+}
+
+std::optional<WrittenTokens> between(const ParsedText& text, NodeId id) {
+    return between(text, text.tree()[id].begin, text.tree()[id].end - 1);
+}
+
+/// Returns edits that choose between the number and the one that `replacing` gives, and that remove `const`
+/// from the number's declaration.
+std::vector<Wrap> chosen_number(const ParsedText& text, const Wrap& replacing, NodeId number) {
+    Wrap choice = replacing;
+    choice.replaces = false;
+    choice.front = fmt::format("($ ? {} : ", replacing.front);
+    choice.behind = ")";
+    std::vector<Wrap> wraps{std::move(choice)};
+    const NodeId declaration = text.tree().around(number, NodeKind::declaration);
+    if (declaration == k_no_node)
+        return wraps;
+    for (size_t i = text.tree()[declaration].begin; i < text.tree()[number].begin; ++i)
+        if (text.word(i) == "const")
+            if (const auto word = between(text, i, i))
+                wraps.push_back(in_place_of(text, *word, ""));
+    return wraps;
 }
 
 /// Writes a number with four digits.
@@ -139,60 +133,6 @@ std::string in_short(std::string words) {
 }
 
 } // namespace
-
-WorkEstimate::WorkEstimate(const ParsedText& text, const TreeFacts& facts)
-    : text_(text), tree_(text.tree()), facts_(facts), once_(tree_.nodes.size()), times_(tree_.nodes.size()) {
-    add_up();
-    add_up(); // functions called before their definition are known now
-    count_times();
-}
-
-double WorkEstimate::own(NodeId id) const {
-    if (tree_[id].kind == NodeKind::call)
-        if (const auto known = functions_.find(called_name(text_, id)); known != functions_.end())
-            return known->second;
-    return weight_of(text_, id);
-}
-
-/// Sums bottom-up: children come before their parents.
-void WorkEstimate::add_up() {
-    for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
-        double sum = own(id);
-        for (NodeId child = tree_[id].first_child; child != k_no_node; child = tree_[child].next)
-            sum += once_[child];
-        once_[id] = std::min(k_most, is_loop(tree_[id].kind) ? sum * turns_of(text_, id) : sum);
-        if (tree_[id].kind == NodeKind::function)
-            functions_[text_.word_of(id)] = std::max(functions_[text_.word_of(id)], once_[id]);
-    }
-}
-
-/// Counts how often each node runs in one call of its function, then how often each function is called.
-void WorkEstimate::count_times() {
-    std::unordered_map<std::string_view, std::vector<NodeId>> sites; // by the name that is called
-    for (NodeId id = NodeId(tree_.nodes.size()) - 1; id > 0; --id) {
-        const NodeId parent = tree_[id].parent;
-        const bool inside = parent != k_no_node && tree_[id].kind != NodeKind::function;
-        times_[id] =
-            !inside ? 1 : times_[parent] * (is_loop(tree_[parent].kind) ? turns_of(text_, parent) : 1);
-        if (calls_function(text_, facts_, id))
-            sites[called_name(text_, id)].push_back(id);
-    }
-    std::unordered_map<std::string_view, double> calls{{"main", 1.0}};
-    const std::function<double(NodeId)> calls_of = [&](NodeId function) {
-        const std::string_view name = function == k_no_node ? "" : text_.word_of(function);
-        const auto [known, fresh] = calls.emplace(name, 0.0); // stays 0 for a recursive call
-        if (!fresh)
-            return known->second;
-        double sum = 0;
-        for (const NodeId site : sites[name])
-            sum += times_[site] * calls_of(tree_.around(site, NodeKind::function));
-        return calls[name] = std::min(k_most, sum);
-    };
-    std::vector<double> in_all(times_.size());
-    for (NodeId id = 1; id < tree_.nodes.size(); ++id)
-        in_all[id] = times_[id] * calls_of(tree_.around(id, NodeKind::function));
-    times_ = std::move(in_all);
-}
 
 Cutter::Cutter(const ParsedText& text, const TreeFacts& facts)
     : text_(text), tree_(text.tree()), facts_(facts), work_(text, facts), kept_(tree_.nodes.size()) {
@@ -257,11 +197,25 @@ std::string Cutter::place_of(NodeId id) const {
 }
 
 void Cutter::add(std::optional<WrittenTokens> tokens, std::string instead, std::string reason, double work,
-                 std::vector<Cut>& cuts) const {
+                 std::vector<Cut>& cuts, std::optional<Wrap> switched) const {
     if (!tokens)
         return;
     cuts.push_back({{{in_place_of(text_, *tokens, std::move(instead))}, std::move(reason)}, work});
     cuts.back().chance = chance_without(work, k_chance_of_term);
+    if (switched)
+        cuts.back().switched = {*std::move(switched)};
+}
+
+/// Returns the edit that puts `neutral` in the place of an operand; nothing if the operation has another type
+/// without the operand.
+std::optional<Wrap> Cutter::switched_operand(NodeId id, NodeId rest, int neutral) const {
+    const auto type = expression_type(text_, facts_, id),
+               whole = expression_type(text_, facts_, tree_[id].parent),
+               left = expression_type(text_, facts_, rest);
+    const auto tokens = between(text_, id);
+    if (!type || !tokens || (whole && left && *whole != *left))
+        return std::nullopt;
+    return wrapped(text_, *tokens, fmt::format("($ ? {}({}) : (", to_string(*type), neutral), "))");
 }
 
 /// Adds `a + b` without b and without a; likewise for `-` and `*`. Each operand of a chain is added once.
@@ -275,12 +229,12 @@ void Cutter::add_operands(NodeId id, std::vector<Cut>& cuts) const {
     if (!is_cheap(right))
         add(between(text_, tree_[id].word, tree_[right].end - 1), "",
             fmt::format("{}: leaves out the {} `{}`", place_of(right), what, in_short(text_.excerpt(right))),
-            work_.of(right), cuts);
+            work_.of(right), cuts, switched_operand(right, left, product));
     const bool chain = tree_[left].kind == NodeKind::binary && text_.word_of(left) == op;
     if (!is_cheap(left) && !chain)
         add(between(text_, tree_[left].begin, tree_[id].word), op == "-" ? "-" : "",
             fmt::format("{}: leaves out the {} `{}`", place_of(left), what, in_short(text_.excerpt(left))),
-            work_.of(left), cuts);
+            work_.of(left), cuts, switched_operand(left, right, product));
 }
 
 void Cutter::add_statement(NodeId id, std::vector<Cut>& cuts) const {
@@ -293,8 +247,10 @@ void Cutter::add_statement(NodeId id, std::vector<Cut>& cuts) const {
     const Node& node = tree_[id];
     const bool in_block = tree_[node.parent].kind == NodeKind::block;
     const size_t before = cuts.size();
-    add(between(text_, node.begin, node.end - 1), in_block ? "" : ";",
-        fmt::format("{}: leaves out `{}`", place_of(id), in_short(text_.excerpt(id))), work_.of(id), cuts);
+    const auto tokens = between(text_, id);
+    add(tokens, in_block ? "" : ";",
+        fmt::format("{}: leaves out `{}`", place_of(id), in_short(text_.excerpt(id))), work_.of(id), cuts,
+        tokens ? std::optional(wrapped(text_, *tokens, "{ if (!$) ", " }")) : std::nullopt);
     if (cuts.size() > before)
         cuts.back().chance = chance_without(work_.of(id), k_chance_of_statement);
 }
@@ -310,13 +266,14 @@ void Cutter::add_turns(NodeId loop, std::vector<Cut>& cuts) const {
             continue;
         before = turns;
         if (auto wrap = with_turns(text_, *bound, turns))
-            cuts.push_back({.change = {{*std::move(wrap)},
+            cuts.push_back({.change = {{*wrap},
                                        fmt::format("{}: {:g} iterations of the loop instead of {:g}",
                                                    place_of(loop), turns, bound->turns)},
                             .work = work_.of(loop) * (1 - turns / bound->turns),
                             .chance = chance,
                             .family = family_of("turns", loop),
-                            .strength = -turns});
+                            .strength = -turns,
+                            .switched = chosen_number(text_, *wrap, bound->number)});
     }
 }
 
@@ -361,7 +318,7 @@ void Cutter::add_exits(NodeId step, std::vector<Cut>& cuts) const {
     const NodeId loop = loop_around(step), statement = tree_[step].parent;
     if (loop == k_no_node || text_.word_of(step) != "+=" || tree_[statement].kind != NodeKind::expression)
         return;
-    const auto tokens = between(text_, tree_[statement].begin, tree_[statement].end - 1);
+    const auto tokens = between(text_, statement);
     if (!tokens)
         return;
     const NodeId target = tree_.child(step, 0);
@@ -369,19 +326,25 @@ void Cutter::add_exits(NodeId step, std::vector<Cut>& cuts) const {
                                 ? std::string(text_.word_of(target))
                                 : "";
     const auto add_exit = [&](const std::string& front, std::vector<Wrap> inner, std::string_view value,
-                              const Exit& exit) {
+                              const Exit& exit, const std::optional<WrittenTokens>& call) {
         std::string limit = exit.limit;
         if (const size_t place = limit.find("{}"); place != limit.npos)
             limit.replace(place, 2, way);
         inner.push_back(
             wrapped(text_, *tokens, "{ " + front, fmt::format(" if ({} {}) break; }}", value, limit)));
+        std::vector<Wrap> switched{
+            wrapped(text_, *tokens, call ? "{ float tidemark_step@; " : "{ ",
+                    fmt::format(" if ($ && {} {}) break; }}", call ? "abs(tidemark_step@)" : value, limit))};
+        if (call)
+            switched.push_back(wrapped(text_, *call, "(tidemark_step@ = ", ")"));
         cuts.push_back({.change = {std::move(inner),
                                    fmt::format("{}: leaves the loop after `{}` if {} {}", place_of(step),
                                                in_short(text_.excerpt(step)), value, limit)},
                         .work = work_.of(loop) * exit.saved,
                         .chance = k_chance_of_exit,
                         .family = family_of(exit.family, step),
-                        .strength = exit.strength});
+                        .strength = exit.strength,
+                        .switched = std::move(switched)});
     };
     bool marches = false;
     for (NodeId id = 1; id < step && !marches; ++id) {
@@ -389,34 +352,36 @@ void Cutter::add_exits(NodeId step, std::vector<Cut>& cuts) const {
             continue;
         std::string front, value;
         std::vector<Wrap> inner;
+        std::optional<WrittenTokens> call;
         if (tree_[id].kind == NodeKind::name && is_computed_in(loop, text_.word_of(id)))
             value = fmt::format("abs({})", text_.excerpt(step_value(id)));
         else if (calls_function(text_, facts_, id) && !is_cheap(id) && type_of(id) && type_of(id)->scalar()) {
             const std::string name = fresh_name(text_, "march_step");
             front = fmt::format("float {} = {}; ", name, text_.excerpt(id));
             value = fmt::format("abs({})", name);
-            inner = {in_place_of(text_, *between(text_, tree_[id].begin, tree_[id].end - 1), name)};
+            call = between(text_, id);
+            inner = {in_place_of(text_, *call, name)};
         } else
             continue;
         marches = true;
         for (const Exit& exit : k_exits_of_step)
-            add_exit(front, inner, value, exit);
+            add_exit(front, inner, value, exit, call);
         if (!way.empty())
             for (const Exit& exit : k_exits_by_way)
-                add_exit(front, inner, value, exit);
+                add_exit(front, inner, value, exit, call);
     }
     if (!marches)
         return;
     add_longer_steps(step, loop, cuts);
     if (!way.empty())
         for (const Exit& exit : k_exits_of_way)
-            add_exit("", {}, way, exit);
+            add_exit("", {}, way, exit, {});
 }
 
 /// Adds longer steps of a march: many step less far than their distance allows.
 void Cutter::add_longer_steps(NodeId step, NodeId loop, std::vector<Cut>& cuts) const {
     const NodeId length = tree_.child(step, 1);
-    const auto tokens = between(text_, tree_[length].begin, tree_[length].end - 1);
+    const auto tokens = between(text_, length);
     if (!tokens || kept_[loop])
         return;
     for (const Factor& each : k_longer)
@@ -427,7 +392,9 @@ void Cutter::add_longer_steps(NodeId step, NodeId loop, std::vector<Cut>& cuts) 
              .work = work_.of(loop) * each.saved,
              .chance = k_chance_of_step,
              .family = family_of("step", step),
-             .strength = each.strength});
+             .strength = each.strength,
+             .switched = {
+                 wrapped(text_, *tokens, fmt::format("($ ? {} : 1.0) * (", number_text(each.factor)), ")")}});
 }
 
 /// Returns the loop that `if (test) break;` or `if (test) return …;` leaves; k_no_node for any other test.
@@ -466,14 +433,16 @@ void Cutter::add_limits(NodeId test, const SingleValues& values, std::vector<Cut
             continue;
         for (const Factor& each : near ? k_coarser : k_nearer) {
             const std::string limit = number_text(*size * each.factor);
+            const Wrap wrap = in_place_of(text_, *tokens, limit);
             cuts.push_back(
-                {.change = {{in_place_of(text_, *tokens, limit)},
+                {.change = {{wrap},
                             fmt::format("{}: leaves the loop by `{}` with {} instead of {}", place_of(test),
                                         in_short(text_.excerpt(test)), limit, word)},
                  .work = work_.of(loop) * each.saved,
                  .chance = k_chance_of_exit,
                  .family = family_of("limit", literal),
-                 .strength = each.strength});
+                 .strength = each.strength,
+                 .switched = chosen_number(text_, wrap, literal)});
         }
     }
 }
@@ -518,11 +487,17 @@ std::vector<Cut> Cutter::levels(const std::function<bool(std::string_view)>& has
         if (!call || is_kept(id) || work_.of(id) == 0 || !has_mipmaps(text_.word_of(tree_.child(id, 1))))
             continue;
         for (int level = 0; level <= k_coarsest_level; ++level)
-            cuts.push_back({{{in_place_of(text_, {call->first, call->first}, "textureLod"),
-                              wrapped(text_, {call->last, call->last}, fmt::format(", {}.0", level), "")},
-                             fmt::format("{}: reads only level {} in `{}`", place_of(id), level,
-                                         in_short(text_.excerpt(id)))},
-                            work_of_call(id) / 2});
+            cuts.push_back(
+                {.change = {{in_place_of(text_, {call->first, call->first}, "textureLod"),
+                             wrapped(text_, {call->last, call->last}, fmt::format(", {}.0", level), "")},
+                            fmt::format("{}: reads only level {} in `{}`", place_of(id), level,
+                                        in_short(text_.excerpt(id)))},
+                 .work = work_of_call(id) / 2,
+                 .switched = {wrapped(
+                     text_, *call,
+                     fmt::format("($ ? textureLod({}, {}, {}.0) : ", words_of(text_, tree_.child(id, 1)),
+                                 words_of(text_, tree_.child(id, 2)), level),
+                     ")")}});
     }
     return cuts;
 }
@@ -570,10 +545,11 @@ Cut Cutter::replaced(const Replaceable& expression, std::span<const double> numb
     if (!expression.type.scalar())
         words = fmt::format("{}({})", to_string(expression.type), words);
     std::vector<Cut> cuts;
-    add(written_for(text_, expression.node, expression.node), words,
+    const auto tokens = written_for(text_, expression.node, expression.node);
+    add(tokens, words,
         fmt::format("{}: {} replaces `{}`", place_of(expression.node), words,
                     in_short(text_.excerpt(expression.node))),
-        expression.work, cuts);
+        expression.work, cuts, wrapped(text_, *tokens, fmt::format("($ ? {} : (", words), "))"));
     return cuts.front();
 }
 

@@ -56,6 +56,9 @@ struct Cut {
     /// Cuts of one family change the same thing, a stronger one more. Empty: it has none.
     std::string family{};
     double strength = 0;
+    /// The cut as a choice at run time: `$` in the texts stands for a bool that is true if the cut is made,
+    /// `@` for a number that no other cut has. Empty: there is no such form.
+    std::vector<Wrap> switched{};
 };
 
 /// A float expression that a number could replace.
@@ -99,7 +102,8 @@ private:
     bool is_computed_in(NodeId loop, std::string_view name) const;
     NodeId loop_around(NodeId id) const;
     void add(std::optional<WrittenTokens> tokens, std::string instead, std::string reason, double work,
-             std::vector<Cut>& cuts) const;
+             std::vector<Cut>& cuts, std::optional<Wrap> switched) const;
+    std::optional<Wrap> switched_operand(NodeId id, NodeId rest, int neutral) const;
     double work_of_call(NodeId id) const;
     std::optional<ValueType> type_of(NodeId id) const;
     std::string place_of(NodeId id) const;
