@@ -46,6 +46,81 @@ bool calls_function(const ParsedText& text, const TreeFacts& facts, NodeId id) {
     return text.tree()[id].kind == NodeKind::call && facts.function(called_name(text, id));
 }
 
+// Central differences, as in normals: `f(p + e) - f(p - e)` for several e. One-sided ones share f(p).
+
+constexpr double k_chance_of_difference = 0.6;
+
+std::string words_without(const ParsedText& text, NodeId id, std::string_view left_out) {
+    std::string words;
+    for (size_t i = text.tree()[id].begin; i < text.tree()[id].end; ++i)
+        if (text.word(i) != left_out)
+            words += (words.empty() ? "" : " ") + std::string(text.word(i));
+    return words;
+}
+
+/// Finds the terms of `right` whose signs alone make it differ from `left`: `- e` of `p - e` beside `p + e`.
+/// Returns false if anything else differs.
+bool find_steps(const ParsedText& text, NodeId left, NodeId right, std::vector<NodeId>& steps) {
+    const SyntaxTree& tree = text.tree();
+    if (words_of(text, left) == words_of(text, right))
+        return true;
+    if (tree[left].kind != tree[right].kind || tree.child_count(left) != tree.child_count(right))
+        return false;
+    const auto is_sum = [&](NodeId id) {
+        return tree[id].kind == NodeKind::binary && (text.word_of(id) == "+" || text.word_of(id) == "-");
+    };
+    if (is_sum(left) && is_sum(right) &&
+        words_of(text, tree.child(left, 0)) == words_of(text, tree.child(right, 0)) &&
+        words_without(text, tree.child(left, 1), "-") == words_without(text, tree.child(right, 1), "-")) {
+        steps.push_back(right);
+        return true;
+    }
+    if (text.word_of(left) != text.word_of(right) || tree.child_count(left) == 0)
+        return false;
+    for (size_t i = 0; i < tree.child_count(left); ++i)
+        if (!find_steps(text, tree.child(left, i), tree.child(right, i), steps))
+            return false;
+    return true;
+}
+
+/// Returns the words of the expression without the last operands of these sums.
+std::string without_steps(const ParsedText& text, NodeId id, const std::vector<NodeId>& steps) {
+    const SyntaxTree& tree = text.tree();
+    std::string words;
+    for (size_t i = tree[id].begin; i < tree[id].end; ++i)
+        if (std::ranges::none_of(steps,
+                                 [&](NodeId step) { return i >= tree[step].word && i < tree[step].end; }))
+            words += (words.empty() ? "" : " ") + std::string(text.word(i));
+    return words;
+}
+
+/// Returns the call of the author's function that the expression is, or takes a member of.
+NodeId call_behind(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+    const SyntaxTree& tree = text.tree();
+    while (tree[id].kind == NodeKind::member || tree[id].kind == NodeKind::parenthesis)
+        id = tree.child(id, 0);
+    return calls_function(text, facts, id) ? id : k_no_node;
+}
+
+/// Returns the statement of a block that computes the expression once; k_no_node if there is none.
+NodeId statement_of(const SyntaxTree& tree, NodeId id) {
+    for (; id != k_no_node; id = tree[id].parent) {
+        const NodeKind kind = tree[id].kind;
+        if (tree[tree[id].parent].kind == NodeKind::block)
+            return id;
+        if (!is_expression(kind) && kind != NodeKind::declarator)
+            return k_no_node;
+    }
+    return k_no_node;
+}
+
+/// Differences that share their centre.
+struct Differences {
+    std::string centre; ///< words of f(p)
+    NodeId statement = k_no_node;
+    std::vector<NodeId> terms{}; ///< `f(p + e) - f(p - e)`
+};
+
 } // namespace
 
 WorkEstimate::WorkEstimate(const ParsedText& text, const TreeFacts& facts)
@@ -100,6 +175,62 @@ void WorkEstimate::count_times() {
     for (NodeId id = 1; id < tree_.nodes.size(); ++id)
         in_all[id] = times_[id] * calls_of(tree_.around(id, NodeKind::function));
     times_ = std::move(in_all);
+}
+
+void Cutter::add_differences(std::vector<Cut>& cuts) const {
+    std::map<std::pair<NodeId, std::string>, Differences> found; // by block and centre
+    for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+        if (tree_[id].kind != NodeKind::binary || text_.word_of(id) != "-" || is_kept(id))
+            continue;
+        const NodeId left = tree_.child(id, 0), right = tree_.child(id, 1);
+        const NodeId call = call_behind(text_, facts_, right), statement = statement_of(tree_, id);
+        std::vector<NodeId> steps;
+        if (call == k_no_node || statement == k_no_node || call_behind(text_, facts_, left) == k_no_node ||
+            facts_.function(called_name(text_, call))->written_arguments != 0 ||
+            !expression_type(text_, facts_, right) || !find_steps(text_, left, right, steps) || steps.empty())
+            continue;
+        std::string centre = without_steps(text_, right, steps);
+        Differences& same = found[{tree_[statement].parent, centre}];
+        if (same.terms.empty() || statement < same.statement)
+            same.statement = statement;
+        same.centre = std::move(centre);
+        same.terms.push_back(id);
+    }
+    size_t number = 0;
+    for (const auto& [place, same] : found) {
+        const NodeId first = same.terms.front(), value = tree_.child(first, 1);
+        const std::string type = to_string(*expression_type(text_, facts_, value));
+        const std::string name = fresh_name(text_, "centre", ++number);
+        const size_t word = tree_[same.statement].begin;
+        auto declared = at_word(text_, word, fmt::format("{} {} = {}; ", type, name, same.centre), "");
+        auto chosen = at_word(
+            text_, word,
+            fmt::format("{0} tidemark_centre@; if ($) tidemark_centre@ = {1}; ", type, same.centre), "");
+        if (same.terms.size() < 2 || !declared || !chosen)
+            continue;
+        std::vector<Wrap> wraps{*std::move(declared)}, switched{*std::move(chosen)};
+        for (const NodeId term : same.terms) {
+            const auto whole = written_for(text_, term, term),
+                       right = written_for(text_, tree_.child(term, 1), tree_.child(term, 1));
+            if (!whole || !right)
+                break;
+            wraps.push_back(wrapped(text_, *whole, "2.0 * (", ")"));
+            wraps.push_back(in_place_of(text_, *right, name));
+            switched.push_back(wrapped(text_, *whole, "($ ? 2.0 : 1.0) * (", ")"));
+            switched.push_back(wrapped(text_, *right, "($ ? tidemark_centre@ : ", ")"));
+        }
+        if (wraps.size() != 1 + 2 * same.terms.size())
+            continue;
+        const size_t fewer = same.terms.size() - 1;
+        cuts.push_back(
+            {.change = {std::move(wraps),
+                        fmt::format("{}: takes {} differences from `{}` to one side, {} call{} fewer",
+                                    place_of(first), same.terms.size(), same.centre, fewer,
+                                    fewer == 1 ? "" : "s")},
+             .work = work_.of(value) * double(fewer),
+             .chance = k_chance_of_difference,
+             .switched = std::move(switched)});
+    }
 }
 
 namespace {

@@ -190,8 +190,27 @@ private:
                         return Declared{each.type};
             return std::nullopt;
         }
+        case NodeKind::call: return declared_call(id);
         default: return std::nullopt;
         }
+    }
+
+    /// Returns the type that all overloads of the author's function have, or the structure that is
+    /// constructed.
+    std::optional<Declared> declared_call(NodeId id) const {
+        const std::string_view name = called_name(text_, id);
+        if (facts_.structures.contains(name))
+            return Declared{name};
+        std::optional<Declared> type;
+        if (const FunctionFacts* const own = facts_.function(name))
+            for (const NodeId definition : own->definitions) {
+                const NodeId given = tree_.child(definition, 0);
+                const Declared each{type_name(text_, given), dimensions(text_, given, k_no_node)};
+                if (type && *type != each)
+                    return std::nullopt;
+                type = each;
+            }
+        return type;
     }
 
     /// Returns the type of an element of an array, of a vector's component or of a matrix's column.

@@ -292,7 +292,7 @@ class Bench:
                         base = recounts[1] if len(pair) == 2 else hot
                         row["recounted"] = (recounts[0]["operations"] - base["operations"]) / hot["operations"]
                         row["predicted"] = line["share"] * min(1, row["recounted"] / line["counted"]) if len(pair) == 2 else -line["share"]
-                        if abs(row["recounted"]) >= line["counted"] / 2:
+                        if (row["recounted"] if len(pair) == 2 else -row["recounted"]) >= line["counted"] / 2:
                             copies.append((row, pair))
                     break
             rows.append(row)

@@ -10,7 +10,8 @@ std::string type_of(const std::string& expression) {
     const auto read = parsed(
         "uniform sampler2D s;\nuniform mat3 turn;\nstruct Ray { vec3 o; };\nfloat twice = 2.0;\n"
         "vec2 own(vec2 p) { return p; }\nfloat two(int x) { return 1.0; }\nint two(float x) { return 1; }\n"
-        "vec2 some(vec2 p) { return p; }\nvec3 some(vec3 p) { return p; }\n"
+        "Ray cast(vec3 p) { return Ray(p); }\nvec2 some(vec2 p) { return p; }\nvec3 some(vec3 p) { return p; "
+        "}\n"
         "float some(vec3 p, vec3 q) { return 1.0; }\nfloat three(int x) { return 1.0; }\n"
         "vec2 three(ivec2 x) { return vec2(x); }\n"
         "void f(float twice) { vec4 v; float a[3]; Ray ray; float d; { vec2 d; } int n; }\n"
@@ -44,6 +45,8 @@ TEST(ExpressionType, FollowsDeclarationsAndFunctions) {
     EXPECT_EQ(type_of("twice"), "float"); // f has another one
     EXPECT_EQ(type_of("ray.o"), "vec3");
     EXPECT_EQ(type_of("many[1].o.xy"), "vec2");
+    EXPECT_EQ(type_of("Ray(p).o"), "vec3");
+    EXPECT_EQ(type_of("cast(p).o.x"), "float");
     EXPECT_EQ(type_of("a[1]"), "float");
     EXPECT_EQ(type_of("p[1]"), "float");
     EXPECT_EQ(type_of("turn[1]"), "vec3");
