@@ -245,37 +245,66 @@ const image::Image& image_of(const scene::Scene& scene, const std::vector<PassPi
 Result<void> explain_apart(DeviceDifference& difference, const std::string& device, const scene::Scene& scene,
                            const render::FrameState& state, const lab::FramePictures& there,
                            lab::OtherDevice other) {
-    const auto explain = [&]() -> Result<Json> {
-        const auto context = TRY(host::HeadlessContext::create({device}));
-        lab::ProbeBench bench(scene, {});
-        DeviceDifference found;
-        TRY(lab::explain(found, bench, state, there, other));
+    const auto json_of = [](const DeviceDifference& found) {
         Json causes = Json::array();
         for (const DeviceCause& cause : found.causes)
             causes.push_back(cause_json(cause));
-        return Json{{"explained", found.explained}, {"left_out", found.problem}, {"causes", causes}};
+        return dump(Json{{"explained", found.explained},
+                         {"left_out", found.problem},
+                         {"too_slow", found.too_slow},
+                         {"causes", causes}});
     };
     const auto run = TRY(run_forked(
         [&](const Tell& tell) {
-            const auto said = explain();
-            tell(dump(said ? *said
-                           : Json{{"explained", 0},
-                                  {"left_out", to_string(said.error())},
-                                  {"causes", Json::array()}}));
+            DeviceDifference found;
+            const auto done = [&]() -> Result<void> {
+                const auto context = TRY(host::HeadlessContext::create({device}));
+                lab::ProbeBench bench(scene, {});
+                return lab::explain(found, bench, state, there, other,
+                                    [&](const DeviceDifference& so_far) { tell(json_of(so_far)); });
+            }();
+            if (!done)
+                found = {.problem = to_string(done.error())};
+            tell(json_of(found));
         },
         {k_patience_seconds},
         [&](std::string_view line) {
             const Json json = parse_json(line);
             difference.explained = json.at("explained");
             difference.problem = json.at("left_out");
+            difference.too_slow = json.at("too_slow");
+            difference.causes.clear();
             for (const Json& cause : json.at("causes"))
                 difference.causes.push_back(cause_of(cause));
         }));
-    if (run.timed_out)
-        difference.problem = fmt::format("no cause was found within {:.0f} s", k_patience_seconds);
-    else if (!run.crash.empty())
+    if (run.timed_out && difference.explained < lab::k_explained_share) {
+        difference.problem = fmt::format("causes were searched for {:.0f} s only", k_patience_seconds);
+    } else if (!run.crash.empty()) {
         difference.problem = run.crash;
+    }
     return {};
+}
+
+/// Does the same; where that takes too long, with both devices' pictures of half the width and height, and
+/// again half.
+Result<void> explain_in_time(const DevicesRequest& request, std::optional<web::Browser>& browser,
+                             DeviceDifference& difference, const scene::Scene& scene, const fs::path& path,
+                             lab::FramePictures there, lab::OtherDevice other) {
+    DevicesRequest smaller = request;
+    Extent& extent = smaller.sequence.state.extent;
+    for (;;) {
+        TRY(explain_apart(difference, request.devices[0], scene, smaller.sequence.state, there, other));
+        if (!difference.too_slow || request.devices[1].starts_with(k_pictures_prefix))
+            return {};
+        extent = {extent.width / 2, extent.height / 2};
+        if (std::min(extent.width, extent.height) < 1)
+            return {};
+        Drawn drawn = TRY(drawn_there(smaller, browser, scene, path));
+        if (!drawn.problem.empty())
+            return {};
+        there = std::move(drawn.frame);
+        difference.examined = extent;
+    }
 }
 
 Result<SceneOutcome> outcome_of(const DevicesRequest& request, std::optional<web::Browser>& browser,
@@ -306,7 +335,7 @@ Result<SceneOutcome> outcome_of(const DevicesRequest& request, std::optional<web
     }
     if (!other) // asked once, when the first scene differs
         other = TRY(other_device(browser, request.devices[1]));
-    TRY(explain_apart(result.difference, request.devices[0], *scene, state, there.frame, *other));
+    TRY(explain_in_time(request, browser, result.difference, *scene, path, there.frame, *other));
     result.outcome =
         result.difference.explained >= lab::k_explained_share ? Outcome::explained : Outcome::unexplained;
     return result;
@@ -353,6 +382,8 @@ std::string text_of(const DevicesRequest& request, const SceneOutcome& scene) {
         text += fmt::format("  {}\n", numbers_of(scene.difference));
         for (const DeviceCause& cause : scene.difference.causes)
             text += fmt::format("  {}\n", words_for(cause));
+        if (const Extent size = scene.difference.examined; size.width > 0)
+            text += fmt::format("  examined at {}x{}: a frame takes long\n", size.width, size.height);
         if (scene.outcome == Outcome::unexplained && !scene.difference.problem.empty())
             text += fmt::format("  left out: {}\n", scene.difference.problem);
     }
@@ -379,6 +410,8 @@ Json json_of(const DevicesRequest& request, const SceneOutcome& scene) {
             json["causes"].push_back(cause_json(cause));
         if (!found.problem.empty())
             json["left_out"] = found.problem;
+        if (found.examined.width > 0)
+            json["examined"] = {found.examined.width, found.examined.height};
     }
     if (!scene.problem_a.empty())
         json["problems"][request.devices[0]] = scene.problem_a;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -41,6 +42,11 @@ constexpr double k_nearer = 0.1;
 constexpr double k_all_met = 0.98;
 /// Seconds after which no other model is tried, and no line narrowed down.
 constexpr double k_enough_seconds = 60;
+/// Seconds of a pass above which no model is tried: some thirty drawings follow, each up to four times
+/// slower.
+constexpr double k_slow_pass_seconds = 1;
+/// Pictures are not made smaller than this.
+constexpr int k_least_side = 24;
 
 /// A freedom of devices that a changed text imitates; the cause is named as `check` names its probe.
 struct Model {
@@ -65,12 +71,8 @@ std::vector<Model> device_models() {
 
 /// Returns the models that are tried beside SwiftShader's own arithmetic.
 std::vector<Model> models_beside_swiftshader() {
-    return {
-        {"derivatives",
-         {glsl::vary_derivatives,
-          {{1, "derivatives of each pixel of a block of 2x2"}, {2, "one derivative for a block of 2x2"}}}},
-        {"rounding", {glsl::vary_precision, {{0, "everything `precise`"}}}},
-        {"rounding", {glsl::vary_order, {{0, "sums added in reverse order"}}}}};
+    return {{"rounding", {glsl::vary_precision, {{0, "everything `precise`"}}}},
+            {"rounding", {glsl::vary_order, {{0, "sums added in reverse order"}}}}};
 }
 
 /// Beside the bits of glsl::SwiftShaderPart: the texels of mipmaps (ExactMipmaps).
@@ -86,6 +88,7 @@ struct SwiftPart {
 constexpr SwiftPart k_swift_parts[] = {
     {k_mipmap_contents, "mipmaps", "mipmaps rounded to the nearest byte, not upwards"},
     {int(glsl::SwiftShaderPart::weights), "filter", "SwiftShader's weights of linear texture filters"},
+    {int(glsl::SwiftShaderPart::derivatives), "derivatives", "one derivative for a block of 2x2 pixels"},
     {int(glsl::SwiftShaderPart::products), "rounding",
      "SwiftShader's roundings of dot products, matrices, quotients and mix"},
     {int(glsl::SwiftShaderPart::mipmaps), "mipmaps", "SwiftShader's choice of the mipmap"},
@@ -179,19 +182,21 @@ public:
         if (!mipmaps.any())
             present &= ~int(glsl::SwiftShaderPart::mipmaps);
         std::optional<SwiftDrawing> best, plain;
+        int parts = present;
         for (const bool precise : {false, true}) {
             auto drawing = has_time() ? link_swiftshader(present, precise) : std::nullopt;
             if (!drawing)
                 continue;
-            drawing->met = met_with(*drawing, present, mipmaps);
+            const int used = draw_with_fewest(*drawing, present, mipmaps);
             if (best && drawing->share() < best->share() + k_least_gain)
                 continue;
+            parts = used;
             plain = std::exchange(best, std::move(drawing));
             if (best->share() >= k_all_met)
                 break;
         }
         if (best && best->share() >= k_least_gain)
-            add_swift_effects(*best, plain ? &*plain : nullptr, present, mipmaps);
+            add_swift_effects(*best, plain ? &*plain : nullptr, parts, mipmaps);
         mipmaps.use(false);
     }
 
@@ -257,15 +262,18 @@ public:
         return explained;
     }
 
-    /// Returns the chosen causes with their lines.
-    std::vector<DeviceCause> causes() {
+    /// Returns the chosen causes.
+    std::vector<DeviceCause> causes() const {
         std::vector<DeviceCause> causes;
-        for (const Effect* effect : chosen_) {
+        for (const Effect* effect : chosen_)
             causes.push_back(effect->cause);
-            if (causes.back().places.empty())
-                causes.back().places = lines_of(*effect);
-        }
         return causes;
+    }
+    /// Finds the lines of the chosen causes.
+    void find_lines(std::span<DeviceCause> causes) {
+        for (size_t i = 0; i < causes.size(); ++i)
+            if (causes[i].places.empty())
+                causes[i].places = lines_of(*chosen_[i]);
     }
 
     const std::string& problem() const { return problem_; }
@@ -299,6 +307,20 @@ private:
         drawing.stand_in.set(drawing.varied.mode_uniform, parts);
         drawing.stand_in.draw(preview_);
         return drawing.stand_in.picture();
+    }
+
+    /// Draws with the parts, first without the weights of filters, whose look-ups cost most. Returns the
+    /// parts that meet more.
+    int draw_with_fewest(SwiftDrawing& drawing, int parts, ExactMipmaps& mipmaps) const {
+        constexpr int k_weights = int(glsl::SwiftShaderPart::weights);
+        drawing.met = met_with(drawing, parts & ~k_weights, mipmaps);
+        if ((parts & k_weights) == 0 || drawing.share() >= k_all_met || !has_time())
+            return parts & ~k_weights;
+        if (Mask all = met_with(drawing, parts, mipmaps); count(all) > count(drawing.met)) {
+            drawing.met = std::move(all);
+            return parts;
+        }
+        return parts & ~k_weights;
     }
 
     Mask met_with(SwiftDrawing& drawing, int parts, ExactMipmaps& mipmaps) const {
@@ -367,6 +389,10 @@ private:
                     effect.places.push_back(id);
             add({part.name, part.says}, met_with(best, needed & ~part.part, mipmaps), std::move(effect));
         }
+        if (needed == 0 && !plain)
+            add({"rounding",
+                 "every operation drawn in the order of the text, none left out or known beforehand"},
+                Mask(question_.size()), {});
     }
 
     double share(const Mask& moved) const {
@@ -481,7 +507,7 @@ const std::string_view k_swiftshader_test = "void mainImage(out vec4 c, in vec2 
                                             "abs(sin(1.3 + min(iTime, 0.0)) - 0.963558185))); }";
 
 Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const FrameState& state,
-                     const FramePictures& there, OtherDevice other) {
+                     const FramePictures& there, OtherDevice other, const SeeCauses& see) {
     const Stopwatch watch;
     const auto here = TRY(bench.passes(state));
     auto texts = read_texts(bench, false);
@@ -498,8 +524,15 @@ Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const Fram
     if (!in_order)
         std::stable_partition(texts->begin(), texts->end(),
                               [&](const PassText& text) { return text.pass == bench.scene().image_index(); });
-    const render::Renderer* const renderer = TRY(bench.drawn(state));
-    bool first = true;
+    const render::Renderer* const renderer = TRY(bench.renderer(state));
+    // The previous frame is then the other device's, except for cubemaps.
+    const bool has_cubemap =
+        std::ranges::any_of(renderer->plan().passes, [&](const render::PlannedPass& pass) {
+            return bench.scene().passes[pass.pass].kind == scene::PassKind::cubemap;
+        });
+    const auto run_up = in_order && !there.before.empty() && !has_cubemap ? ProbeBench::RunUp::left_out
+                                                                          : ProbeBench::RunUp::drawn;
+    std::optional<double> least; // of the shares of the passes
     for (const PassText& text : *texts) {
         const bool is_image = text.pass == bench.scene().image_index();
         const std::string& name = bench.scene().passes[text.pass].name;
@@ -507,17 +540,23 @@ Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const Fram
         if (!own || !others || own->extent != others->extent)
             continue;
         const PictureKind kind = is_image ? PictureKind::image : PictureKind::buffer;
-        const auto preview = TRY(bench.preview(state, text.pass));
-        image::Image fed;
-        if (in_order && use_pictures(*renderer, text.pass, there)) {
-            fed = TRY(drawn_own(preview));
+        const auto preview = TRY(bench.preview(state, text.pass, run_up));
+        const bool is_fed = in_order && use_pictures(*renderer, text.pass, there);
+        const image::Image fed = TRY(drawn_own(preview));
+        if (is_fed)
             own = &fed;
-        }
         const image::Image asked = is_image ? comparable(*own, *others) : *own;
         Explainer explainer(preview, text, *own, *others, kind,
                             differing(asked, *others, same_pixel(kind), kind), watch, known);
         if (!explainer.asked())
             continue;
+        const Stopwatch drawing; // the first drawing included compilation
+        TRY(drawn_own(preview));
+        if (drawing.elapsed().wall > 1000 * k_slow_pass_seconds &&
+            std::min(state.extent.width, state.extent.height) > k_least_side) {
+            difference.too_slow = true;
+            return {};
+        }
         if (known) {
             ExactMipmaps mipmaps(*renderer, text.pass);
             explainer.try_swiftshader(mipmaps);
@@ -534,18 +573,26 @@ Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const Fram
         }
         if (difference.problem.empty())
             difference.problem = explainer.problem();
+        size_t old = 0; // causes of other passes
         if (in_order) {
-            difference.explained = first ? explained : std::min(difference.explained, explained);
-            first = false;
-            for (DeviceCause& cause : explainer.causes())
-                difference.causes.push_back(std::move(cause));
+            old = difference.causes.size();
+            least = std::min(least.value_or(1), explained);
+            std::ranges::move(explainer.causes(), std::back_inserter(difference.causes));
+            difference.explained = &text == &texts->back() ? *least : 0;
         } else if (explained > difference.explained) {
             difference.explained = explained;
             difference.causes = explainer.causes();
+        } else {
+            continue;
         }
+        if (see)
+            see(difference);
+        explainer.find_lines(std::span(difference.causes).subspan(old));
         if (!in_order && difference.explained >= k_explained_share)
             break;
     }
+    if (in_order)
+        difference.explained = least.value_or(0);
     return {};
 }
 

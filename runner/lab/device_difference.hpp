@@ -7,6 +7,7 @@
 #include "lab/probe_bench.hpp"
 #include "render/frame_state.hpp"
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,8 @@ struct DeviceDifference {
     double explained =
         0; ///< share of the differing pixels, of Image or of the causes' buffer, that they move
     std::string problem{}; ///< why the text could not be varied; empty: it could
+    bool too_slow = false; ///< a pass takes so long that no model was tried: draw a smaller picture
+    Extent examined{0, 0}; ///< the size at which the causes were found; 0x0: that of the pictures
 };
 
 // Pictures of two devices, and textures (device_drawing.cpp).
@@ -93,10 +96,14 @@ Result<DeviceDifference> compare_devices(const image::Image& here, const image::
 /// only guess at functions are not tried.
 enum class OtherDevice { unknown, swiftshader };
 
+/// Called with what is known so far, before the lines of causes are searched: that may take long.
+using SeeCauses = std::function<void(const DeviceDifference&)>;
+
 /// Finds the causes of a difference of Image. `there` is what the other device drew in that state, as by
 /// draw_frame. A frame with feedback is drawn from the other device's previous frame.
 Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const FrameState& state,
-                     const FramePictures& there, OtherDevice other = OtherDevice::unknown);
+                     const FramePictures& there, OtherDevice other = OtherDevice::unknown,
+                     const SeeCauses& see = {});
 
 /// A text whose Image is white where sines are SwiftShader's, else black.
 extern const std::string_view k_swiftshader_test;

@@ -374,16 +374,8 @@ const image::Image* picture_of(const std::vector<PassPicture>& passes, std::stri
 }
 
 Result<FramePictures> draw_frame(ProbeBench& bench, const FrameState& state) {
-    FramePictures frame{TRY(bench.passes(state))};
-    if (!TRY(bench.has_feedback()))
-        return frame;
-    const render::Renderer* const renderer = TRY(bench.drawn(state));
-    // No pass is drawn before the first one, so that the buffers still hold the previous frame.
-    const auto preview = TRY(bench.preview(state, renderer->plan().passes.front().pass));
-    for (const render::PlannedPass& planned : renderer->plan().passes)
-        if (const scene::Pass& pass = bench.scene().passes[planned.pass];
-            pass.kind != scene::PassKind::cubemap)
-            frame.before.push_back({pass.name, renderer->read_back(planned.pass)});
+    FramePictures frame;
+    frame.passes = TRY(bench.passes(state, frame.before));
     return frame;
 }
 

@@ -78,9 +78,10 @@ Result<render::Renderer*> ProbeBench::renderer(const FrameState& state, Entry en
     return &renderer;
 }
 
-Result<render::PassPreview> ProbeBench::preview(const FrameState& state, size_t pass) {
+Result<render::PassPreview> ProbeBench::preview(const FrameState& state, size_t pass, RunUp run_up) {
     auto made = TRY(renderer(state, Entry::picture, glsl::Precision::single));
-    return render::FrameStepper(*made, state, first_frame_of(state)).preview(state.frame, pass);
+    const int first = run_up == RunUp::drawn ? first_frame_of(state) : state.frame;
+    return render::FrameStepper(*made, state, first).preview(state.frame, pass);
 }
 
 Result<const render::Renderer*> ProbeBench::compiled() {
@@ -89,6 +90,10 @@ Result<const render::Renderer*> ProbeBench::compiled() {
 
 Result<const render::Renderer*> ProbeBench::drawn(const FrameState& state) {
     return drawn(state, Entry::picture, glsl::Precision::single);
+}
+
+Result<const render::Renderer*> ProbeBench::renderer(const FrameState& state) {
+    return renderer(state, Entry::picture, glsl::Precision::single);
 }
 
 Result<render::Renderer*> ProbeBench::drawn(const FrameState& state, Entry entry, glsl::Precision precision) {
@@ -111,6 +116,17 @@ Result<image::Image> ProbeBench::fresh_picture(const FrameState& state) {
 Result<std::vector<PassPicture>> ProbeBench::passes(const FrameState& state) {
     auto renderer = TRY(drawn(state, Entry::picture, glsl::Precision::single));
     return read_back(*renderer);
+}
+
+Result<std::vector<PassPicture>> ProbeBench::passes(const FrameState& state,
+                                                    std::vector<PassPicture>& before) {
+    auto made = TRY(renderer(state, Entry::picture, glsl::Precision::single));
+    render::FrameStepper stepper(*made, states_of(state, glsl::Precision::single), first_frame_of(state));
+    stepper.lead_to(state.frame);
+    if (made->plan().feedback)
+        before = read_back(*made);
+    stepper.draw(state.frame);
+    return read_back(*made);
 }
 
 std::vector<PassPicture> ProbeBench::read_back(render::Renderer& renderer) const {

@@ -82,6 +82,9 @@ public:
                                  glsl::Precision precision = glsl::Precision::single);
     /// Returns all drawn passes except cubemaps. Alpha is what a buffer's text wrote; Image's is always 1.
     Result<std::vector<PassPicture>> passes(const FrameState& state);
+    /// Does the same and, with feedback, puts the passes after the previous frame into `before`; draws each
+    /// frame once.
+    Result<std::vector<PassPicture>> passes(const FrameState& state, std::vector<PassPicture>& before);
 
     const DrawElsewhere& with_one_thread() const { return with_one_thread_; }
 
@@ -120,12 +123,17 @@ public:
     const Result<PassFunction>& image_function() { return function_of(scene_.image_index()); }
     const Result<PassFunction>& function_of(size_t pass);
 
+    /// Which frames a preview with feedback draws: all from first_frame_of(state) on, or the frame alone, so
+    /// that the caller has to fill the buffers that hold the previous frame.
+    enum class RunUp { drawn, left_out };
     /// Returns a pass that is about to be drawn in that state; all that it depends on is drawn.
-    Result<render::PassPreview> preview(const FrameState& state, size_t pass);
+    Result<render::PassPreview> preview(const FrameState& state, size_t pass, RunUp run_up = RunUp::drawn);
     /// Returns the renderer of the unchanged scene; `drawn` also draws that state, so that the textures hold
     /// it.
     Result<const render::Renderer*> compiled();
     Result<const render::Renderer*> drawn(const FrameState& state);
+    /// Returns the renderer that draws that state; it has not drawn it.
+    Result<const render::Renderer*> renderer(const FrameState& state);
 
     /// Compiles the scene again, while `picture` reuses programs. It drops all programs kept so far.
     Result<image::Image> fresh_picture(const FrameState& state);

@@ -2,6 +2,7 @@
 // of operations are those that its sources state (its folder src/Pipeline of 2026, built with
 // SWIFTSHADER_LEGACY_PRECISION as Chromium does), written anew in GLSL;
 // tests/gl/variation_gl_test.cpp compares them with numbers that Chromium computed.
+#include "shader/builtin_functions.hpp"
 #include "shader/source_edits.hpp"
 #include "shader/variation.hpp"
 #include "shader/watch.hpp"
@@ -9,13 +10,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace tidemark::glsl {
 namespace {
 
-/// `$has(bit)` asks for a SwiftShaderPart. `precise` keeps the driver from reordering.
+/// `$has(bit)` asks for a SwiftShaderPart. `precise` keeps the driver from reordering. A block of 2x2 pixels
+/// has one derivative, that of its pixel with even coordinates (`$across`, `$upwards`). Drivers may compute
+/// dFdxCoarse as dFdxFine, so that number is brought to the other pixels as the derivative of a number that
+/// is zero there. llvmpipe computes any number for a quotient by zero that it knows when it compiles;
+/// `$hidden` keeps a value from the compiler.
 constexpr std::string_view k_swift_numbers = R"(uniform int $mode;
 bool $has(int part){return ($mode&part)!=0;}
 float $bits(int b){return intBitsToFloat(b);}
@@ -62,8 +71,10 @@ float $pow(float x,float y){return $has(x<0.0||(x==0.0&&y<=0.0)?16:4)?$raise($lo
 float $sinh(float x){return $has(4)?($exp(x)-$exp(-x))*0.5:sinh(x);}
 float $cosh(float x){return $has(4)?($exp(x)+$exp(-x))*0.5:cosh(x);}
 float $tanh(float x){float a=$exp(x),b=$exp(-x);return $has(4)?(a-b)/(a+b):tanh(x);}
-float $divide(float a,float b){return $has(8)?float(double(a)/double(b)):a/b;}
-float $over(float a,float b){if(!$has(8))return a/b;precise float r=1.0/b,q=a*r;return q;}
+float $hidden(float v){return $bits($bits(v)^($mode>>20));}
+float $divide(float a,float b){if($has(16))b=$hidden(b);else return $has(8)?float(double(a)/double(b)):a/b;
+return $has(8)?float(double(a)/double(b)):a/b;}
+float $over(float a,float b){if($has(16)&&b==0.0)return a/$hidden(b);if(!$has(8))return a/b;precise float r=1.0/b,q=a*r;return q;}
 float $mod(float x,float y){if(!$has(8))return mod(x,y);precise float r=x-y*floor($divide(x,y));return r;}
 float $smoothstep(float a,float b,float x){if(!$has(8))return smoothstep(a,b,x);
 precise float d=x-a,e=b-a;float t=clamp($divide(d,e),0.0,1.0);precise float r=t*t*(3.0-2.0*t);return r;}
@@ -87,6 +98,12 @@ vec3 $cross(vec3 a,vec3 b){if(!$has(8))return cross(a,b);precise vec3 r=a.yzx*b.
 float $fract(float x){return $has(8)?min(x-floor(x),0.99999994):fract(x);}
 float $mix(float x,float y,float a){if(!$has(8))return mix(x,y,a);precise float r=a*(y-x)+x;return r;}
 float $mix(float x,float y,bool a){return a?y:x;}
+bool $even(float at){return (int(at)&1)==0;}
+float $across(float v){return -dFdyFine($even(gl_FragCoord.y)?dFdxFine(v):0.0);}
+float $upwards(float v){return -dFdxFine($even(gl_FragCoord.x)?dFdyFine(v):0.0);}
+float $dFdx(float v){return $has(128)?$across(v):dFdx(v);}
+float $dFdy(float v){return $has(128)?$upwards(v):dFdy(v);}
+float $fwidth(float v){return $has(128)?abs($across(v))+abs($upwards(v)):fwidth(v);}
 float $dot(float a,float b){return a*b;}
 float $length(float v){return abs(v);}
 float $distance(float a,float b){return abs(a-b);}
@@ -102,7 +119,7 @@ precise @ r=a*(y-x)+x;return r;}
 @ $min(@ a,float b){return $min(a,@(b));}
 @ $max(@ a,float b){return $max(a,@(b));}
 @ $clamp(@ x,float a,float b){return $clamp(x,@(a),@(b));}
-@ $over(@ a,float b){if(!$has(8))return a/b;precise float r=1.0/b;precise @ q=a*r;return q;}
+@ $over(@ a,float b){if($has(16)&&b==0.0)return a/$hidden(b);if(!$has(8))return a/b;precise float r=1.0/b;precise @ q=a*r;return q;}
 @ $mod(@ a,float b){return $mod(a,@(b));}
 @ $smoothstep(float a,float b,@ x){return $smoothstep(@(a),@(b),x);}
 @ $mix(@ x,@ y,float a){return $has(8)?$mix(x,y,@(a)):mix(x,y,a);}
@@ -136,7 +153,7 @@ return own==nearest&&any(greaterThan(abs(own-t[0]),vec4(0.01)))?own:t[0];}
 vec4 $mips(S s,@ p,float l){float top=float(textureQueryLevels(s)-1);l=clamp(l,0.0,top);float i=floor(l);
 vec4 a=$level(s,p,i);return l==i?a:mix(a,$level(s,p,i+1.0),l-i);}
 vec4 $texture(S s,@ p,float b){if(!$has(96))return texture(s,p,b);
-@ n=@(textureSize(s,0)),x=dFdxCoarse(p)*n,y=dFdyCoarse(p)*n;
+@ n=@(textureSize(s,0)),x=$across(p)*n,y=$upwards(p)*n;
 return $mips(s,p,$levels(max(dot(x,x),dot(y,y)),0.5)+b);}
 vec4 $texture(S s,@ p){return $has(96)?$texture(s,p,0.0):texture(s,p);}
 vec4 $textureLod(S s,@ p,float l){return $has(96)?$mips(s,p,l):textureLod(s,p,l);}
@@ -146,7 +163,7 @@ constexpr std::string_view k_swift_cube = R"(vec4 $mips(samplerCube s,vec3 p,flo
 l=clamp(l,0.0,float(textureQueryLevels(s)-1));float i=floor(l);vec4 a=textureLod(s,p,i);
 return l==i?a:mix(a,textureLod(s,p,i+1.0),l-i);}
 vec4 $texture(samplerCube s,vec3 p,float b){if(!$has(32))return texture(s,p,b);
-vec3 u=p*(0.5/max(max(abs(p.x),abs(p.y)),abs(p.z))),x=abs(dFdxCoarse(u)),y=abs(dFdyCoarse(u));
+vec3 u=p*(0.5/max(max(abs(p.x),abs(p.y)),abs(p.z))),x=abs($across(u)),y=abs($upwards(u));
 float q=max(x.x+x.y+x.z-min(min(x.x,x.y),x.z),y.x+y.y+y.z-min(min(y.x,y.y),y.z));
 return $mips(s,p,$levels(q*float(textureSize(s,0).x),1.0)+b);}
 vec4 $texture(samplerCube s,vec3 p){return $has(32)?$texture(s,p,0.0):texture(s,p);}
@@ -176,12 +193,15 @@ constexpr SwiftFunction k_swift_functions[] = {
     {"cosh", int(powers), 1},
     {"tanh", int(powers), 1},
     {"fract", int(products), 1},
-    {"divide", int(products), 2}, // of the operator, too
-    {"mod", int(products), 2},
+    {"divide", int(products) | int(outside), 2}, // of the operator, too
+    {"mod", int(products) | int(outside), 2},
     {"smoothstep", int(products), 3},
     {"min", int(outside), 2},
     {"max", int(outside), 2},
     {"clamp", int(outside), 3},
+    {"dFdx", int(derivatives), 1},
+    {"dFdy", int(derivatives), 1},
+    {"fwidth", int(derivatives), 1},
     {"inverse", int(products)},
     {"mix", int(products)},
     {"dot", int(products)},
@@ -227,6 +247,8 @@ std::string swift_overloads() {
                 if (function.name == "atan")
                     each(function.name, size, 1);
             }
+        each("across", size, 1);
+        each("upwards", size, 1);
         std::string chain = "a[0]*b[0]", parts;
         for (int i = 1; i < size; ++i)
             chain = fmt::format("$fma(a[{0}],b[{0}],{1})", i, chain);
@@ -329,6 +351,85 @@ const SwiftFunction* swift_function(const ParsedText& text, const TreeFacts& fac
     return found;
 }
 
+/// Expressions whose value compilers know: of literals, and of variables, functions and arguments that have
+/// no other value. SwiftShader's compiler inlines functions, and computes such values as exactly as
+/// llvmpipe's.
+class KnownValues {
+public:
+    KnownValues(const ParsedText& text, const TreeFacts& facts)
+        : text_(text), facts_(facts), tree_(text.tree()), values_(text, facts) {
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+            if (tree_[id].kind == NodeKind::call)
+                calls_[called_name(text, id)].push_back(id);
+            else if (tree_[id].kind == NodeKind::declarator)
+                declared_.insert({tree_.around(id, NodeKind::function), text.word_of(id)});
+            for (const std::string_view name : names_set(text, facts, id))
+                set_.insert({tree_.around(id, NodeKind::function), name});
+        }
+    }
+
+    /// `depth` limits the recursion.
+    bool knows(NodeId id, int depth = 0) const {
+        if (id == k_no_node || depth > 12)
+            return false;
+        switch (tree_[id].kind) {
+        case NodeKind::literal: return true;
+        case NodeKind::prefix:
+            if (is_change(text_, id))
+                return false;
+            [[fallthrough]];
+        case NodeKind::parenthesis:
+        case NodeKind::binary: return knows_parts(id, 0, depth);
+        case NodeKind::member: return knows(tree_.child(id, 0), depth + 1);
+        case NodeKind::name: return knows(values_.of(id), depth + 1) || knows_parameter(id, depth);
+        case NodeKind::call: {
+            const std::string_view name = called_name(text_, id);
+            return !facts_.function(name) && (find_builtin(name) || value_type(name)) &&
+                   tree_.child_count(id) > 1 && !name.starts_with("tex") && knows_parts(id, 1, depth);
+        }
+        default: return false;
+        }
+    }
+
+private:
+    /// A name in a function.
+    using Place = std::pair<NodeId, std::string_view>;
+
+    bool knows_parts(NodeId id, size_t first, int depth) const {
+        for (size_t i = first; i < tree_.child_count(id); ++i)
+            if (!knows(tree_.child(id, i), depth + 1))
+                return false;
+        return true;
+    }
+
+    /// Returns whether the name is a parameter of which all calls give a known value.
+    bool knows_parameter(NodeId name, int depth) const {
+        const NodeId function = tree_.around(name, NodeKind::function);
+        const Place place{function, text_.word_of(name)};
+        if (function == k_no_node || set_.contains(place) || declared_.contains(place))
+            return false;
+        const FunctionFacts* const facts = facts_.function(text_.word_of(function));
+        const auto calls = calls_.find(text_.word_of(function));
+        if (!facts || facts->definitions.size() != 1 || calls == calls_.end())
+            return false;
+        for (size_t i = 1; i < tree_.child_count(function); ++i) {
+            const NodeId parameter = tree_.child(function, i);
+            if (tree_[parameter].kind == NodeKind::parameter && text_.word_of(parameter) == place.second)
+                return std::ranges::all_of(calls->second, [&](NodeId call) {
+                    return i < tree_.child_count(call) && knows(tree_.child(call, i), depth + 1);
+                });
+        }
+        return false;
+    }
+
+    const ParsedText& text_;
+    const TreeFacts& facts_;
+    const SyntaxTree& tree_;
+    SingleValues values_;
+    std::map<std::string_view, std::vector<NodeId>> calls_;
+    std::set<Place> set_, declared_;
+};
+
 /// Returns whether the expression has no side effects and is short enough to be repeated.
 bool is_repeatable(const ParsedText& text, const TreeFacts& facts, NodeId id) {
     const SyntaxTree& tree = text.tree();
@@ -390,8 +491,10 @@ std::string_view swift_operator(const ParsedText& text, const TreeFacts& facts, 
     return tree[divisor].kind == NodeKind::literal ? "over" : "divide"; // by a constant: times its reciprocal
 }
 
-int operator_part(std::string_view name) {
-    return int(name == "modulo" || name == "quotient" ? outside : products);
+int operator_parts(std::string_view name) {
+    if (name == "modulo" || name == "quotient")
+        return int(outside);
+    return int(products) | (name == "times" ? 0 : int(outside)); // by zero
 }
 
 } // namespace
@@ -403,6 +506,7 @@ Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, 
     const bool by_lines = bool(may);
     Variation result{{}, prefix + "mode", {}};
     SourceRewriter edits(text);
+    const KnownValues known(text, facts);
     bool has_lookup = false, has_matrix = false;
     for (NodeId id = 1; id < tree.nodes.size(); ++id) {
         if (precise && tree[id].kind == NodeKind::declaration &&
@@ -412,15 +516,15 @@ Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, 
                 !has_qualifier(text, type, "const") && !has_qualifier(text, type, "precise"))
                 edits.wrap(type, "precise ", "");
         }
-        if ((by_lines && !may(id)) || must_stay_constant(text, id))
+        if ((by_lines && !may(id)) || must_stay_constant(text, id) || known.knows(id))
             continue;
         if (const SwiftFunction* const function = swift_function(text, facts, id)) {
             if ((function->parts & parts) == 0)
                 continue;
-            has_lookup = has_lookup || function->parts >= int(mipmaps);
+            has_lookup = has_lookup || (function->parts & (int(mipmaps) | int(weights))) != 0;
             edits.replace(tree[tree.child(id, 0)].word, prefix + std::string(function->name));
         } else if (const auto name = swift_operator(text, facts, id);
-                   !name.empty() && (parts & operator_part(name)) != 0) {
+                   !name.empty() && (parts & operator_parts(name)) != 0) {
             has_matrix = has_matrix || name == "times";
             edits.wrap(id, prefix + std::string(name) + "(", ")");
             if (tree[id].kind == NodeKind::binary) {
@@ -458,7 +562,7 @@ int swiftshader_parts(const ParsedText& text, const TreeFacts& facts, NodeId id)
     if (is_element(text, facts, id))
         return int(outside);
     const std::string_view name = swift_operator(text, facts, id);
-    return name.empty() ? 0 : operator_part(name);
+    return name.empty() ? 0 : operator_parts(name);
 }
 
 } // namespace tidemark::glsl

@@ -71,15 +71,16 @@ Variation vary_precision(const ParsedText& text, const TreeFacts& facts, const M
 
 /// Kinds of operations that SwiftShader computes in its own way, as bits.
 enum class SwiftShaderPart {
-    sines = 1,    ///< a polynomial of degree 5: up to 1.5e-4 off
-    arcs = 2,     ///< atan, asin and acos
-    powers = 4,   ///< pow, exp, log and what is made of them
-    products = 8, ///< dot products, matrices, quotients, mix: the order of operations
-    outside = 16, ///< pow and log of negative numbers, clamp and min of NaN, %
-    mipmaps = 32, ///< the choice of the mipmap, and no shortcut between two
-    weights = 64, ///< of linear texture filters
+    sines = 1,         ///< a polynomial of degree 5: up to 1.5e-4 off
+    arcs = 2,          ///< atan, asin and acos
+    powers = 4,        ///< pow, exp, log and what is made of them
+    products = 8,      ///< dot products, matrices, quotients, mix: the order of operations
+    outside = 16,      ///< pow and log of negative numbers, clamp and min of NaN, %
+    mipmaps = 32,      ///< the choice of the mipmap, and no shortcut between two
+    weights = 64,      ///< of linear texture filters
+    derivatives = 128, ///< one for a block of 2x2 pixels
 };
-inline constexpr int k_swiftshader_parts = 7;
+inline constexpr int k_swiftshader_parts = 8;
 
 /// Computes as SwiftShader does, bit for bit except for textures, the `parts` whose bits the mode has.
 /// `precise` also declares float variables so: SwiftShader reorders nothing.

@@ -324,6 +324,31 @@ class Browsers(OnDevices):
         self.assertEqual((scene["verdict"], scene["causes"][0]["cause"]), ("explained", "undefined"))
         self.assertEqual(scene["causes"][0]["places"][0]["line"], 3)
 
+    def test_a_slow_scene_is_examined_in_a_smaller_picture(self):
+        """Every pixel computes some 50,000 random numbers, which takes seconds in the whole picture."""
+        hash, _ = self.HASH.splitlines()
+        self.write("a.glsl", f"{hash}\nvoid mainImage(out vec4 c, in vec2 p) {{\n    uvec4 s = uvec4(p, p + 7.0);\n"
+                             "    for (int i = 0; i < 50000 + min(iFrame, 0); ++i) s = s * 1664525u + s.yzwx;\n"
+                             "    c = vec4(vec3(hash(p)) + 1e-20 * vec3(s.xyz), 1.0);\n}\n")
+        scene = self.outcomes("surfaceless,chromium:swiftshader", "a.glsl", "--size", "320x180")["a.glsl"]
+        self.assertEqual((scene["verdict"], scene["causes"][0]["cause"]), ("explained", "sine"))
+        self.assertEqual(scene["pixels"], 320 * 180)
+        self.assertIn(scene["examined"], ([160, 90], [80, 45], [40, 22]))
+
+    def test_derivatives_of_a_block_are_explained(self):
+        self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    float v = p.x * p.y * p.y;\n"
+                             "    c = vec4(fract(fwidth(v) / 64.0), 0.5, 0.5, 1.0);\n}\n")
+        scene = self.outcomes("surfaceless,chromium:swiftshader", "a.glsl")["a.glsl"]
+        self.assertEqual((scene["verdict"], scene["causes"][0]["cause"]), ("explained", "derivatives"))
+        self.assertEqual(scene["causes"][0]["places"][0]["line"], 3)
+
+    def test_a_quotient_by_a_known_zero_is_explained(self):
+        self.write("a.glsl", "float near(float a, float b, float k) {\n    return clamp(0.5 - 0.5 * (a + b) / k, 0.0, 1.0);\n}\n"
+                             "void mainImage(out vec4 c, in vec2 p) {\n    c = vec4(near(p.x - 20.0, p.y * 0.3, 0.0), 0.5, 0.5, 1.0);\n}\n")
+        scene = self.outcomes("surfaceless,chromium:swiftshader", "a.glsl")["a.glsl"]
+        self.assertEqual((scene["verdict"], scene["causes"][0]["cause"]), ("explained", "undefined"))
+        self.assertEqual(scene["causes"][0]["places"][0]["line"], 2)
+
     def test_without_chromium(self):
         self.write("a.glsl", self.HASH)
         done = self.run_program("compare", "--devices", "surfaceless,chromium", "a.glsl", env=environment(PATH="/nowhere"))

@@ -261,4 +261,76 @@ TEST_F(VariationTest, UndefinedOperationsAreSwiftShaders) {
     EXPECT_GT(unlike, 9u) << "this driver's values are other ones";
 }
 
+constexpr int k_all_parts = (1 << glsl::k_swiftshader_parts) - 1;
+
+Variation like_swiftshader(const glsl::ParsedText& text, const glsl::TreeFacts& facts,
+                           const glsl::MayVary& may) {
+    return glsl::vary_like_swiftshader(text, facts, k_all_parts, false, may);
+}
+
+/// A block of 2x2 pixels has one derivative: the numbers of dFdx(v), dFdy(w).y and fwidth(v) that Chromium
+/// 156 computed with SwiftShader in the four blocks of a picture of 4x4.
+TEST_F(VariationTest, DerivativesAreSwiftShaders) {
+    const std::array<std::array<float, 3>, 4> blocks = {{{0.53125f, 0.265625f, 0.65625f},
+                                                         {1.53125f, 2.578125f, 2.15625f},
+                                                         {1.28125f, 1.765625f, 1.65625f},
+                                                         {2.28125f, 10.078125f, 4.15625f}}};
+    render::Renderer drawing =
+        renderer("void mainImage(out vec4 c, in vec2 p) {\n"
+                 "    float v = p.x * p.x * 0.25 + p.y * p.y * p.x * 0.125;\n"
+                 "    vec2 w = vec2(v, v * p.y);\n    c = vec4(dFdx(v), dFdy(w).y, fwidth(v), 1.0);\n}\n",
+                 {4, 4});
+    const auto text = read_text(drawing, 0);
+    ASSERT_TRUE(text);
+    const Variation made = like_swiftshader(**text, glsl::find_facts(**text), {});
+    EXPECT_EQ(made.places.size(), 3u);
+    const PassPreview preview(drawing, 0, {});
+    auto stand_in = StandIn::link(preview, made.text, "a variation");
+    ASSERT_TRUE(stand_in) << to_string(stand_in.error());
+    const auto unlike = [&](int mode) {
+        stand_in->set(made.mode_uniform, mode);
+        stand_in->draw(preview);
+        const image::Image picture = stand_in->picture();
+        int count = 0;
+        for (int y = 0; y < 4; ++y)
+            for (int x = 0; x < 4; ++x)
+                for (size_t k = 0; k < 3; ++k)
+                    count += picture.f32()[size_t(4 * y + x) * 4 + k] != blocks[size_t(y / 2 * 2 + x / 2)][k];
+        return count;
+    };
+    EXPECT_EQ(unlike(int(glsl::SwiftShaderPart::derivatives)), 0);
+    EXPECT_GT(unlike(0), 12) << "this driver has other derivatives";
+}
+
+/// Chromium's compilers compute what they know as exactly as others do, through functions and variables, too.
+/// The numbers are Chromium's; SwiftShader's own sine gives 0.957 where the argument is unknown.
+TEST_F(VariationTest, KnownValuesAreNotSwiftShaders) {
+    const std::string before =
+        "float f(float x) { return sin(x); }\nfloat g(float x) { return sin(x); }\n"
+        "const float b = 4.0;\nfloat hash(float x) { return fract(x * 43758.5453); }\n";
+    const std::vector<float> found =
+        varied(like_swiftshader, 1,
+               {"hash(sin(12.0))", "hash(f(b * 3.0))", "hash(g(12.0 + float(iFrame)))",
+                "hash(g(12.0 - float(iFrame)))"},
+               before);
+    EXPECT_EQ(found[0], 0.34765625f);
+    EXPECT_EQ(found[1], 0.34765625f);
+    EXPECT_NEAR(found[2], 0.957f, 0.001f);
+    EXPECT_NEAR(found[3], 0.957f, 0.001f);
+}
+
+/// llvmpipe computes any number, for example 1.2e28, of a quotient by a zero that its compiler knows.
+TEST_F(VariationTest, AQuotientByAKnownZeroIsInfinite) {
+    const std::string before =
+        "float quotient(float a, float b) { return 0.5 * a / b; }\n"
+        "float limited(float a, float b) { return clamp(0.5 - 0.5 * a / b, 0.0, 1.0); }\n";
+    for (const int parts : {int(glsl::SwiftShaderPart::outside), k_all_parts})
+        EXPECT_EQ(varied(like_swiftshader, parts,
+                         {"quotient(p.x + 1.0, 0.0)", "quotient(-p.x - 1.0, 0.0)", "limited(p.x + 1.0, 0.0)",
+                          "limited(-p.x - 1.0, 0.0)"},
+                         before),
+                  (std::vector{HUGE_VALF, -HUGE_VALF, 0.0f, 1.0f}))
+            << parts;
+}
+
 } // namespace tidemark::lab::variation_gl_test
