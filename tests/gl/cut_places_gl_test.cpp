@@ -123,7 +123,7 @@ void mainImage(out vec4 c, in vec2 p) {
 }
 )";
 
-TEST(CutSwitches, show_the_error_of_the_cut_alone) {
+TEST(CutSwitches, show_the_error_of_each_cut_alone) {
     const scene::Scene scene = scene_of(k_many_cuts);
     const auto keep_going = [] { return true; };
     const auto found = find_cuts(scene, default_views(), k_extent, keep_going);

@@ -392,7 +392,7 @@ TEST(SwitchedCut, StatementsGetACondition) {
         switches(in_main("if (u > 0.0) s += dear(u);"), in_main("if (u > 0.0) { if (!k) s += dear(u); }")));
 }
 
-TEST(SwitchedCut, NumbersAreChosenAndAreNoLongerConst) {
+TEST(SwitchedCut, ANumberBecomesAChoiceWithoutConst) {
     const std::string loop = "for (int i = 0; i < N; ++i) s += dear(s);";
     EXPECT_TRUE(switches("const int N = 64;\n" + in_main(loop), " int N = (k ? 32 : 64);\n" + in_main(loop)));
     EXPECT_TRUE(switches("#define N 64\n" + in_main(loop), "#define N (k ? 32 : 64)\n" + in_main(loop)));
