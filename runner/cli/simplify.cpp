@@ -18,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -83,8 +84,10 @@ Result<Offer> offer_of(const std::vector<lab::ChosenCut>& chosen) {
 }
 
 std::string to_text(const OfferedCut& offered) {
-    return fmt::format("{}\n  alone: {:.3g} of the time, error {}\n{}", offered.cut.change.reason,
-                       offered.cut.time, lab::figure(offered.cut.error), offered.difference);
+    const std::string time =
+        std::isnan(offered.cut.time) ? "not timed" : fmt::format("{:.3g} of the time", offered.cut.time);
+    return fmt::format("{}\n  alone: {}, error {}\n{}", offered.cut.change.reason, time,
+                       lab::figure(offered.cut.error), offered.difference);
 }
 
 Result<void> put_json(const lab::Simplified& found, const Offer& offer, bool written) {

@@ -333,7 +333,7 @@ namespace {
 /// Bits of one uniform: each switches one cut.
 constexpr size_t k_bits = 30;
 /// A text that the driver refuses is halved until the cuts at fault are found, at most so often.
-constexpr size_t k_most_refusals = 10;
+constexpr size_t k_most_refusals = 16;
 
 std::string name_of_switches(size_t number) {
     return fmt::format("tidemark_cuts{}", number);

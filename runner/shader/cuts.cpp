@@ -51,6 +51,8 @@ constexpr std::array k_coarser{Factor{2, 0.15, 1}, Factor{3, 0.25, 2}, Factor{10
 constexpr std::array k_nearer{Factor{0.75, 0.15, 1}, Factor{0.5, 0.3, 2}, Factor{0.25, 0.4, 3}};
 constexpr std::array k_longer{Factor{1.1, 0.09, 1}, Factor{1.2, 0.16, 2}, Factor{1.5, 0.3, 3}};
 constexpr double k_largest_threshold = 0.1, k_least_way = 4;
+/// The least operations that are worth a test, and the chance that the picture stays with it.
+constexpr double k_guarded = 100, k_chance_of_guard = 0.9;
 /// Chances that a march keeps the picture if it ends earlier, or if its steps are longer.
 constexpr double k_chance_of_exit = 0.5, k_chance_of_step = 0.4;
 /// Chances of a term or value and of a statement that take no time; the whole text has none.
@@ -253,6 +255,41 @@ void Cutter::add_statement(NodeId id, std::vector<Cut>& cuts) const {
         tokens ? std::optional(wrapped(text_, *tokens, "{ if (!$) ", " }")) : std::nullopt);
     if (cuts.size() > before)
         cuts.back().chance = chance_without(work_.of(id), k_chance_of_statement);
+}
+
+/// Adds tests by which a costly factor is computed only where the other one is not 0: a shadow where light
+/// falls. They change the picture only where the factor is infinite or NaN.
+void Cutter::add_guards(NodeId id, std::vector<Cut>& cuts) const {
+    const bool assigns = tree_[id].kind == NodeKind::assign;
+    const NodeId place = assigns ? tree_[id].parent : id;
+    const auto whole = expression_type(text_, facts_, id);
+    const auto tokens = between(text_, place);
+    if (text_.word_of(id) != (assigns ? "*=" : "*") || !tokens ||
+        (assigns ? tree_[place].kind != NodeKind::expression : !whole))
+        return;
+    for (const size_t side : {size_t(1), size_t(0)}) {
+        const NodeId costly = tree_.child(id, side), other = tree_.child(id, 1 - side);
+        const auto type = expression_type(text_, facts_, other);
+        const auto written = between(text_, other);
+        if ((assigns && side == 0) || work_.once(costly) < k_guarded || !type || !type->scalar() ||
+            type->base != 'f' || !written)
+            continue;
+        const auto again = said_again(text_, facts_, other, *written);
+        if (!again)
+            continue;
+        const std::string test = fmt::format("({}) != 0.0", *again);
+        const std::string behind = assigns ? "" : fmt::format(" : {}(0))", to_string(*whole));
+        const auto guard = [&](const std::string& condition) {
+            return wrapped(text_, *tokens, (assigns ? "if (" : "(") + condition + (assigns ? ") " : " ? "),
+                           behind);
+        };
+        cuts.push_back({.change = {{guard(test)},
+                                   fmt::format("{}: computes `{}` only where `{}` is not 0", place_of(costly),
+                                               in_short(text_.excerpt(costly)), *again)},
+                        .work = work_.of(costly) / 2,
+                        .chance = k_chance_of_guard,
+                        .switched = {guard(fmt::format("(!$ || {})", test))}});
+    }
 }
 
 void Cutter::add_turns(NodeId loop, std::vector<Cut>& cuts) const {
@@ -460,6 +497,8 @@ std::vector<Cut> Cutter::cuts() const {
             add_exits(id, cuts);
         if (is_kept(id) || work_.of(id) == 0)
             continue;
+        if (kind == NodeKind::binary || kind == NodeKind::assign)
+            add_guards(id, cuts);
         if (kind == NodeKind::binary)
             add_operands(id, cuts);
         else if (!is_expression(kind))

@@ -42,10 +42,11 @@ private:
     std::unordered_map<std::string_view, double> functions_; ///< operations of one call
 };
 
-// Proposes what could be left out of a text: terms, factors, statements, iterations of loops (all after a
-// number, or those after a march's step is small or large), the limits that end a loop, the length of a
-// march's steps, one side of differences, the choice of a texture's level, and values that a number could
-// replace. Returns edits only; the caller measures what a cut saves and what it does to the picture.
+// Proposes what could be left out of a text: terms, factors, statements, factors where the other one is 0,
+// iterations of loops (all after a number, or those after a march's step is small or large), the limits that
+// end a loop, the length of a march's steps, one side of differences, the choice of a texture's level, and
+// values that a number could replace. Returns edits only; the caller measures what a cut saves and what it
+// does to the picture.
 
 struct Cut {
     Cure change;
@@ -92,6 +93,7 @@ private:
     bool is_cheap(NodeId id) const;
     void add_operands(NodeId id, std::vector<Cut>& cuts) const;
     void add_statement(NodeId id, std::vector<Cut>& cuts) const;
+    void add_guards(NodeId id, std::vector<Cut>& cuts) const;
     void add_turns(NodeId loop, std::vector<Cut>& cuts) const;
     void add_exits(NodeId step, std::vector<Cut>& cuts) const;
     void add_longer_steps(NodeId step, NodeId loop, std::vector<Cut>& cuts) const;

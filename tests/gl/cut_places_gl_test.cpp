@@ -4,6 +4,7 @@
 #include "support/scene_of.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tidemark::lab::cut_places_gl_test {
 
@@ -95,6 +96,80 @@ TEST(CutPlaces, hoisted_expressions_keep_the_picture) {
     const auto trial = bench->try_cuts(std::span(&found->cuts[0].change, 1), bench->own(), k_any_error);
     ASSERT_TRUE(trial) << "the driver refuses it";
     EXPECT_LT(trial->error, 1e-3) << "drivers may round differently";
+}
+
+/// A march with a limit that has a name, an ambient loop, a texture, terms and factors.
+const char* const k_many_cuts = R"(
+const float k_near = 0.001;
+#define STEPS 40
+const int k_count = 4;
+float weights[k_count];
+float map(vec3 p) { return length(p) - 1.0 + 0.1 * sin(5.0 * p.x) * sin(5.0 * p.y) + 0.02 * sin(20.0 * p.z); }
+void mainImage(out vec4 c, in vec2 p) {
+    for (int i = 0; i < k_count; ++i)
+        weights[i] = exp(-float(i)) * cos(iTime * sin(float(i)));
+    vec3 d = normalize(vec3((2.0 * p - iResolution.xy) / iResolution.y, 1.5)), o = vec3(0.0, 0.0, -3.0);
+    float t = 0.0;
+    for (int i = 0; i < STEPS; ++i) {
+        float h = map(o + t * d);
+        if (h < k_near || t > 10.0) break;
+        t += h;
+    }
+    vec3 q = o + t * d;
+    float dark = 0.0;
+    for (int i = 1; i < 6; ++i)
+        dark += weights[i % 4] * max(0.0, 0.1 * float(i) - map(q - 0.1 * float(i) * d));
+    c = vec4(t > 10.0 ? d : 0.5 + 0.3 * sin(3.0 * q) - 0.2 * dark, 1.0) + 0.1 * texture(iChannel0, q.xy);
+}
+)";
+
+TEST(CutSwitches, show_the_error_of_each_cut_alone) {
+    const scene::Scene scene = scene_of(k_many_cuts);
+    const auto keep_going = [] { return true; };
+    const auto found = find_cuts(scene, default_views(), k_extent, keep_going);
+    ASSERT_TRUE(found);
+    auto bench = CutBench::create(scene, k_extent, default_views(), 0);
+    ASSERT_TRUE(bench);
+    std::vector<size_t> which;
+    for (size_t i = 0; i < found->cuts.size(); ++i)
+        if (!found->cuts[i].switched.empty())
+            which.push_back(i);
+    EXPECT_GT(which.size(), 40U);
+    auto switches = CutSwitches::create(scene, k_extent, found->cuts, which, keep_going);
+    ASSERT_TRUE(switches);
+    EXPECT_GE(switches->which().size() + 2, which.size()) << "only the size of an array stays constant";
+    ASSERT_TRUE(bench->take_as_reference(*switches, Goal{Measure::rmse, 1e-3, {}}));
+    for (const size_t i : switches->which()) {
+        const auto error = bench->error_of_switched(*switches, std::span(&i, 1), k_any_error);
+        const auto trial = bench->try_cuts(std::span(&found->cuts[i].change, 1), bench->own(), k_any_error);
+        ASSERT_TRUE(trial) << found->cuts[i].change.reason;
+        ASSERT_TRUE(error) << found->cuts[i].change.reason;
+        EXPECT_NEAR(*error, trial->error, 2e-3 + 0.02 * trial->error) << found->cuts[i].change.reason;
+    }
+}
+
+TEST(CutSwitches, make_several_cuts_together_and_none_again) {
+    const scene::Scene scene = scene_of("void mainImage(out vec4 c, in vec2 p) {\n"
+                                        "    c = vec4(0.0, 0.0, 0.0, 1.0);\n"
+                                        "    c.x += 0.25 * exp(sin(0.0 * p.x));\n"
+                                        "    c.y += 0.5 * exp(sin(0.0 * p.x));\n}\n");
+    auto found = find_cuts(scene, default_views(), k_extent, [] { return true; });
+    ASSERT_TRUE(found);
+    std::erase_if(found->cuts, [](const glsl::Cut& cut) {
+        return cut.change.reason.find("leaves out `c.") == std::string::npos;
+    });
+    ASSERT_EQ(found->cuts.size(), 2U);
+    auto bench = CutBench::create(scene, k_extent, default_views(), 0);
+    ASSERT_TRUE(bench);
+    auto switches = CutSwitches::create(scene, k_extent, found->cuts, {0, 1}, [] { return true; });
+    ASSERT_TRUE(switches);
+    ASSERT_TRUE(bench->take_as_reference(*switches, k_any_error));
+    const auto error = [&](std::vector<size_t> cuts) {
+        return bench->error_of_switched(*switches, cuts, k_any_error).value_or(-1);
+    };
+    EXPECT_NEAR(error({0}) + error({1}), 0.75 / std::sqrt(3.0), 1e-4) << "RMSE over three channels";
+    EXPECT_NEAR(error({0, 1}), std::sqrt((0.25 * 0.25 + 0.5 * 0.5) / 3), 1e-4);
+    EXPECT_EQ(error({}), 0);
 }
 
 } // namespace tidemark::lab::cut_places_gl_test

@@ -54,6 +54,18 @@ TEST(Cut, OperandsOfSumsAndProductsAreRemoved) {
     EXPECT_FALSE(makes(in_main("s = u + u;"), in_main("s = u ;"))) << "costs next to nothing";
 }
 
+TEST(Cut, CostlyFactorsAreComputedWhereTheOtherIsNotZero) {
+    const std::string loop = "float far(float x) { for (int i = 0; i < 64; ++i) x = sin(x); return x; }\n";
+    const auto guarded = [&](const std::string& statement, const std::string& cut) {
+        return makes(loop + in_main(statement), loop + in_main(cut));
+    };
+    EXPECT_TRUE(guarded("s *= far(u);", "if ((s) != 0.0) s *= far(u);"));
+    EXPECT_TRUE(guarded("s = max(u, 0.0) * far(u);",
+                        "s = ((max(u, 0.0)) != 0.0 ? max(u, 0.0) * far(u) : float(0));"));
+    EXPECT_TRUE(guarded("s = far(s) * u;", "s = ((u) != 0.0 ? far(s) * u : float(0));"));
+    EXPECT_FALSE(guarded("s *= sin(u);", "if ((s) != 0.0) s *= sin(u);")) << "costs little";
+}
+
 TEST(Cut, UpdatingStatementsAreRemoved) {
     EXPECT_TRUE(makes(in_main("s += dear(u);"), in_main("")));
     EXPECT_TRUE(makes(in_main("if (u > 0.0) { s = dear(u); }"), in_main("")));
@@ -365,6 +377,66 @@ TEST(Cut, CutsThatOverlapAreRefused) {
             both.push_back(cut.change);
     ASSERT_EQ(both.size(), 2U);
     EXPECT_EQ(with(text, both), "refused") << "something has to stay";
+}
+
+/// Every text with one cut in its switched form, `k` being the switch and 7 its number.
+std::vector<std::string> switched_texts_of(const std::string& text) {
+    std::vector<std::string> texts;
+    for (Cut cut : cuts_of(text).cuts) {
+        if (cut.switched.empty())
+            continue;
+        for (Wrap& wrap : cut.switched)
+            for (std::string* const part : {&wrap.front, &wrap.behind})
+                for (const auto& [sign, with] : {std::pair("$", "k"), std::pair("@", "7")})
+                    for (size_t at = part->find(sign); at != part->npos; at = part->find(sign))
+                        part->replace(at, 1, with);
+        texts.push_back(with(text, {{cut.switched, cut.change.reason}}));
+    }
+    return texts;
+}
+
+bool switches(const std::string& text, const std::string& switched) {
+    return std::ranges::count(switched_texts_of(text), switched) == 1;
+}
+
+TEST(SwitchedCut, OperandsGetTheNeutralValueOfTheirType) {
+    EXPECT_TRUE(switches(in_main("s = u + dear(u);"), in_main("s = u + (k ? float(0) : (dear(u)));")));
+    EXPECT_TRUE(switches(in_main("s = dear(u) - u;"), in_main("s = (k ? float(0) : (dear(u))) - u;")));
+    EXPECT_TRUE(switches(in_main("s = u * dear(u);"), in_main("s = u * (k ? float(1) : (dear(u)));")));
+    EXPECT_TRUE(switches(in_main("vec2 v = vec2(u) + vec2(dear(u)); s = v.x;"),
+                         in_main("vec2 v = vec2(u) + (k ? vec2(0) : (vec2(dear(u)))); s = v.x;")));
+}
+
+TEST(SwitchedCut, AnOperandThatTheTypeNeedsHasNoSwitch) {
+    for (const std::string& text : switched_texts_of(in_main("vec2 v = u * vec2(dear(u)); s = v.x;")))
+        EXPECT_EQ(text.find("u * (k"), std::string::npos) << text;
+}
+
+TEST(SwitchedCut, StatementsGetACondition) {
+    EXPECT_TRUE(switches(in_main("s += dear(u);"), in_main("{ if (!k) s += dear(u); }")));
+    EXPECT_TRUE(
+        switches(in_main("if (u > 0.0) s += dear(u);"), in_main("if (u > 0.0) { if (!k) s += dear(u); }")));
+}
+
+TEST(SwitchedCut, ANumberBecomesAChoiceWithoutConst) {
+    const std::string loop = "for (int i = 0; i < N; ++i) s += dear(s);";
+    EXPECT_TRUE(switches("const int N = 64;\n" + in_main(loop), " int N = (k ? 32 : 64);\n" + in_main(loop)));
+    EXPECT_TRUE(switches("#define N 64\n" + in_main(loop), "#define N (k ? 32 : 64)\n" + in_main(loop)));
+    EXPECT_TRUE(
+        switches(in_main("for (int i = 0; i < 64; ++i) { float d = dear(s); if (d < 0.001) break; s += d; }"),
+                 in_main("for (int i = 0; i < 64; ++i) { float d = dear(s); if (d < (k ? 0.01 : 0.001)) "
+                         "break; s += d; }")));
+}
+
+TEST(SwitchedCut, MarchesGetExitsAndLongerSteps) {
+    const std::string head = "for (int i = 0; i < 64; ++i) ";
+    EXPECT_TRUE(switches(in_main(head + "{ s += dear(s); }"),
+                         in_main(head + "{ { float tidemark_step7; s += (tidemark_step7 = dear(s)); if (k && "
+                                        "abs(tidemark_step7) < 0.01) break; } }")));
+    EXPECT_TRUE(switches(in_main(head + "{ s += dear(s); }"),
+                         in_main(head + "{ { s += dear(s); if (k && s > 20.0) break; } }")));
+    EXPECT_TRUE(switches(in_main(head + "{ s += dear(s); }"),
+                         in_main(head + "{ s += (k ? 1.5 : 1.0) * (dear(s)); }")));
 }
 
 } // namespace tidemark::glsl::cut_test
