@@ -191,8 +191,8 @@ class OnDevices(Compare):
     HASH = ("float hash(vec2 p) { return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453); }\n"
             "void mainImage(out vec4 c, in vec2 p) { c = vec4(vec3(hash(p)), 1.0); }\n")
 
-    def outcomes(self, devices: str, *arguments: str, code: int = 0) -> dict[str, dict]:
-        done = self.run_program("compare", "--devices", devices, "--size", "32x18", "--json", *arguments)
+    def outcomes(self, devices: str, *arguments: str, code: int = 0, size: str = "32x18") -> dict[str, dict]:
+        done = self.run_program("compare", "--devices", devices, "--size", size, "--json", *arguments)
         self.assertEqual(done.returncode, code, done.stderr)
         return {scene["scene"]: scene for scene in json.loads(done.stdout)["scenes"]}
 
@@ -330,7 +330,7 @@ class Browsers(OnDevices):
         self.write("a.glsl", f"{hash}\nvoid mainImage(out vec4 c, in vec2 p) {{\n    uvec4 s = uvec4(p, p + 7.0);\n"
                              "    for (int i = 0; i < 50000 + min(iFrame, 0); ++i) s = s * 1664525u + s.yzwx;\n"
                              "    c = vec4(vec3(hash(p)) + 1e-20 * vec3(s.xyz), 1.0);\n}\n")
-        scene = self.outcomes("surfaceless,chromium:swiftshader", "a.glsl", "--size", "320x180")["a.glsl"]
+        scene = self.outcomes("surfaceless,chromium:swiftshader", "a.glsl", size="320x180")["a.glsl"]
         self.assertEqual((scene["verdict"], scene["causes"][0]["cause"]), ("explained", "sine"))
         self.assertEqual(scene["pixels"], 320 * 180)
         self.assertIn(scene["examined"], ([160, 90], [80, 45], [40, 22]))

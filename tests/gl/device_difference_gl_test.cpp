@@ -105,6 +105,9 @@ TEST_F(DeviceDifferenceTest, ThePreviousFrameIsReadInFloats) {
     // Nine frames are drawn: that of the state and eight before it.
     EXPECT_EQ(colour(frame->passes), (std::vector<float>{9, 1.0f / 3, -8, 1e-20f}));
     EXPECT_EQ(colour(frame->before), (std::vector<float>{8, 1.0f / 3, -7, 1e-20f}));
+    const auto renderer = bench.renderer(state_at(2, k_extent));
+    ASSERT_TRUE(renderer);
+    EXPECT_EQ((*renderer)->passes_drawn(), 2u * 9) << "each frame is drawn once, in two passes";
 }
 
 TEST_F(DeviceDifferenceTest, AStillSceneHasNoPreviousFrame) {
