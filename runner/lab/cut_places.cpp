@@ -221,12 +221,19 @@ Result<CutPlaces> find_cuts(const scene::Scene& scene, const std::vector<View>& 
 }
 
 bool is_inside(const glsl::Cure& inner, const glsl::Cure& outer) {
-    return std::ranges::all_of(inner.wraps, [&](const glsl::Wrap& in) {
-        return std::ranges::any_of(outer.wraps, [&](const glsl::Wrap& out) {
-            return in.first.where.file == out.first.where.file && begin_of(out) <= begin_of(in) &&
-                   end_of(in) <= end_of(out);
-        });
-    });
+    const auto within = [](const glsl::Wrap& in, const glsl::Wrap& out) {
+        return out.replaces && in.first.where.file == out.first.where.file && begin_of(out) <= begin_of(in) &&
+               end_of(in) <= end_of(out);
+    };
+    const auto replaced = [&](const glsl::Wrap& in) {
+        return std::ranges::any_of(outer.wraps, [&](const glsl::Wrap& out) { return within(in, out); });
+    };
+    const auto excluded = [&](const glsl::Wrap& in) {
+        return in.replaces && std::ranges::any_of(outer.wraps, [&](const glsl::Wrap& out) {
+                   return within(in, out) && within(out, in);
+               });
+    };
+    return std::ranges::all_of(inner.wraps, replaced) || std::ranges::any_of(inner.wraps, excluded);
 }
 
 namespace {

@@ -31,7 +31,8 @@ struct CutPlaces {
 Result<CutPlaces> find_cuts(const scene::Scene& scene, const std::vector<View>& views, Extent extent,
                             const KeepGoing& keep_going);
 
-/// Returns whether `inner` lies within the text that `outer` removes or changes, or is the same text.
+/// Returns whether `inner` lies within text that `outer` replaces, or both replace the same tokens. Text that
+/// `outer` only puts something around can be changed too.
 bool is_inside(const glsl::Cure& inner, const glsl::Cure& outer);
 
 // Compares a scene with cuts with the unchanged scene: the error of its pictures, and its share of the time.

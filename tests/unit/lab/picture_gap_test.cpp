@@ -79,4 +79,27 @@ TEST(Parts, ASmallObjectMayNotVanishOrAppear) {
     EXPECT_FALSE(keeps_parts(goal, black_with(50, 20, 20), none));
 }
 
+glsl::Wrap wrap_of(int first, int last, bool replaces) {
+    const auto word = [](int column) { return glsl::WrittenWord{{"a.glsl", 1, column}, "x"}; };
+    return {word(first), word(last), "", "", replaces};
+}
+
+TEST(CutInside, TextThatIsReplacedHoldsNoOtherCut) {
+    const glsl::Cure outer{{wrap_of(1, 9, true)}, ""}, inner{{wrap_of(3, 5, true)}, ""};
+    EXPECT_TRUE(is_inside(inner, outer));
+    EXPECT_FALSE(is_inside(outer, inner));
+    EXPECT_TRUE(is_inside(outer, outer)) << "only one of two can replace the same tokens";
+}
+
+TEST(CutInside, TextWithSomethingAroundMayBeChangedToo) {
+    const glsl::Cure exit{{wrap_of(1, 9, false)}, ""}, other_exit = exit, number{{wrap_of(3, 3, true)}, ""};
+    EXPECT_FALSE(is_inside(number, exit));
+    EXPECT_FALSE(is_inside(exit, other_exit));
+}
+
+TEST(CutInside, ExitsThatReplaceTheSameCallExcludeEachOther) {
+    const glsl::Cure one{{wrap_of(3, 5, true), wrap_of(1, 9, false)}, ""}, other = one;
+    EXPECT_TRUE(is_inside(one, other));
+}
+
 } // namespace tidemark::lab::picture_gap_test
