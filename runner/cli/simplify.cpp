@@ -13,6 +13,7 @@
 #include "host/supervision.hpp"
 #include "lab/study_data.hpp"
 #include "lab/work_precision.hpp"
+#include "scene/scene.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,6 +22,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <variant>
 
 namespace tidemark::cli {
 
@@ -90,6 +92,28 @@ std::string to_text(const OfferedCut& offered) {
                        lab::figure(offered.cut.error), offered.difference);
 }
 
+/// Returns a sentence about inputs that the search saw in one state only; empty if there are none.
+std::string unseen_inputs(const scene::Scene& scene) {
+    std::vector<std::string> given;
+    const auto add = [&](const char* state) {
+        if (std::ranges::find(given, state) == given.end())
+            given.emplace_back(state);
+    };
+    for (const scene::Pass& pass : scene.passes)
+        for (const scene::Channel& channel : pass.channels) {
+            const auto* const music = std::get_if<scene::Music>(&channel.input);
+            if (music && music->file.empty())
+                add("silence");
+            else if (std::holds_alternative<scene::Keyboard>(channel.input))
+                add("no key pressed");
+            else if (std::holds_alternative<scene::StandIn>(channel.input))
+                add("a generated picture for a missing file");
+        }
+    return given.empty() ? ""
+                         : fmt::format("judged with {}: the cuts may leave out what another input would show",
+                                       fmt::join(given, " and "));
+}
+
 Result<void> put_json(const lab::Simplified& found, const Offer& offer, bool written) {
     Json cuts = Json::array();
     for (const OfferedCut& each : offer.cuts)
@@ -135,6 +159,8 @@ Result<int> simplify(SimplifyOptions options) {
     if (!simplified && interrupt.requested())
         return Interrupt::k_exit_code;
     lab::Simplified found = TRY(std::move(simplified));
+    if (std::string sentence = unseen_inputs(scene); !found.chosen.empty() && !sentence.empty())
+        found.sentences.push_back(std::move(sentence));
     const fs::path report = TRY(write_findings(folder, found.findings));
     TRY(print_simplified(options, found));
     say_report(report);

@@ -123,6 +123,15 @@ void mainImage(out vec4 c, in vec2 p) { c = 0.9 * texture(iChannel0, p / iResolu
         for cut in found["cuts"]:
             self.assertNotRegex(cut["cut"], r"dear\.glsl:[3-6]:")
 
+    def test_inputs_that_were_not_heard_or_pressed_are_named(self):
+        self.write("dear.glsl", '#iChannel0 "keyboard"\n#iChannel1 "microphone"\n' + SCENE.replace(
+            "c = vec4", "colour += texture(iChannel0, vec2(0.5)).x + 0.01 * texture(iChannel1, vec2(0.5)).x;\n    c = vec4"))
+        _, said = self.simplify("--budget", "10")
+        self.assertIn("judged with no key pressed and silence: the cuts may leave out what another input would show", said)
+        self.write("dear.glsl", SCENE)
+        _, said = self.simplify("--budget", "10")
+        self.assertNotIn("judged with", said)
+
     def test_reports_a_scene_without_cuts(self):
         self.write("dear.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, 0.0, 1.0); }\n")
         found, said = self.simplify("--exact")
