@@ -123,7 +123,7 @@ void mainImage(out vec4 c, in vec2 p) { c = 0.9 * texture(iChannel0, p / iResolu
         for cut in found["cuts"]:
             self.assertNotRegex(cut["cut"], r"dear\.glsl:[3-6]:")
 
-    def test_inputs_that_were_not_heard_or_pressed_are_named(self):
+    def test_a_verdict_names_inputs_that_were_silent(self):
         self.write("dear.glsl", '#iChannel0 "keyboard"\n#iChannel1 "microphone"\n' + SCENE.replace(
             "c = vec4", "colour += texture(iChannel0, vec2(0.5)).x + 0.01 * texture(iChannel1, vec2(0.5)).x;\n    c = vec4"))
         _, said = self.simplify("--budget", "10")
