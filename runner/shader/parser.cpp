@@ -189,6 +189,7 @@ NodeId Parser::structure() {
 
 NodeId Parser::declaration(NodeId type, size_t begin) {
     std::vector<NodeId> parts{type};
+    take(","); // the first declarator may be empty: `struct S { float x; }, s;`
     while (at_name()) {
         parts.push_back(declarator());
         if (!take(","))

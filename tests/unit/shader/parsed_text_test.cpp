@@ -112,6 +112,8 @@ TEST(Parse, operator_precedence_follows_glsl) {
 }
 
 TEST(Parse, declarations_and_expressions_are_distinguished) {
+    EXPECT_EQ(error_of("struct L{vec3 p;},l[2];float f(){return l[1].p.x;}"), "no error")
+        << "an empty declarator";
     EXPECT_EQ(error_of("float a,b[2]=float[2](1.,2.);const int N=3;struct S{vec3 o,d;float w[N];}s;"
                        "uniform struct{float t;}u[4];layout(location=0)out vec4 c;precision highp float;;"),
               "no error");
