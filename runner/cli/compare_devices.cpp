@@ -254,16 +254,16 @@ Result<void> explain_apart(DeviceDifference& difference, const std::string& devi
                          {"too_slow", found.too_slow},
                          {"causes", causes}});
     };
+    const auto explain = [&](DeviceDifference& found, const Tell& tell) -> Result<void> {
+        const auto context = TRY(host::HeadlessContext::create({device}));
+        lab::ProbeBench bench(scene, {});
+        return lab::explain(found, bench, state, there, other,
+                            [&](const DeviceDifference& so_far) { tell(json_of(so_far)); });
+    };
     const auto run = TRY(run_forked(
         [&](const Tell& tell) {
             DeviceDifference found;
-            const auto done = [&]() -> Result<void> {
-                const auto context = TRY(host::HeadlessContext::create({device}));
-                lab::ProbeBench bench(scene, {});
-                return lab::explain(found, bench, state, there, other,
-                                    [&](const DeviceDifference& so_far) { tell(json_of(so_far)); });
-            }();
-            if (!done)
+            if (const auto done = explain(found, tell); !done)
                 found = {.problem = to_string(done.error())};
             tell(json_of(found));
         },
