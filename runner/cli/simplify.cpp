@@ -22,7 +22,6 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <variant>
 
 namespace tidemark::cli {
 
@@ -101,13 +100,12 @@ std::string unseen_inputs(const scene::Scene& scene) {
     };
     for (const scene::Pass& pass : scene.passes)
         for (const scene::Channel& channel : pass.channels) {
-            const auto* const music = std::get_if<scene::Music>(&channel.input);
-            if (music && music->file.empty())
-                add("silence");
-            else if (std::holds_alternative<scene::Keyboard>(channel.input))
+            const scene::InputTraits& traits = scene::traits_of(channel.input);
+            if (traits.changes == scene::Changes::with_keys)
                 add("no key pressed");
-            else if (std::holds_alternative<scene::StandIn>(channel.input))
-                add("a generated picture for a missing file");
+            else if (traits.changes == scene::Changes::with_clock &&
+                     std::ranges::all_of(scene::input_files(channel.input), &fs::path::empty))
+                add("silence");
         }
     return given.empty() ? ""
                          : fmt::format("judged with {}: the cuts may leave out what another input would show",
