@@ -90,8 +90,8 @@ std::unordered_set<std::string_view> functions_of_main(const ParsedText& text, c
 
 // Type of an expression, as far as declarations, built-in functions and the author's functions determine it.
 
-/// Returns scalar, vector and matrix types. Returns nothing for other types, and for a name that its function,
-/// or else the text outside of functions, declares with two types.
+/// Returns scalar, vector and matrix types. Returns nothing for other types, and for a name that its
+/// function, or else the text outside of functions, declares with two types.
 std::optional<ValueType> expression_type(const ParsedText& text, const TreeFacts& facts, NodeId expression);
 
 // Finds the single value of a variable that is initialised in its declaration and never changed.
