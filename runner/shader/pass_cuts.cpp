@@ -50,10 +50,12 @@ bool calls_function(const ParsedText& text, const TreeFacts& facts, NodeId id) {
 
 constexpr double k_chance_of_difference = 0.6;
 
-std::string words_without(const ParsedText& text, NodeId id, std::string_view left_out) {
+/// Returns the words of the expression, without those at places that are left out.
+template <class LeftOut>
+std::string words_without(const ParsedText& text, NodeId id, const LeftOut& left_out) {
     std::string words;
     for (size_t i = text.tree()[id].begin; i < text.tree()[id].end; ++i)
-        if (text.word(i) != left_out)
+        if (!left_out(i))
             words += (words.empty() ? "" : " ") + std::string(text.word(i));
     return words;
 }
@@ -69,9 +71,11 @@ bool find_steps(const ParsedText& text, NodeId left, NodeId right, std::vector<N
     const auto is_sum = [&](NodeId id) {
         return tree[id].kind == NodeKind::binary && (text.word_of(id) == "+" || text.word_of(id) == "-");
     };
+    const auto is_minus = [&](size_t word) { return text.word(word) == "-"; };
     if (is_sum(left) && is_sum(right) &&
         words_of(text, tree.child(left, 0)) == words_of(text, tree.child(right, 0)) &&
-        words_without(text, tree.child(left, 1), "-") == words_without(text, tree.child(right, 1), "-")) {
+        words_without(text, tree.child(left, 1), is_minus) ==
+            words_without(text, tree.child(right, 1), is_minus)) {
         steps.push_back(right);
         return true;
     }
@@ -81,17 +85,6 @@ bool find_steps(const ParsedText& text, NodeId left, NodeId right, std::vector<N
         if (!find_steps(text, tree.child(left, i), tree.child(right, i), steps))
             return false;
     return true;
-}
-
-/// Returns the words of the expression without the last operands of these sums.
-std::string without_steps(const ParsedText& text, NodeId id, const std::vector<NodeId>& steps) {
-    const SyntaxTree& tree = text.tree();
-    std::string words;
-    for (size_t i = tree[id].begin; i < tree[id].end; ++i)
-        if (std::ranges::none_of(steps,
-                                 [&](NodeId step) { return i >= tree[step].word && i < tree[step].end; }))
-            words += (words.empty() ? "" : " ") + std::string(text.word(i));
-    return words;
 }
 
 /// Returns the call of the author's function that the expression is, or takes a member of.
@@ -116,7 +109,6 @@ NodeId statement_of(const SyntaxTree& tree, NodeId id) {
 
 /// Differences that share their centre.
 struct Differences {
-    std::string centre; ///< words of f(p)
     NodeId statement = k_no_node;
     std::vector<NodeId> terms{}; ///< `f(p + e) - f(p - e)`
 };
@@ -189,24 +181,29 @@ void Cutter::add_differences(std::vector<Cut>& cuts) const {
             facts_.function(called_name(text_, call))->written_arguments != 0 ||
             !expression_type(text_, facts_, right) || !find_steps(text_, left, right, steps) || steps.empty())
             continue;
-        std::string centre = without_steps(text_, right, steps);
-        Differences& same = found[{tree_[statement].parent, centre}];
+        const auto is_step = [&](size_t word) {
+            return std::ranges::any_of(
+                steps, [&](NodeId step) { return word >= tree_[step].word && word < tree_[step].end; });
+        };
+        Differences& same = found[{tree_[statement].parent, words_without(text_, right, is_step)}];
         if (same.terms.empty() || statement < same.statement)
             same.statement = statement;
-        same.centre = std::move(centre);
         same.terms.push_back(id);
     }
     size_t number = 0;
-    for (const auto& [place, same] : found) {
+    for (const auto& [block_and_centre, same] : found) {
+        if (same.terms.size() < 2)
+            continue;
+        const std::string& centre = block_and_centre.second;
         const NodeId first = same.terms.front(), value = tree_.child(first, 1);
         const std::string type = to_string(*expression_type(text_, facts_, value));
         const std::string name = fresh_name(text_, "centre", ++number);
         const size_t word = tree_[same.statement].begin;
-        auto declared = at_word(text_, word, fmt::format("{} {} = {}; ", type, name, same.centre), "");
-        auto chosen = at_word(
-            text_, word,
-            fmt::format("{0} tidemark_centre@; if ($) tidemark_centre@ = {1}; ", type, same.centre), "");
-        if (same.terms.size() < 2 || !declared || !chosen)
+        auto declared = at_word(text_, word, fmt::format("{} {} = {}; ", type, name, centre), "");
+        auto chosen =
+            at_word(text_, word,
+                    fmt::format("{0} tidemark_centre@; if ($) tidemark_centre@ = {1}; ", type, centre), "");
+        if (!declared || !chosen)
             continue;
         std::vector<Wrap> wraps{*std::move(declared)}, switched{*std::move(chosen)};
         for (const NodeId term : same.terms) {
@@ -225,7 +222,7 @@ void Cutter::add_differences(std::vector<Cut>& cuts) const {
         cuts.push_back(
             {.change = {std::move(wraps),
                         fmt::format("{}: takes {} differences from `{}` to one side, {} call{} fewer",
-                                    place_of(first), same.terms.size(), same.centre, fewer,
+                                    place_of(first), same.terms.size(), centre, fewer,
                                     fewer == 1 ? "" : "s")},
              .work = work_.of(value) * double(fewer),
              .chance = k_chance_of_difference,

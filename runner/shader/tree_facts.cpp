@@ -136,12 +136,18 @@ public:
     }
 
 private:
-    /// What a name, an element or a member was declared as.
+    /// The declared type of a name, an element or a member.
     struct Declared {
         std::string_view type;
         size_t dimensions = 0;
         bool operator==(const Declared&) const = default;
     };
+
+    template <class T>
+    static std::optional<T> agreed(const std::vector<T>& all) {
+        const bool agree = std::ranges::all_of(all, [&](const T& each) { return each == all[0]; });
+        return all.empty() || !agree ? std::nullopt : std::optional<T>(all[0]);
+    }
 
     std::optional<ValueType> value_of(const std::optional<Declared>& declared) const {
         return declared && declared->dimensions == 0 ? value_type(declared->type) : std::nullopt;
@@ -164,9 +170,7 @@ private:
             (inside == k_no_node ? global : local)
                 .push_back({type_name(text_, type), dimensions(text_, type, each)});
         }
-        const std::vector<Declared>& found = local.empty() ? global : local;
-        const bool agree = std::ranges::all_of(found, [&](const Declared& each) { return each == found[0]; });
-        return found.empty() || !agree ? std::nullopt : std::optional(found[0]);
+        return agreed(local.empty() ? global : local);
     }
 
     std::optional<Declared> declared(NodeId id) const {
@@ -201,16 +205,13 @@ private:
         const std::string_view name = called_name(text_, id);
         if (facts_.structures.contains(name))
             return Declared{name};
-        std::optional<Declared> type;
+        std::vector<Declared> types;
         if (const FunctionFacts* const own = facts_.function(name))
             for (const NodeId definition : own->definitions) {
-                const NodeId given = tree_.child(definition, 0);
-                const Declared each{type_name(text_, given), dimensions(text_, given, k_no_node)};
-                if (type && *type != each)
-                    return std::nullopt;
-                type = each;
+                const NodeId type = tree_.child(definition, 0);
+                types.push_back({type_name(text_, type), dimensions(text_, type, k_no_node)});
             }
-        return type;
+        return agreed(types);
     }
 
     /// Returns the type of an element of an array, of a vector's component or of a matrix's column.
@@ -278,9 +279,7 @@ private:
             if (function.definitions.size() > 1 && fits(definition, call))
                 fitting.push_back(all.back());
         }
-        const auto& types = fitting.empty() ? all : fitting;
-        const bool agree = std::ranges::all_of(types, [&](const auto& each) { return each == types[0]; });
-        return types.empty() || !agree ? std::nullopt : types[0];
+        return agreed(fitting.empty() ? all : fitting).value_or(std::nullopt);
     }
 
     const ParsedText& text_;
