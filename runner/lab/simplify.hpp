@@ -151,7 +151,7 @@ struct SimplifyRequest : SearchRequest {
 struct ChosenCut {
     glsl::Cure change;
     double error = 0; ///< of this cut alone, in the search pictures
-    /// Of a frame with this cut alone, as a share of the time without it; NaN: not timed alone.
+    /// The time of a frame with this cut alone, as a share of the time without it; NaN if it was not timed.
     double time = 1;
     bool hangs_on_size = false; ///< see glsl::Cut
 };
