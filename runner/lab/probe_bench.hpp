@@ -123,8 +123,8 @@ public:
     const Result<PassFunction>& image_function() { return function_of(scene_.image_index()); }
     const Result<PassFunction>& function_of(size_t pass);
 
-    /// The frames that a preview with feedback draws: all from first_frame_of(state) on, or only its own. Then
-    /// the caller fills the buffers that hold the previous frame.
+    /// The frames that a preview with feedback draws: all from first_frame_of(state) on, or only its own.
+    /// Then the caller fills the buffers that hold the previous frame.
     enum class RunUp { drawn, left_out };
     /// Returns a pass that is about to be drawn in that state; all that it depends on is drawn.
     Result<render::PassPreview> preview(const FrameState& state, size_t pass, RunUp run_up = RunUp::drawn);
