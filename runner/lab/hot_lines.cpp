@@ -240,11 +240,11 @@ bool is_same_picture(const image::Image& one, const image::Image& other, bool of
     return true;
 }
 
-/// A line of a pass, with the text that does it twice.
+/// A line of a pass, drawn by the text that does it twice and by its control.
 struct Candidate {
-    size_t line; ///< index in HotLines::lines
-    glsl::LineTwice twice;
-    StandIn drawing;
+    size_t line;   ///< index in HotLines::lines
+    double factor; ///< the line's work for each part of it that is repeated
+    StandIn twice, control;
     std::vector<double> more{}; ///< by each round: the additional time as a part of the pass's time
 };
 
@@ -267,29 +267,26 @@ public:
         return times_.back();
     }
 
-    /// Adds a line that is drawn with the same picture.
-    void add(size_t line, glsl::LineTwice twice, bool of_screen) {
-        auto drawing = StandIn::link(preview_, twice.text, "a text that does a line twice");
-        if (!drawing)
+    /// Adds a line if both of its texts draw the same picture.
+    void add(size_t line, const glsl::LineTwice& made, bool of_screen) {
+        auto twice = StandIn::link(preview_, made.text, "a text that does a line twice");
+        if (!twice)
             return;
-        if (!picture_) {
-            plain_.draw(preview_);
-            picture_ = plain_.picture();
-        }
-        drawing->draw(preview_);
-        if (is_same_picture(*picture_, drawing->picture(), of_screen))
-            candidates_.push_back({line, std::move(twice), *std::move(drawing)});
+        auto control = StandIn::link(preview_, made.control, "a text that shifts a line's operands");
+        if (control && keeps_picture(*twice, of_screen) && keeps_picture(*control, of_screen))
+            candidates_.push_back({line, made.work / made.repeated, *std::move(twice), *std::move(control)});
     }
 
-    /// Times all candidates once, each beside the plain text.
+    /// Times the plain text and all candidates once.
     void round(size_t number) {
+        const double plain = time_plain();
         for (const size_t i : shuffled(candidates_.size(), unsigned(number))) {
             Candidate& each = candidates_[i];
             const bool first = (number + i) % 2 == 0;
-            const double before = first ? 0 : time_plain();
-            const double twice = time(each.drawing);
-            const double plain = first ? time_plain() : before;
-            each.more.push_back(plain > 0 ? twice / plain - 1 : 0);
+            const double before = first ? 0 : time(each.control);
+            const double twice = time(each.twice);
+            const double control = first ? time(each.control) : before;
+            each.more.push_back(plain > 0 ? (twice - control) / plain : 0);
         }
     }
 
@@ -297,6 +294,15 @@ public:
     double milliseconds() const { return median(times_); }
 
 private:
+    bool keeps_picture(const StandIn& drawing, bool of_screen) {
+        if (!picture_) {
+            plain_.draw(preview_);
+            picture_ = plain_.picture();
+        }
+        drawing.draw(preview_);
+        return is_same_picture(*picture_, drawing.picture(), of_screen);
+    }
+
     const PassPreview& preview_;
     StandIn plain_;
     bool by_cpu_;
@@ -304,11 +310,6 @@ private:
     std::vector<Candidate> candidates_;
     std::vector<double> times_;
 };
-
-/// Returns what a line takes of its pass's time.
-LineShare share_of_line(const Candidate& candidate) {
-    return measured_share(candidate.more, candidate.twice.work, candidate.twice.added);
-}
 
 class LineMeter {
 public:
@@ -394,17 +395,15 @@ private:
         for (size_t line = 0; line < hot.lines.size(); ++line) {
             if (seconds_of(clock_) > start + k_compiling * (until - start))
                 break;
-            if (auto twice = glsl::do_line_twice(*text, facts, counted, hot.lines[line].where, weights_))
-                bench.add(line, *std::move(twice), of_screen);
+            if (const auto made = glsl::do_line_twice(*text, facts, counted, hot.lines[line].where, weights_))
+                bench.add(line, *made, of_screen);
         }
         size_t rounds = 0;
         for (; rounds < k_most_timed_rounds && (rounds < k_fewest_runs || seconds_of(clock_) < until);
-             ++rounds) {
-            bench.time_plain();
+             ++rounds)
             bench.round(rounds);
-        }
         for (const Candidate& each : bench.candidates())
-            shares.emplace_back(each.line, share_of_line(each));
+            shares.emplace_back(each.line, measured_share(each.more, each.factor));
         return bench.milliseconds();
     }
 
@@ -421,10 +420,9 @@ constexpr size_t k_more_candidates = 2;
 
 } // namespace
 
-LineShare measured_share(const std::vector<double>& more, double work, double added) {
-    const double scale = added > 0 ? work / added : 0;
+LineShare measured_share(const std::vector<double>& more, double factor) {
     const Interval interval = bootstrap_median(more);
-    return {scale * median(more), {scale * interval.low, scale * interval.high}};
+    return {factor * median(more), {factor * interval.low, factor * interval.high}};
 }
 
 Result<HotLines> hot_lines(const scene::Scene& scene, const render::FrameState& state, size_t most,

@@ -185,8 +185,8 @@ struct LineShare {
     Interval interval{};
 };
 /// Returns what a line takes, from the additional times of the rounds in which it was done twice, each as a
-/// part of the plain time. `added`: counted work that was done in addition, `work`: that of the line.
-LineShare measured_share(const std::vector<double>& more, double work, double added);
+/// part of the plain time. `factor`: the line's counted work for each part of it that was repeated.
+LineShare measured_share(const std::vector<double>& more, double factor);
 
 /// Statistics of the finite numbers: of all components together.
 struct LensSummary {

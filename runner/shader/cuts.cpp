@@ -17,10 +17,6 @@
 namespace tidemark::glsl {
 namespace {
 
-bool calls_function(const ParsedText& text, const TreeFacts& facts, NodeId id) {
-    return text.tree()[id].kind == NodeKind::call && facts.function(called_name(text, id));
-}
-
 /// Cheaper operations are not tried: a driver needs no instruction for most of them.
 constexpr double k_least_work = 4;
 /// A part of a loop's iterations, and the chance that the picture stays with it.
@@ -392,7 +388,8 @@ void Cutter::add_exits(NodeId step, std::vector<Cut>& cuts) const {
         std::optional<WrittenTokens> call;
         if (tree_[id].kind == NodeKind::name && is_computed_in(loop, text_.word_of(id)))
             value = fmt::format("abs({})", text_.excerpt(step_value(id)));
-        else if (calls_function(text_, facts_, id) && !is_cheap(id) && type_of(id) && type_of(id)->scalar()) {
+        else if (calls_authors_function(text_, facts_, id) && !is_cheap(id) && type_of(id) &&
+                 type_of(id)->scalar()) {
             const std::string name = fresh_name(text_, "march_step");
             front = fmt::format("float {} = {}; ", name, text_.excerpt(id));
             value = fmt::format("abs({})", name);

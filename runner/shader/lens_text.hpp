@@ -140,9 +140,10 @@ Result<WorkText> count_operations(const ParsedText& text, const TreeFacts& facts
 /// The second time has operands that are shifted by a zero that no compiler knows, and its result is added
 /// times that zero: the picture keeps its bytes. Calls of the author's functions are not repeated.
 struct LineTwice {
-    std::string text; ///< for the driver
-    double work = 0;  ///< of the line, as counted: of each operation once
-    double added = 0; ///< counted work of what is done in addition, with the shifts and sums
+    std::string text;    ///< for the driver
+    std::string control; ///< for the driver: it has the shifted operands without the operations
+    double work = 0;     ///< of the line, as counted: of each operation once
+    double repeated = 0; ///< counted work of the operations that `text` does a second time
 };
 /// Fails (ErrorCode::load) if less than half of the line's work can be repeated: heads of loops, calls and
 /// changes of variables stay as they are. `counted` must belong to the same text.

@@ -251,7 +251,7 @@ private:
                            ? work_of(text_, facts_, id, weights_)
                            : 0;
             all_[id] = own_[id];
-            calls_.push_back(kind == NodeKind::call && runs && facts_.function(called_name(text_, id)));
+            calls_.push_back(runs && calls_authors_function(text_, facts_, id));
             for (const NodeId child : tree_.children(id)) {
                 all_[id] += all_[child];
                 calls_.back() = calls_.back() || calls_[child - 1];

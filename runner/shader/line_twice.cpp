@@ -90,9 +90,9 @@ bool needs_one_operand(std::string_view name) {
 class TwiceWriter {
 public:
     TwiceWriter(const ParsedText& text, const TreeFacts& facts, const WorkText& counted,
-                const SourceLocation& place, const WorkWeights& weights)
-        : text_(text), tree_(text.tree()), facts_(facts), counted_(counted), place_(place), weights_(weights),
-          known_(find_known(text, facts, !weights.device.empty())), prefix_(fresh_prefix(text)) {
+                const SourceLocation& place, bool uniforms_are_known)
+        : text_(text), tree_(text.tree()), facts_(facts), counted_(counted), place_(place),
+          known_(find_known(text, facts, uniforms_are_known)), prefix_(fresh_prefix(text)) {
         for (NodeId id = 1; id < tree_.nodes.size(); ++id)
             if (tree_[id].kind == NodeKind::declarator &&
                 tree_[tree_[tree_[id].parent].parent].kind == NodeKind::loop_for)
@@ -106,18 +106,28 @@ public:
         for (const NodeId function : tree_.children(0))
             if (tree_[function].kind == NodeKind::function)
                 visit(function);
-        if (covered_ <= 0 || covered_ < 0.5 * result_.work)
+        if (result_.repeated <= 0 || result_.repeated < 0.5 * result_.work)
             return fail(ErrorCode::load, "the line's operations cannot be repeated");
-        result_.added += covered_;
-        SourceRewriter edits(text_);
-        for (const auto& [node, wraps] : wraps_)
-            for (const auto& [before, after] : wraps)
-                edits.wrap(node, before, after);
-        result_.text = headers_of(text_) + twice_functions(prefix_) + temporaries_ + edits.text();
+        result_.text = written([](const Wrap& wrap) -> const std::string& { return wrap.after; });
+        result_.control = written([](const Wrap& wrap) -> const std::string& { return wrap.after_control; });
         return std::move(result_);
     }
 
 private:
+    /// Words around a node: the same ones precede it in both texts.
+    struct Wrap {
+        std::string before, after, after_control;
+    };
+
+    template <class After>
+    std::string written(const After& after) const {
+        SourceRewriter edits(text_);
+        for (const auto& [node, wraps] : wraps_)
+            for (const Wrap& wrap : wraps)
+                edits.wrap(node, wrap.before, after(wrap));
+        return headers_of(text_) + twice_functions(prefix_) + temporaries_ + edits.text();
+    }
+
     /// A second computation of an expression.
     struct Copy {
         std::string words;
@@ -128,8 +138,8 @@ private:
     /// Wraps of nodes that a copy needs, kept only if the copy succeeds.
     struct Draft {
         std::vector<std::pair<NodeId, std::string>>
-            saved;                             ///< nodes with the variables that keep their values
-        std::map<std::string, double> shifted; ///< operands, with their components
+            saved;                     ///< nodes with the variables that keep their values
+        std::set<std::string> shifted; ///< operands
         bool possible = true;
     };
 
@@ -141,10 +151,6 @@ private:
     }
 
     NodeId bare(NodeId id) const { return without_brackets(tree_, id); }
-
-    bool is_authors_call(NodeId id) const {
-        return tree_[id].kind == NodeKind::call && facts_.function(called_name(text_, id));
-    }
 
     /// Returns whether the node is a variable or a part of one, without operations.
     bool is_plain_place(NodeId id) const {
@@ -175,7 +181,8 @@ private:
             return;
         if (kind == NodeKind::loop_for || kind == NodeKind::loop_while || kind == NodeKind::loop_do)
             return visit(body_of_loop(id)); // a changed head may not be unrolled
-        if (is_expression(kind) && is_on_line(id) && !is_authors_call(id) && !known_[id] && repeat(id))
+        if (is_expression(kind) && is_on_line(id) && !calls_authors_function(text_, facts_, id) &&
+            !known_[id] && repeat(id))
             return;
         for (const NodeId child : tree_.children(id))
             visit(child);
@@ -206,16 +213,14 @@ private:
         }
         if (!draft.possible || !again.shifted || again.covered <= 0)
             return false;
-        const double size = value == id ? size_of(id) : std::max(size_of(id), size_of(value));
-        double extra = (size - 1) + 1 + size_of(value);
-        for (const auto& [operand, components] : draft.shifted)
-            if (shifted_.insert(operand).second)
-                extra += components;
-        result_.added += weights_[Operation::sum] * extra;
-        covered_ += again.covered;
+        result_.repeated += again.covered;
+        std::string operands;
+        for (const std::string& operand : draft.shifted)
+            operands += fmt::format("{}{}keep({})", operands.empty() ? "" : "+", prefix_, operand);
         for (auto& [node, name] : draft.saved)
-            wraps_[node].emplace_back("(" + name + "=", ")");
-        wraps_[value].emplace_back(prefix_ + "add(", fmt::format(",{}keep({}))", prefix_, again.words));
+            wraps_[node].push_back({"(" + name + "=", ")", ")"});
+        wraps_[value].push_back({prefix_ + "add(", fmt::format(",{}keep({}))", prefix_, again.words),
+                                 fmt::format(",{})", operands)});
         for (const auto& [node, name] : draft.saved)
             for (const NodeId child : tree_.children(node))
                 visit(child);
@@ -253,7 +258,7 @@ private:
 
     /// Returns whether the node is an operation of the line, or has no work of its own.
     bool is_repeatable(NodeId id) const {
-        if (counted_.repeated[id] || is_authors_call(id) || is_change(text_, id) ||
+        if (counted_.repeated[id] || calls_authors_function(text_, facts_, id) || is_change(text_, id) ||
             tree_[id].kind == NodeKind::comma)
             return false;
         const NodeKind kind = tree_[id].kind;
@@ -290,8 +295,9 @@ private:
         const auto type = expression_type(text_, facts_, id);
         if (type && type->base == 'b')
             return {"(" + words + ")"};
-        draft.shifted[words] = size_of(id);
-        return {fmt::format("{}shift({})", prefix_, words), true};
+        std::string shifted = fmt::format("{}shift({})", prefix_, words);
+        draft.shifted.insert(shifted);
+        return {std::move(shifted), true};
     }
 
     /// Returns the value that the first computation has of the node, kept in a variable.
@@ -359,15 +365,12 @@ private:
     const TreeFacts& facts_;
     const WorkText& counted_;
     const SourceLocation& place_;
-    const WorkWeights& weights_;
     std::vector<bool> known_;
     std::string prefix_;
-    std::set<std::string_view> counters_; ///< variables of heads of loops, which compilers may know
-    std::set<std::string> shifted_;       ///< operands that the line shifts; each counts once
-    std::map<NodeId, std::vector<std::pair<std::string, std::string>>> wraps_; ///< inner ones first
+    std::set<std::string_view> counters_;       ///< variables of heads of loops, which compilers may know
+    std::map<NodeId, std::vector<Wrap>> wraps_; ///< inner ones first
     std::string temporaries_;
     int variables_ = 0;
-    double covered_ = 0;
     LineTwice result_;
 };
 
@@ -375,7 +378,7 @@ private:
 
 Result<LineTwice> do_line_twice(const ParsedText& text, const TreeFacts& facts, const WorkText& counted,
                                 const SourceLocation& place, const WorkWeights& weights) {
-    return TwiceWriter(text, facts, counted, place, weights).run();
+    return TwiceWriter(text, facts, counted, place, !weights.device.empty()).run();
 }
 
 std::string do_no_line_twice(const ParsedText& text) {

@@ -42,10 +42,6 @@ double weight_of(const ParsedText& text, NodeId id) {
     }
 }
 
-bool calls_function(const ParsedText& text, const TreeFacts& facts, NodeId id) {
-    return text.tree()[id].kind == NodeKind::call && facts.function(called_name(text, id));
-}
-
 // Central differences, as in normals: `f(p + e) - f(p - e)` for several e. One-sided ones share f(p).
 
 constexpr double k_chance_of_difference = 0.6;
@@ -92,7 +88,7 @@ NodeId call_behind(const ParsedText& text, const TreeFacts& facts, NodeId id) {
     const SyntaxTree& tree = text.tree();
     while (tree[id].kind == NodeKind::member || tree[id].kind == NodeKind::parenthesis)
         id = tree.child(id, 0);
-    return calls_function(text, facts, id) ? id : k_no_node;
+    return calls_authors_function(text, facts, id) ? id : k_no_node;
 }
 
 /// Returns the statement of a block that computes the expression once; k_no_node if there is none.
@@ -149,7 +145,7 @@ void WorkEstimate::count_times() {
         const bool inside = parent != k_no_node && tree_[id].kind != NodeKind::function;
         times_[id] =
             !inside ? 1 : times_[parent] * (is_loop(tree_[parent].kind) ? turns_of(text_, parent) : 1);
-        if (calls_function(text_, facts_, id))
+        if (calls_authors_function(text_, facts_, id))
             sites[called_name(text_, id)].push_back(id);
     }
     std::unordered_map<std::string_view, double> calls{{"main", 1.0}};
@@ -374,7 +370,7 @@ private:
             std::ranges::any_of(text_.tokens(), [](const text::Token& token) { return token.is("mainHit"); });
         bool first = false;
         for (NodeId id = 1; id < tree_.nodes.size(); ++id)
-            first = first || (tree_[id].kind == NodeKind::call && facts_.function(called_name(text_, id)) &&
+            first = first || (calls_authors_function(text_, facts_, id) &&
                               tree_.around(id, NodeKind::function) == k_no_node);
         return hits || first;
     }

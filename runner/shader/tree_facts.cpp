@@ -354,6 +354,10 @@ std::string_view called_name(const ParsedText& text, NodeId call) {
     return text.tree()[callee].kind == NodeKind::name ? text.word_of(callee) : std::string_view{};
 }
 
+bool calls_authors_function(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+    return text.tree()[id].kind == NodeKind::call && facts.function(called_name(text, id));
+}
+
 bool TreeFacts::is_type(std::string_view word) const {
     return structures.contains(word) || class_of_type(word) != TypeClass::none ||
            !float_type_of(word).empty();

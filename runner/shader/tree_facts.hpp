@@ -79,6 +79,8 @@ bool is_change(const ParsedText& text, NodeId expression);
 std::vector<std::string_view> names_set(const ParsedText& text, const TreeFacts& facts, NodeId expression);
 /// Returns the name of the called function or constructor; empty for an array's constructor and `.length()`.
 std::string_view called_name(const ParsedText& text, NodeId call);
+/// Returns whether the node is a call of a function that the text defines.
+bool calls_authors_function(const ParsedText& text, const TreeFacts& facts, NodeId id);
 
 /// Returns whether an expression must stay constant: part of a `const` declaration, an array size, a case
 /// label, or, in GLSL ES, the value of a global variable.

@@ -331,7 +331,7 @@ private:
         needed_[id] = true;
         if (tree_[id].kind == NodeKind::name)
             read(text_.word_of(id));
-        if (tree_[id].kind == NodeKind::call && facts_.function(called_name(text_, id)))
+        if (calls_authors_function(text_, facts_, id))
             grew_ = runs_.insert(called_name(text_, id)).second || grew_;
         for (const NodeId child : tree_.children(id))
             keep(child);
@@ -358,7 +358,7 @@ private:
             for (const std::string_view name : names_set(text_, facts_, id))
                 if (is_declared(k_no_node, name))
                     sets_[text_.word_of(function)].insert(name);
-            if (tree_[id].kind == NodeKind::call && facts_.function(called_name(text_, id)))
+            if (calls_authors_function(text_, facts_, id))
                 calls[text_.word_of(function)].insert(called_name(text_, id));
         }
         for (bool grows = true; std::exchange(grows, false);)

@@ -214,6 +214,7 @@ TEST_F(VariationTest, ALineDoneTwiceKeepsThePicture) {
         if (const auto twice = glsl::do_line_twice(**text, facts, *counted, {file, line})) {
             lines.push_back(line);
             EXPECT_LE(unlike(bytes(twice->text), plain), 5u) << "line " << line;
+            EXPECT_LE(unlike(bytes(twice->control), plain), 5u) << "control of line " << line;
         }
     EXPECT_EQ(lines, (std::vector{2, 3, 5, 6, 8, 9, 11, 12, 14, 15, 16}));
 }

@@ -230,16 +230,16 @@ TEST(Lens, a_picture_with_a_legend_has_even_sides) {
         }
 }
 
-TEST(HotLines, a_share_is_the_median_of_the_rounds_without_what_the_copy_adds) {
-    const LineShare plain = measured_share({0.3, 0.2, 0.1, 0.4, 0.9}, 12, 12);
+TEST(HotLines, a_share_is_the_median_of_the_rounds_times_the_part_that_was_not_repeated) {
+    const LineShare plain = measured_share({0.3, 0.2, 0.1, 0.4, 0.9}, 1);
     EXPECT_DOUBLE_EQ(plain.share, 0.3);
     EXPECT_TRUE(plain.interval.contains(0.3));
     EXPECT_GE(plain.interval.low, 0.1);
     EXPECT_LE(plain.interval.high, 0.9);
-    const LineShare half = measured_share({0.3, 0.2, 0.1, 0.4, 0.9}, 6, 12);
-    EXPECT_DOUBLE_EQ(half.share, 0.15) << "half of the additional work is not the line's";
-    EXPECT_DOUBLE_EQ(half.interval.low, plain.interval.low / 2);
-    EXPECT_DOUBLE_EQ(measured_share({0.2, 0.2, 0.2, 0.2, 0.2}, 1, 1).interval.high, 0.2);
+    const LineShare whole = measured_share({0.3, 0.2, 0.1, 0.4, 0.9}, 2);
+    EXPECT_DOUBLE_EQ(whole.share, 0.6) << "half of the line was repeated";
+    EXPECT_DOUBLE_EQ(whole.interval.low, plain.interval.low * 2);
+    EXPECT_DOUBLE_EQ(measured_share({0.2, 0.2, 0.2, 0.2, 0.2}, 1).interval.high, 0.2);
 }
 
 } // namespace tidemark::lab::lens_test

@@ -197,11 +197,15 @@ std::optional<LineTwice> twice(const std::string& text, int line, const WorkWeig
 }
 
 /// The author's part of the text, without blanks.
-std::string changed(const std::optional<LineTwice>& made) {
-    std::string text = made ? made->text.substr(made->text.find("tmw0_add(mat4")) : "";
+std::string authors_part(const std::string& made) {
+    std::string text = made.substr(std::min(made.size(), made.find("tmw0_add(mat4")));
     text.erase(0, std::min(text.size(), text.find('\n')));
     std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
     return text;
+}
+
+std::string changed(const std::optional<LineTwice>& made) {
+    return made ? authors_part(made->text) : std::string();
 }
 
 TEST(Twice, an_expression_is_computed_again_of_shifted_operands) {
@@ -211,7 +215,21 @@ TEST(Twice, an_expression_is_computed_again_of_shifted_operands) {
     EXPECT_EQ(changed(made), "voidmainImage(outvec4c,invec2p){floatx=tmw0_add(sin(p.x),tmw0_keep(sin("
                              "tmw0_shift(p.x))));c=vec4(x);}");
     EXPECT_EQ(made->work, 16);
-    EXPECT_EQ(made->added, 16 + 1 + 2) << "the sine; its shifted operand; a product and a sum";
+    EXPECT_EQ(made->repeated, 16);
+}
+
+TEST(Twice, the_control_has_the_shifted_operands_without_the_operations) {
+    const auto made = twice("float f(float a) {\nreturn a * a;\n}\nvoid mainImage(out vec4 c, in vec2 p) {\n"
+                            "float x = atan(p.x, p.y) * f(p.x);\nc = vec4(x);\n}",
+                            5);
+    ASSERT_TRUE(made);
+    const std::string control = authors_part(made->control);
+    EXPECT_NE(control.find("x=tmw0_add(atan(p.x,p.y)*(tmw0_t0=f(p.x)),tmw0_keep(tmw0_shift(p.x))+"
+                           "tmw0_keep(tmw0_shift(p.y)));"),
+              std::string::npos)
+        << control;
+    EXPECT_EQ(made->work, 18);
+    EXPECT_EQ(made->repeated, 17) << "the call is made once";
 }
 
 TEST(Twice, one_operand_of_a_sum_is_shifted_and_both_of_a_quotient) {
