@@ -131,9 +131,12 @@ public:
     /// is unknown whether a process of another machine still runs: pass `all` only if none does.
     enum class Machines { ours, all };
     static void remove_abandoned(const OutputPath& output, Machines machines = Machines::ours);
-    /// Returns a running process that has a file of this very output under construction, other than this one;
-    /// 0 if there is none.
-    static pid_t other_maker_of(const OutputPath& output);
+    struct Maker {
+        pid_t process;
+        bool ends; ///< it was killed, or has ended while a program that it was starting keeps the file open
+    };
+    /// Returns the process that has a file of this very output under construction, other than this one.
+    static std::optional<Maker> other_maker_of(const OutputPath& output);
     StagedFile(StagedFile&& other) noexcept;
     StagedFile& operator=(StagedFile&&) = delete;
     StagedFile(const StagedFile&) = delete;

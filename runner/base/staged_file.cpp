@@ -16,10 +16,13 @@
 #include <charconv>
 #include <climits>
 #include <csignal>
+#include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <mutex>
 #include <set>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -130,14 +133,46 @@ std::string without_digits(std::string stem) {
     return stem;
 }
 
+std::string proc_text(pid_t process, std::string_view file) {
+    std::ifstream stream(fmt::format("/proc/{}/{}", process, file));
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Returns the words of the process's `stat` from its state on; empty if the process is unknown.
+std::string state_of(pid_t process) {
+    const std::string text = proc_text(process, "stat");
+    const size_t name_end = text.rfind(") "); // the name may have any character in it
+    return name_end == text.npos ? std::string() : text.substr(name_end + 2);
+}
+
 /// Returns whether the process is dead, even if its parent has not waited for it yet.
 bool has_ended(pid_t process) {
     if (::kill(process, 0) != 0 && errno == ESRCH)
         return true;
-    std::ifstream file(fmt::format("/proc/{}/stat", process));
-    const std::string text(std::istreambuf_iterator<char>(file), {});
-    const size_t name_end = text.rfind(") "); // the name may have any character in it
-    return name_end != text.npos && (text[name_end + 2] == 'Z' || text[name_end + 2] == 'X');
+    const std::string state = state_of(process);
+    return state.starts_with('Z') || state.starts_with('X');
+}
+
+/// Returns whether a SIGKILL waits for the process, which may write to a disk first, or the kernel takes it
+/// down.
+bool is_killed(pid_t process) {
+    const std::string status = proc_text(process, "status");
+    for (const std::string_view line : {"SigPnd:", "ShdPnd:"}) {
+        const size_t at = status.find(line);
+        uint64_t pending = 0;
+        if (at != status.npos) {
+            const size_t digits = std::min(status.find_first_not_of(" \t", at + line.size()), status.size());
+            std::from_chars(status.data() + digits, status.data() + status.size(), pending, 16);
+        }
+        if (pending & (uint64_t{1} << (SIGKILL - 1)))
+            return true;
+    }
+    constexpr unsigned long k_exiting = 4; // PF_EXITING, in the seventh word
+    std::istringstream words(state_of(process));
+    std::string word;
+    for (int i = 0; i < 7; ++i)
+        words >> word;
+    return words && (std::strtoul(word.c_str(), nullptr, 10) & k_exiting) != 0;
 }
 
 /// Returns whether no process can still be writing the file: on this machine its process is dead, and the
@@ -200,10 +235,10 @@ void StagedFile::remove_abandoned(const OutputPath& output, Machines machines) {
         remove_abandoned_in(folder_of(place->path), without_digits(output.path().stem().string()), machines);
 }
 
-pid_t StagedFile::other_maker_of(const OutputPath& output) {
+std::optional<StagedFile::Maker> StagedFile::other_maker_of(const OutputPath& output) {
     const auto place = output.place();
     if (!place || place->stream)
-        return 0;
+        return std::nullopt;
     std::error_code error;
     for (fs::directory_iterator entry(folder_of(place->path), error), end; !error && entry != end;
          entry.increment(error)) {
@@ -211,9 +246,10 @@ pid_t StagedFile::other_maker_of(const OutputPath& output) {
         const PartOf part = part_of(name.string());
         if (part.process > 0 && part.process != ::getpid() && part.stem == output.path().stem() &&
             name.extension() == output.path().extension() && !is_abandoned(entry->path(), part))
-            return part.process;
+            return Maker{part.process,
+                         part.machine == machine() && (has_ended(part.process) || is_killed(part.process))};
     }
-    return 0;
+    return std::nullopt;
 }
 
 Result<void> StagedFile::check_is_there() const {

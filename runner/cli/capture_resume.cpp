@@ -356,9 +356,9 @@ Result<SegmentedVideo> SegmentedVideo::create(const CapturePlan& plan, Extent ex
 }
 
 /// Claims the video for this process. If two begin at the same moment, the one with the lower process ID goes
-/// on. Waits up to a second, since a killed process may take a moment to end.
+/// on. Waits for a killed process, which may take a moment to end, and for a program that it was starting.
 Result<void> SegmentedVideo::claim() {
-    constexpr std::chrono::milliseconds k_patience(1000), k_pause(20);
+    constexpr std::chrono::milliseconds k_patience(1000), k_patience_with_ending(20000), k_pause(20);
     const OutputPath mark = plan_.output.of_frame(0).beside(
         plan_.shard ? fmt::format(".shard-{}", plan_.shard->index) : ".capture");
     const auto refuse = [&](pid_t other) {
@@ -366,16 +366,17 @@ Result<void> SegmentedVideo::claim() {
                                                   "that process ends, or give another name (-o)",
                                                   plan_.output.pattern().string(), other));
     };
-    pid_t other = StagedFile::other_maker_of(mark);
-    for (auto waited = k_pause; other != 0 && waited < k_patience; waited += k_pause) {
+    auto other = StagedFile::other_maker_of(mark);
+    for (auto waited = k_pause; other && waited < (other->ends ? k_patience_with_ending : k_patience);
+         waited += k_pause) {
         std::this_thread::sleep_for(k_pause);
         other = StagedFile::other_maker_of(mark);
     }
-    if (other != 0)
-        return refuse(other);
+    if (other)
+        return refuse(other->process);
     claim_.emplace(TRY(StagedFile::create(mark)));
     other = StagedFile::other_maker_of(mark);
-    return other != 0 && other < ::getpid() ? refuse(other) : Result<void>();
+    return other && other->process < ::getpid() ? refuse(other->process) : Result<void>();
 }
 
 Result<void> SegmentedVideo::open_next() {

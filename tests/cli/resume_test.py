@@ -1,5 +1,6 @@
 """`capture --resume`: what is there already is kept, the rest is drawn, and nobody can tell the result from one of
 a capture that was never cut short. TIDEMARK_KILLS says how many captures are killed."""
+import fcntl
 import hashlib
 import json
 import os
@@ -8,6 +9,7 @@ import random
 import shutil
 import signal
 import subprocess
+import threading
 import time
 import unittest
 
@@ -184,6 +186,19 @@ class Videos(Resume):
                              any(line.startswith("continuing from ") for line in lines))
             self.assertEqual(self.contents(), whole)
             (self.folder / f"out/a{extension}").unlink()
+
+    def test_waits_for_what_a_killed_capture_was_about_to_start(self):
+        """A child has its parent's files open, and their locks, until it runs its own program: here for two seconds."""
+        arguments = self.video(".mp4")
+        self.cut(arguments, 2)
+        mark, = (path for path in (self.folder / "out").iterdir() if path.suffix == ".capture")
+        with mark.open() as file:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            timer = threading.Timer(2, file.close)
+            timer.start()
+            lines = self.resume(*arguments)
+            timer.join()
+        self.assertEqual(lines[-1], "wrote out/a.mp4: 50 frames")
 
     def test_damaged_and_foreign_segments_are_redrawn(self):
         arguments = self.video(".mp4")
