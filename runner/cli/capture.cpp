@@ -506,7 +506,7 @@ void add_capture_options(Command command, CaptureOptions& options) {
     command
         .add_option("--lens", options.lens,
                     "Draws a number per pixel instead of the picture: cost, steps, error, rounding, proof, "
-                    "value:LINE or branch:LINE; an .exr holds the numbers")
+                    "clocks, value:LINE or branch:LINE; an .exr holds the numbers")
         .type_name("LENS")
         .excludes("--layers")
         .excludes("--tile")

@@ -24,6 +24,8 @@ constexpr LensForm k_forms[] = {
      "largest change of the pixel with the arithmetic of other GPUs, in steps of 1/255", LineUse::none},
     {"proof", "proof", "where the march is proved right, steps over its first hit, or misses it",
      LineUse::none},
+    {"clocks", "clocks", "cycles of the device's clock that each pixel takes, with those that run with it",
+     LineUse::none},
     {"value", "value:LINE[:NAME]", "the value of a variable or an expression of a line", LineUse::required,
      "name"},
     {"branch", "branch:LINE[:N]", "which way a condition went, and where neighbouring pixels part",
@@ -310,6 +312,17 @@ Result<void> plan_cost(const scene::Scene& scene, LensPlan& plan, const glsl::Wo
     return {};
 }
 
+Result<void> plan_clocks(const scene::Scene& scene, LensPlan& plan) {
+    const RewriteText rewrite = [](const auto& text, const auto& facts) {
+        return glsl::measure_clocks(text, facts);
+    };
+    plan.drawn = TRY(with_hit_text(scene, plan.pass, rewrite));
+    plan.basis = Basis::measured;
+    plan.title = "cycles from the begin to the end of mainImage";
+    plan.unit = "cycles";
+    return {};
+}
+
 constexpr LensClass k_outcomes[] = {{"proved right", {0, 32, 77}},
                                     {"steps over its first hit", {255, 234, 70}},
                                     {"misses it", {255, 255, 255}},
@@ -356,6 +369,7 @@ void plan_moves(LensPlan& plan, Basis basis, std::string title) {
 Result<void> plan_lens(const scene::Scene& scene, LensPlan& plan, const glsl::WorkWeights& weights) {
     switch (plan.lens.name) {
     case LensName::cost: return plan_cost(scene, plan, weights);
+    case LensName::clocks: return plan_clocks(scene, plan);
     case LensName::steps: return plan_steps(scene, plan);
     case LensName::value:
     case LensName::branch: return plan_value(scene, plan);

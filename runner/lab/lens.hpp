@@ -27,10 +27,11 @@ enum class LensName {
     error,    ///< float against double
     rounding, ///< largest change under the arithmetic of other GPUs
     proof,    ///< march pixels: proved right, or wrong in a known way
+    clocks,   ///< cycles of the device's clock
     value,    ///< a variable of a line
     branch,   ///< which way a condition went
 };
-inline constexpr size_t k_lenses = 7;
+inline constexpr size_t k_lenses = 8;
 enum class LineUse { none, optional, required };
 /// How a lens is named, and what follows its name.
 struct LensForm {

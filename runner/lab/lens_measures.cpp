@@ -11,6 +11,7 @@
 #include "render/frame_stepper.hpp"
 #include "shader/variation.hpp"
 
+#include <GL/glcorearb.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -90,6 +91,29 @@ Result<LensNumbers> read_instrumented(const LensPlan& plan, const LensFrame& fra
                                 "numbers would not be those of the scene{}",
                                 others, drawn.extent.pixels(),
                                 words_on_lines(frame.plain.scene(), plan.pass)));
+    return numbers;
+}
+
+/// Drawings of `clocks`: each pixel keeps its smallest number, since other work may come between.
+constexpr int k_clock_drawings = 5;
+
+Result<LensNumbers> read_clocks(const LensPlan& plan, const LensFrame& frame, const KeepGoing& keep_going) {
+    LensNumbers numbers = TRY(read_instrumented(plan, frame));
+    if (std::ranges::all_of(numbers.values, [](float cycles) { return cycles == 0; }))
+        return fail(ErrorCode::load, "the driver's shaders have no clock (GL_ARB_shader_clock)");
+    if (!frame.drawn->can_draw_again())
+        return numbers;
+    const PassPreview preview = PassPreview::again(*frame.drawn, frame.inputs);
+    auto target = gl::make_render_target(gl::make_texture(numbers.extent, GL_RGBA32F, 1));
+    if (!target)
+        return fail(ErrorCode::no_memory, "the driver has no memory for the cycles");
+    image::Image drawn(numbers.extent, 4, image::SampleType::f32);
+    for (int i = 1; i < k_clock_drawings && keep_going(); ++i) {
+        preview.draw(preview.program(), *target);
+        gl::read_pixels(*target, GL_RGBA, GL_FLOAT, drawn.bytes);
+        for (size_t pixel = 0; pixel < numbers.values.size(); ++pixel)
+            numbers.values[pixel] = std::min(numbers.values[pixel], drawn.f32()[4 * pixel]);
+    }
     return numbers;
 }
 
@@ -274,6 +298,7 @@ uint32_t bytes_of_colour(const float* colour) {
 
 Result<LensNumbers> read_lens(const LensPlan& plan, const LensFrame& frame, const KeepGoing& keep_going) {
     switch (plan.lens.name) {
+    case LensName::clocks: return read_clocks(plan, frame, keep_going);
     case LensName::error: return read_error(plan, frame);
     case LensName::rounding: return read_rounding(plan, frame, keep_going);
     case LensName::proof: return read_proof(plan, frame, keep_going);

@@ -232,8 +232,10 @@ LensRange range_of(const LensPlan& plan, const LensSummary& summary) {
         return {high * std::pow(10, -k_decades), high};
     }
     // The few pixels with most steps must not make all others look the same.
-    const bool counted = plan.lens.name == LensName::cost || plan.lens.name == LensName::steps;
-    const double most = counted && summary.p99 > 0 ? std::min(summary.most, 2 * summary.p99) : summary.most;
+    const bool has_outliers = plan.lens.name == LensName::cost || plan.lens.name == LensName::clocks ||
+                              plan.lens.name == LensName::steps;
+    const double most =
+        has_outliers && summary.p99 > 0 ? std::min(summary.most, 2 * summary.p99) : summary.most;
     const double size = std::max(std::abs(summary.least), std::abs(most));
     if (!(size > 0))
         return {0, 1};

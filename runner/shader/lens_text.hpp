@@ -66,6 +66,10 @@ Result<ValueText> count_iterations(const ParsedText& text, const TreeFacts& fact
 /// no file.
 std::vector<SourceLocation> countable_loops(const ParsedText& text);
 
+/// Measures the cycles of the device's clock between the begin and the end of mainImage. Where the driver's
+/// shaders have no clock all numbers are 0.
+Result<text::MappedText> measure_clocks(const ParsedText& text, const TreeFacts& facts);
+
 /// A kind of operation with a weight of its own.
 enum class Operation {
     sum, ///< and products, comparisons, integers

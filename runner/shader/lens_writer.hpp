@@ -45,10 +45,11 @@ public:
         return {};
     }
 
-    /// `functions` precede the text; `answer` is what mainHit returns.
-    text::MappedText written(const std::string& functions, std::string_view answer) const {
+    /// `functions` precede the text; `answer` is what mainHit returns. `extensions`: further lines of
+    /// #extension.
+    text::MappedText written(const std::string& functions, std::string_view answer,
+                             std::string extensions = {}) const {
         text::MappedText whole;
-        std::string extensions;
         const std::string headers = text_.headers();
         for (size_t at = 0; (at = headers.find("#extension", at)) != headers.npos; ++at)
             extensions += headers.substr(at, headers.find('\n', at) - at) + "\n";

@@ -29,7 +29,7 @@ constexpr KeyRow k_rows[] = {
     {"Ctrl+Z; Ctrl+Y", "undo, redo changes of knobs, definitions, views and camera"},
     {"U; up, down", "mute the sound; louder, quieter"},
     {"Backspace; PageUp, PageDown", "of several scenes: all of them; the one before, the next"},
-    {"L; Shift+L", "lens: the next, the one before: cost, steps, error, rounding, proof, off"},
+    {"L; Shift+L", "lens: the next, the one before: cost, steps, error, rounding, proof, clocks, off"},
     {"I; F; H, F1", "status line: frame time, error, rays, NaN; full screen; help"},
     {"Esc", "cancel a recompilation or a frame of more than a second; else close what is open"},
     {"Esc Esc; Ctrl+Q", "quit; Esc twice within a second"},

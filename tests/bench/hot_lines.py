@@ -7,9 +7,9 @@ For each line above the least share a copy of the project is made. `twice`: the 
 operands, and added to its value times a 0 that no compiler knows, so that the picture keeps its bytes; a second copy has the other
 operands without the operations, and is taken off. `out`: the line gets the sum of its operands instead. Calls of the author's
 functions are not repeated, but operations in their arguments are. The share that the program measured is held against the change of
-the CPU time (tests/bench/timed.cpp), drawn in turn, medians. The copies are counted again: a copy that does a part of the line twice
-is held against that part of the share. `out` is held against the share itself. A copy whose count changes by less than half of the
-line's counted share does not show the line, and is left out. Frames of a few milliseconds are drawn larger. With --budget 0 the
+the CPU time (tests/bench/timed.cpp), drawn in turn, medians. The copies are counted again: a copy that does a part of the line twice,
+without calls of the author's functions for example, is held against that part of the share. `out` is held against the share itself. A
+copy whose count changes by less than half of the line's counted share does not show the line, and is left out. Frames of a few milliseconds are drawn larger. With --budget 0 the
 shares are counted; lines that the program could not measure are left out otherwise.
 """
 import argparse
@@ -166,17 +166,21 @@ def type_of_name(text, target):
 STATEMENT = re.compile(r"(?:\b(float|vec[234]|mat[234])\s+(\w+)\s*=|\b(return)\b|((?:\b[A-Za-z_]\w*)(?:\.\w+)?)\s*([-+*/]?=)(?!=))\s*")
 
 
+OPERATION = re.compile(r"[-+*/%<>?!&|^(]")
+
+
 def changed_line(code, line, how):
-    """The text with its line changed; None: it has no statement that can be."""
+    """The text with its line changed, and whether all of the line's operations are; None: it has no statement that can be."""
     clean = without_comments(code)
     functions = {name: kind for kind, name, _ in FUNCTION.findall(clean) if kind in TYPES or kind == "void"}
     macros = set(re.findall(r"#\s*define\s+(\w+)\(", clean))
     lines = clean.split("\n")
     if line > len(lines) or lines[line - 1].lstrip().startswith("#"):
-        return None
+        return None, False
     begin = sum(len(each) + 1 for each in lines[:line - 1])
     end = begin + len(lines[line - 1])
     edits, saved, at, declares, after = [], [], begin, None, begin
+    rest, whole = begin, True
     while True:
         found = STATEMENT.search(clean, at, end)
         if not found:
@@ -214,13 +218,15 @@ def changed_line(code, line, how):
             instead = re.sub(r"\bsaved(\d+)_", lambda m: f"saved{len(saved) + int(m.group(1))}_", instead)
             saved.extend(expression.saved)
         edits.append((at, stop, instead))
-        at = stop
+        whole = whole and not OPERATION.search(clean, rest, at) and not expression.saved
+        at = rest = stop
     if not edits:
-        return None
+        return None, False
+    whole = whole and not OPERATION.search(clean, min(rest, end), end)
     for start, stop, instead in reversed(edits):
         clean = clean[:start] + instead + clean[stop:]
     kept = " ".join(f"{kind} saved{i}_;" for i, kind in enumerate(saved))
-    return helpers() + kept + "\n" + clean
+    return helpers() + kept + "\n" + clean, whole
 
 
 LEAST_MS = 10  # of a frame, lest the driver's own work counts
@@ -282,7 +288,7 @@ class Bench:
                 if line["text"] and [each.strip() for each in text.split("\n")][line["line"] - 1:line["line"]] == [line["text"]]:
                     pair = []
                     for how in ("twice", "shifted") if self.options.how == "twice" else ("out",):
-                        place["code"] = changed_line(text, line["line"], how)
+                        place["code"], row["whole"] = changed_line(text, line["line"], how)
                         if place["code"]:
                             pair.append(str(folder / f"{plain.stem}_{len(copies)}_{how}.json"))
                             pathlib.Path(pair[-1]).write_text(json.dumps(whole))
@@ -291,7 +297,8 @@ class Bench:
                     if recounts and all(recounts):
                         base = recounts[1] if len(pair) == 2 else hot
                         row["recounted"] = (recounts[0]["operations"] - base["operations"]) / hot["operations"]
-                        row["predicted"] = line["share"] * min(1, row["recounted"] / line["counted"]) if len(pair) == 2 else -line["share"]
+                        part = 1 if row["whole"] else min(1, row["recounted"] / line["counted"])
+                        row["predicted"] = line["share"] * part if len(pair) == 2 else -line["share"]
                         if (row["recounted"] if len(pair) == 2 else -row["recounted"]) >= line["counted"] / 2:
                             copies.append((row, pair))
                     break

@@ -4,7 +4,8 @@
         [--timed PATH] [-o rows.json]
 
 all: each lens draws or refuses with a reason. steps: against a copy with a counter in its loop. error: against two captures. value:
-against `trace` in random pixels of a random assignment. tiles: rank correlation of `cost` with CPU time, per tile of 32x32 pixels.
+against `trace` in random pixels of a random assignment. tiles: rank correlation of `cost` and of `clocks` with CPU time, per tile of
+32x32 pixels.
 """
 import argparse
 import json
@@ -19,7 +20,7 @@ from hot_lines import closing, load, without_comments
 from random_projects import random_projects
 
 SIZE, WIDTH, HEIGHT = "64x36", 64, 36
-LENSES = ("cost", "steps", "error", "rounding", "proof")
+LENSES = ("cost", "steps", "error", "rounding", "proof", "clocks")
 ASSIGNMENT = re.compile(r"^\s*(?:(?:float|vec[234])\s+)?([A-Za-z_]\w*)\s*[-+*/]?=[^=]")
 MAIN = re.compile(r"\bvoid\s+mainImage\s*\(\s*(?:out|inout)\s+(?:\w+\s+)?vec4\s+(\w+)\s*,\s*(?:in\s+)?(?:\w+\s+)?vec2\s+(\w+)\s*\)")
 
@@ -174,16 +175,20 @@ class Project:
         size = "320x160"
         first, second = self.timed_tiles(size), self.timed_tiles(size)
         report, why = self.lens("cost", size=size)
+        clocks, _ = self.lens("clocks", size=size)
         if not first or not second or not report:
             return {"why": why or "not drawn again"}
-        values, costs, grouped = report["values"], [], []
+        values, costs, grouped, cycles = report["values"], [], [], []
         for y in range(5):
             for x in range(10):
                 rows = [values[320 * (32 * y + j) + 32 * x:320 * (32 * y + j) + 32 * x + 32] for j in range(32)]
                 costs.append(sum(map(sum, rows)))
+                if clocks:
+                    cycles.append(sum(sum(clocks["values"][320 * (32 * y + j) + 32 * x:320 * (32 * y + j) + 32 * x + 32]) for j in range(32)))
                 grouped.append(sum(8 * max(rows[j][i:i + 4] + rows[j + 1][i:i + 4]) for j in range(0, 32, 2) for i in range(0, 32, 4)))
         times = [(a + b) / 2 for a, b in zip(first, second)]
-        return {"correlation": correlation(costs, times), "grouped": correlation(grouped, times), "again": correlation(first, second),
+        return {"correlation": correlation(costs, times), "clocks": correlation(cycles, times) if cycles else None,
+                "grouped": correlation(grouped, times), "again": correlation(first, second),
                 "spread": max(times) / max(1e-6, min(times)), "ms": sum(times), "weights": report.get("weights")}
 
 
@@ -242,8 +247,9 @@ def summarise(rows):
     wide = [each for each in tiles if each["spread"] > 2 and each["ms"] > 10 and each["again"] > 0.9]
     if wide:
         print(f"tiles: {len(wide)} of {len(tiles)} differ by more than 2, take over 10 ms and have repeatable times:")
-        for name in ("correlation", "grouped", "again"):
-            print(f"  {name}: median {statistics.median(each[name] for each in wide):.3f}, least {min(each[name] for each in wide):.3f}")
+        for name in ("correlation", "grouped", "clocks", "again"):
+            known = [each[name] for each in wide if each[name] is not None]
+            print(f"  {name}: median {statistics.median(known):.3f}, least {min(known):.3f}" if known else f"  {name}: refused")
 
 
 if __name__ == "__main__":

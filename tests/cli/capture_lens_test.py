@@ -1,6 +1,7 @@
 """tidemark capture --lens: one number per pixel, against numbers that are known beforehand."""
 import json
 import random
+import statistics
 
 from support.march import HALVING
 from support.program import ProgramTest, environment, has_mesa_22, main
@@ -17,6 +18,14 @@ LOOPS = """void mainImage(out vec4 color, in vec2 place) {
     if (place.x < 12.0)
         shade *= 0.5;
     color = vec4(shade, 1.0);
+}
+"""
+SINES = """void mainImage(out vec4 color, in vec2 place) {
+    int count = place.x < 12.0 ? 2000 : 20;
+    float x = place.y;
+    for (int i = 0; i < count; ++i)
+        x = sin(x) + 0.5;
+    color = vec4(fract(x), 0.0, 0.0, 1.0);
 }
 """
 COARSE = """void mainImage(out vec4 color, in vec2 place) {
@@ -166,10 +175,10 @@ class Weights(ProgramTest):
 
 
 class Lens(ProgramTest):
-    def lens(self, text, lens, *options):
+    def lens(self, text, lens, *options, **more):
         self.write("scene.glsl", text)
         return self.run_program("capture", "scene.glsl", "--size", f"{WIDTH}x{HEIGHT}", "--lens", lens, "-o", "lens.png",
-                                *options)
+                                *options, **more)
 
     def report(self, text, lens, *options):
         run = self.lens(text, lens, "--json", *options)
@@ -214,6 +223,21 @@ class Lens(ProgramTest):
                 self.assertEqual(step, steps[0])
         self.assertGreater(steps[0], 0)
         self.assertEqual(steps[0] - steps[11], 3, "the branch multiplies three components")
+
+    def test_clocks_show_where_the_time_goes(self):
+        """The left half computes a hundred times as many sines. The device draws blocks whose sides divide 12."""
+        report = self.report(SINES, "clocks")
+        self.assertEqual((report["basis"], report["unit"], report["numbers"]), ("measured", "cycles", WIDTH * HEIGHT))
+        left, right = (statistics.median(value for i, value in enumerate(report["values"]) if (i % WIDTH < 12) == side)
+                       for side in (True, False))
+        self.assertGreater(left, 10 * right)
+        self.assertGreater(right, 0)
+
+    def test_clocks_need_a_driver_with_clocks(self):
+        cache = str(self.folder / "cache")  # or the program that another test linked would be used
+        run = self.lens(SINES, "clocks", env=environment(MESA_EXTENSION_OVERRIDE="-GL_ARB_shader_clock", XDG_CACHE_HOME=cache))
+        self.assertEqual(run.returncode, 3)
+        self.assertIn("the driver's shaders have no clock (GL_ARB_shader_clock)", run.stderr)
 
     def test_a_value_is_the_last_one_or_one_of_the_iterations(self):
         self.assertEqual(self.columns(self.report(LOOPS, "value:3")), [float(x) for x in range(WIDTH)])

@@ -226,7 +226,7 @@ class Lenses(Page):
     def test_a_lens_is_chosen_from_a_list(self):
         self.open(self.LOOPS)
         names = self.browser.evaluate("[...document.querySelector('select[aria-label=Lens]').options].map(o => o.textContent)")
-        self.assertEqual(names, ["off", "cost", "steps", "error", "rounding", "proof", "value", "branch"])
+        self.assertEqual(names, ["off", "cost", "steps", "error", "rounding", "proof", "clocks", "value", "branch"])
         self.assertTrue(self.browser.evaluate(f"{self.LEGEND}.hidden"))
         self.choose("value")
         self.fill("Line of the lens", "2")

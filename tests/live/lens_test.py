@@ -58,6 +58,8 @@ class Lens(OverlayTest):
         view.key("l")
         view.wait_for_words("^lens proof: ")
         view.key("l")
+        view.wait_for_words("^lens clocks: ")
+        view.key("l")
         view.wait_for_words("^lens off$")
         wait_for(lambda: view.picture() == plain, "the picture as it was")
 

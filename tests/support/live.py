@@ -20,7 +20,7 @@ from support.program import PROGRAM, SKIPPED, ProgramTest, environment, is_sanit
 T = TypeVar("T")
 
 # Nothing here is timed: this is how long a slow machine may take before we call it broken.
-PATIENCE = 180.0 if is_sanitized() else 60.0
+PATIENCE = 300.0 if is_sanitized() else 180.0
 
 
 def main() -> None:
@@ -243,7 +243,10 @@ class View:
         return pathlib.Path(self.words.name).read_text()
 
     def wait_for_words(self, pattern: str) -> re.Match:
-        return wait_for(lambda: self.running() and re.search(pattern, self.stderr(), re.MULTILINE), pattern)
+        try:
+            return wait_for(lambda: self.running() and re.search(pattern, self.stderr(), re.MULTILINE), pattern)
+        except AssertionError as error:
+            raise AssertionError(f"{error}; it said:\n{self.stderr()}") from None
 
     def wait_for_end(self) -> int:
         wait_for(lambda: self.program.poll() is not None, "the end of the program")

@@ -12,7 +12,7 @@ import urllib.parse
 
 from support.program import PROGRAM, environment
 
-PATIENCE = 60.0  # nothing here is timed
+PATIENCE = 120.0  # nothing here is timed
 TEXT, BINARY, CLOSE, PING, PONG = 1, 2, 8, 9, 10
 
 

@@ -12,7 +12,7 @@ using Mark = LensNumbers::Mark;
 using Pick = glsl::SeenValue::Pick;
 
 TEST(Lens, names_survive_parsing) {
-    for (const char* text : {"cost", "steps", "steps:12", "error", "rounding", "proof", "value:3",
+    for (const char* text : {"cost", "steps", "steps:12", "error", "rounding", "proof", "clocks", "value:3",
                              "value:3:p.x", "value:3:hit.normal@min", "value:common.glsl:7:d@max",
                              "value:9:d@4", "branch:5", "branch:a.glsl:5:2"}) {
         const auto lens = parse_lens(text);

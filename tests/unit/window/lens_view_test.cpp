@@ -71,14 +71,14 @@ std::string answer(LensView& view, const LensMoment& moment, T result, double no
 TEST(LensView, steps_through_the_lenses_that_need_no_line) {
     LensView view = with_scene();
     std::vector<std::string> seen;
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 7; ++i) {
         view.step(1);
         seen.push_back(view.chosen());
     }
-    EXPECT_THAT(seen, ElementsAre("cost", "steps", "error", "rounding", "proof", ""));
+    EXPECT_THAT(seen, ElementsAre("cost", "steps", "error", "rounding", "proof", "clocks", ""));
     view.step(-1);
-    EXPECT_EQ(view.chosen(), "proof");
-    EXPECT_THAT(view.take_message(), HasSubstr("lens proof: where the march is proved right"));
+    EXPECT_EQ(view.chosen(), "clocks");
+    EXPECT_THAT(view.take_message(), HasSubstr("lens clocks: cycles of the device's clock"));
 }
 
 TEST(LensView, a_lens_with_a_line_comes_last) {
@@ -93,7 +93,7 @@ TEST(LensView, a_lens_with_a_line_comes_last) {
     EXPECT_FALSE(view.on());
     view.choose("branch:3:2");
     view.step(-1);
-    EXPECT_EQ(view.chosen(), "proof");
+    EXPECT_EQ(view.chosen(), "clocks");
     EXPECT_EQ(view.chooser().variable, "2");
 }
 
