@@ -185,7 +185,10 @@ void LensView::refuse(const LensOrder& order, const Error& error) {
         return;
     }
     const std::string name = lab::to_string(order.lens);
-    refusal_ = refused_[name] = lab::reason_of(error);
+    refused_[name] = lab::reason_of(error);
+    if (name != chosen_) // another lens was chosen meanwhile
+        return;
+    refusal_ = refused_[name];
     message_ = fmt::format("lens {}: {}", name, refusal_);
     if (direction_ != 0)
         step(direction_);

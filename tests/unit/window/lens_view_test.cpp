@@ -97,6 +97,19 @@ TEST(LensView, a_lens_with_a_line_comes_last) {
     EXPECT_EQ(view.chooser().variable, "2");
 }
 
+TEST(LensView, a_late_refusal_leaves_the_next_lens_as_it_is) {
+    LensView view = with_scene();
+    view.choose("steps");
+    const auto order = view.next(moment_of(view, 0), false, 0);
+    ASSERT_TRUE(order);
+    view.choose("error");
+    view.take({*order, Error{ErrorCode::load, "no marching loop"}}, 0);
+    EXPECT_EQ(view.chosen(), "error");
+    EXPECT_THAT(view.take_message(), HasSubstr("lens error: float against double"));
+    EXPECT_EQ(kind_of(view.next(moment_of(view, 0), false, 0)), "error");
+    EXPECT_EQ(view.chooser().choices[1].refusal, "no marching loop");
+}
+
 TEST(LensView, a_step_goes_past_what_the_scene_refuses) {
     LensView view = with_scene();
     view.choose("cost");
