@@ -193,7 +193,7 @@ class Videos(Resume):
         self.cut(arguments, 2)
         mark, = (path for path in (self.folder / "out").iterdir() if path.suffix == ".capture")
         with mark.open() as file:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            fcntl.flock(file, fcntl.LOCK_EX)  # when the capture itself has ended
             timer = threading.Timer(2, file.close)
             timer.start()
             lines = self.resume(*arguments)
