@@ -90,8 +90,7 @@ uint $modulo(uint a,uint b){return $has(16)&&b==0u?a%0xffffffffu:a%b;}
 int $quotient(int a,int b){if(!$has(16)||(b!=0&&b!=-1))return a/b;return a==0x80000000?1:-a;}
 uint $quotient(uint a,uint b){return $has(16)&&b==0u?a/0xffffffffu:a/b;}
 uint $uint(float f){return $has(16)&&!(f>=0.0&&f<4294967296.0)?0u:uint(f);}
-int $place(int i,int n){return $has(16)?clamp(i,0,n-1):i;}
-int $place(uint i,int n){return $has(16)?int(min(i,uint(n-1))):int(i);}
+int $place(int i,int n){return $has(16)?clamp(i,0,n-1):i;}int $place(uint i,int n){return $has(16)?int(min(i,uint(n-1))):int(i);}
 vec3 $cross(vec3 a,vec3 b){if(!$has(8))return cross(a,b);precise vec3 r=a.yzx*b.zxy-b.yzx*a.zxy;return r;}
 float $fract(float x){return $has(8)?min(x-floor(x),0.99999994):fract(x);}
 float $mix(float x,float y,float a){if(!$has(8))return mix(x,y,a);precise float r=a*(y-x)+x;return r;}
@@ -99,13 +98,11 @@ float $mix(float x,float y,bool a){return a?y:x;}
 bool $even(float at){return (int(at)&1)==0;}
 float $across(float v){return -dFdyFine($even(gl_FragCoord.y)?dFdxFine(v):0.0);}
 float $upwards(float v){return -dFdxFine($even(gl_FragCoord.x)?dFdyFine(v):0.0);}
-float $dFdx(float v){return $has(128)?$across(v):dFdx(v);}
-float $dFdy(float v){return $has(128)?$upwards(v):dFdy(v);}
+float $dFdx(float v){return $has(128)?$across(v):dFdx(v);}float $dFdy(float v){return $has(128)?$upwards(v):dFdy(v);}
 float $fwidth(float v){return $has(128)?abs($across(v))+abs($upwards(v)):fwidth(v);}
 float $dot(float a,float b){return a*b;}float $length(float v){return abs(v);}
 float $distance(float a,float b){return abs(a-b);}
-float $normalize(float v){return normalize(v);}
-float $reflect(float i,float n){return reflect(i,n);}
+float $normalize(float v){return normalize(v);}float $reflect(float i,float n){return reflect(i,n);}
 )";
 
 /// One for each size @ of vectors.
@@ -348,7 +345,7 @@ const SwiftFunction* swift_function(const ParsedText& text, const TreeFacts& fac
     return found;
 }
 
-/// Functions of known values that SwiftShader's compiler computes (SPIRV-Tools' ConstantFoldingRules).
+/// Functions of known values that SwiftShader's compiler (SPIRV-Tools) computes.
 constexpr std::string_view k_folded[] = {"mix",  "min", "max", "clamp", "sin",  "cos",  "tan", "asin", "acos",
                                          "atan", "exp", "log", "exp2",  "log2", "sqrt", "pow", "dot"};
 
@@ -511,16 +508,19 @@ std::string_view swift_operator(const ParsedText& text, const TreeFacts& facts, 
         return {};
     if (!known || known->knows(tree.child(id, 1)) == Known::no)
         return "divide";
-    // By a number that the compiler knows: times its reciprocal, which both compilers merge with a factor.
+    // By a known number: times its reciprocal, which both compilers merge with a factor.
     const auto has_factor = [&](NodeId product) {
         return tree[product].kind == NodeKind::binary && text.word_of(product) == "*" &&
                (known->knows(tree.child(product, 0)) != Known::no ||
                 known->knows(tree.child(product, 1)) != Known::no);
     };
-    const bool merges =
-        left->scalar() && right->scalar() &&
-        (has_factor(without_brackets(tree, tree.child(id, 0))) || has_factor(tree[id].parent));
-    return merges ? std::string_view{} : "over";
+    const NodeId divisor = without_brackets(tree, tree.child(id, 1)), dividend = tree.child(id, 0);
+    const bool is_number = tree[divisor].kind == NodeKind::literal &&
+                           text.word_of(divisor).find_first_of("123456789") != std::string_view::npos;
+    return left->scalar() && is_number &&
+                   (has_factor(without_brackets(tree, dividend)) || has_factor(tree[id].parent))
+               ? std::string_view{}
+               : "over";
 }
 
 int operator_parts(std::string_view name) {
