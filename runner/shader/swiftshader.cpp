@@ -25,8 +25,7 @@ namespace {
 /// dFdxCoarse as dFdxFine, so that number is brought to the other pixels as the derivative of a number that
 /// is zero there. llvmpipe computes any number for a quotient by zero that it knows when it compiles;
 /// `$hidden` keeps a value from the compiler.
-constexpr std::string_view k_swift_numbers = R"(uniform int $mode;
-bool $has(int part){return ($mode&part)!=0;}
+constexpr std::string_view k_swift_numbers = R"(uniform int $mode;bool $has(int part){return ($mode&part)!=0;}
 float $bits(int b){return intBitsToFloat(b);}int $bits(float v){return floatBitsToInt(v);}
 float $fma(float a,float b,float c){precise float p=a*b,r=p+c;return r;}
 float $wave(float x){precise float s=x*x;return $fma($fma(74.4388885,s,-41.1693687),s,6.28230858)*x;}
@@ -81,6 +80,7 @@ bool $odd(float x,float y){return max($bits(x)&0x7fffffff,$bits(y)&0x7fffffff)>0
 float $min(float x,float y){if(!$has(16))return min(x,y);if($odd(x,y))return y;return x<y?x:y;}
 float $max(float x,float y){if(!$has(16))return max(x,y);if($odd(x,y))return y;return x>y?x:y;}
 float $clamp(float x,float a,float b){return $has(16)?$min($max(x,a),b):clamp(x,a,b);}
+float $bound(float x,float a,float b){return $has(16)&&x<=a?a:$clamp(x,a,b);}
 mat2 $inverse(mat2 m){if(!$has(8))return inverse(m);precise float d=1.0/(m[0][0]*m[1][1]-m[0][1]*m[1][0]);
 precise mat2 r=mat2(d*m[1][1],d*-m[0][1],d*-m[1][0],d*m[0][0]);return r;}
 mat3 $inverse(mat3 m){return inverse(m);}mat4 $inverse(mat4 m){return inverse(m);}
@@ -94,8 +94,8 @@ int $place(int i,int n){return $has(16)?clamp(i,0,n-1):i;}int $place(uint i,int 
 vec3 $cross(vec3 a,vec3 b){if(!$has(8))return cross(a,b);precise vec3 r=a.yzx*b.zxy-b.yzx*a.zxy;return r;}
 float $fract(float x){return $has(8)?min(x-floor(x),0.99999994):fract(x);}
 float $mix(float x,float y,float a){if(!$has(8))return mix(x,y,a);precise float r=a*(y-x)+x;return r;}
-float $mix(float x,float y,bool a){return a?y:x;}
-bool $even(float at){return (int(at)&1)==0;}
+float $mix(float x,float y,bool a){return a?y:x;}bool $even(float at){return (int(at)&1)==0;}
+float $levels(float q,float by){q*=q;return (float($bits(q))-float(0x3f800000))*by*5.9604644775390625e-8;}
 float $across(float v){return -dFdyFine($even(gl_FragCoord.y)?dFdxFine(v):0.0);}
 float $upwards(float v){return -dFdxFine($even(gl_FragCoord.x)?dFdyFine(v):0.0);}
 float $dFdx(float v){return $has(128)?$across(v):dFdx(v);}float $dFdy(float v){return $has(128)?$upwards(v):dFdy(v);}
@@ -108,15 +108,12 @@ float $normalize(float v){return normalize(v);}float $reflect(float i,float n){r
 /// One for each size @ of vectors.
 constexpr std::string_view k_swift_vectors = R"(@ $mix(@ x,@ y,@ a){if(!$has(8))return mix(x,y,a);
 precise @ r=a*(y-x)+x;return r;}
-@ $divide(@ a,float b){return $divide(a,@(b));}
-@ $divide(float a,@ b){return $divide(@(a),b);}
-@ $min(@ a,float b){return $min(a,@(b));}
-@ $max(@ a,float b){return $max(a,@(b));}
+@ $divide(@ a,float b){return $divide(a,@(b));}@ $divide(float a,@ b){return $divide(@(a),b);}
+@ $min(@ a,float b){return $min(a,@(b));}@ $max(@ a,float b){return $max(a,@(b));}
 @ $clamp(@ x,float a,float b){return $clamp(x,@(a),@(b));}
 @ $over(@ a,float b){if($has(16)&&b==0.0)return a/$hidden(b);if(!$has(8))return a/b;precise float r=1.0/b;precise @ q=a*r;return q;}
 @ $over(@ a,@ b){if($has(16)&&any(equal(b,@(0.0))))return $divide(a,b);if(!$has(8))return a/b;precise @ r=1.0/b,q=a*r;return q;}
-@ $over(float a,@ b){return $over(@(a),b);}
-@ $mod(@ a,float b){return $mod(a,@(b));}
+@ $over(float a,@ b){return $over(@(a),b);}@ $mod(@ a,float b){return $mod(a,@(b));}
 @ $smoothstep(float a,float b,@ x){return $smoothstep(@(a),@(b),x);}
 @ $mix(@ x,@ y,float a){return $has(8)?$mix(x,y,@(a)):mix(x,y,a);}
 float $length(@ v){return $has(8)?sqrt($dot(v,v)):length(v);}
@@ -127,12 +124,8 @@ u@ $u@(@ f){u@ r;for(int i=0;i<f.length();++i)r[i]=$uint(f[i]);return r;}
 @ $reflect(@ i,@ n){if(!$has(8))return reflect(i,n);precise @ r=i-(2.0*$dot(i,n))*n;return r;}
 )";
 
-/// Look-ups: the mipmap from the distance of the pixels, and two mipmaps mixed.
-constexpr std::string_view k_swift_pictures = R"(
-float $levels(float q,float by){q*=q;return (float($bits(q))-float(0x3f800000))*by*5.9604644775390625e-8;}
-)";
-
-/// One for each kind of sampler: `@` is the type of coordinates. Bytes are filtered as numbers up to 65280.
+/// Look-ups, for each kind of sampler: `@` is the type of coordinates. Bytes are filtered as numbers up to
+/// 65280.
 constexpr std::string_view k_swift_lookup = R"(
 vec4 $level(S s,@ p,float l,out float by){@ n=max(@(textureSize(s,int(l))),1.0),e=floor(p);
 precise @ at=(p-e)*n-0.5;@ low=floor(at),f=at-low;vec4 t[C];bool bytes=true;
@@ -257,7 +250,7 @@ std::string swift_overloads() {
     return text;
 }
 
-/// Returns functions that take whole numbers, too, and leave them as they are.
+/// Returns functions that take whole numbers, too.
 std::string swift_whole_overloads() {
     std::string text;
     for (const std::string_view type : k_whole_vectors.first<8>()) {
@@ -328,8 +321,8 @@ std::string swift_lookups() {
             text = replaced(text, fmt::format("{}C", before), fmt::format("{}{}", before, corners));
         return replaced(text, "@", type);
     };
-    return std::string(k_swift_pictures) + of("sampler2D", "vec2", "4", "") +
-           of("sampler3D", "vec3", "8", ",i>>2") + std::string(k_swift_cube);
+    return of("sampler2D", "vec2", "4", "") + of("sampler3D", "vec3", "8", ",i>>2") +
+           std::string(k_swift_cube);
 }
 
 const SwiftFunction* swift_function(const ParsedText& text, const TreeFacts& facts, NodeId id) {
@@ -372,7 +365,6 @@ public:
         }
     }
 
-    /// `depth` limits the recursion.
     Known knows(NodeId id, int depth = 0) const {
         if (id == k_no_node || depth > 12)
             return Known::no;
@@ -529,6 +521,13 @@ int operator_parts(std::string_view name) {
     return int(products) | (name == "times" ? 0 : int(outside)); // by zero
 }
 
+/// Returns whether the value and the lower bound of a `clamp` are known. The compiler ignores the upper one.
+bool is_known_below(const ParsedText& text, const TreeFacts& facts, const KnownValues& known, NodeId id) {
+    const auto type = expression_type(text, facts, id);
+    const Known value = known.knows(text.tree().child(id, 1)), bound = known.knows(text.tree().child(id, 2));
+    return type && type->scalar() && called_name(text, id) == "clamp" && std::min(value, bound) != Known::no;
+}
+
 } // namespace
 
 Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, int parts, bool precise,
@@ -554,7 +553,8 @@ Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, 
             if ((function->parts & parts) == 0)
                 continue;
             has_lookup = has_lookup || (function->parts & (int(mipmaps) | int(weights))) != 0;
-            edits.replace(tree[tree.child(id, 0)].word, prefix + std::string(function->name));
+            const auto name = is_known_below(text, facts, known, id) ? "bound" : function->name;
+            edits.replace(tree[tree.child(id, 0)].word, prefix + std::string(name));
         } else if (const auto name = swift_operator(text, facts, &known, id);
                    !name.empty() && (parts & operator_parts(name)) != 0) {
             has_matrix = has_matrix || name == "times";

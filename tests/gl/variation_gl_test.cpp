@@ -362,6 +362,19 @@ TEST_F(VariationTest, OnlyFunctionsThatItsCompilerComputesAreExact) {
     }
 }
 
+/// A lower bound above the upper one: of a value that it knows, SwiftShader's compiler looks at the lower one
+/// only. The numbers are Chromium 156's.
+TEST_F(VariationTest, AKnownValueIsClampedFromBelowOnly) {
+    const std::string before = "#define X (-3.2265625 + float(iFrame))\n"
+                               "float low(float x) { return clamp(0.5, 2.0, x); }\n";
+    const std::vector<std::string> expressions = {"low(X)", "clamp(-0.5, 0.0, X)", "clamp(1.5, 0.0, X)",
+                                                  "clamp(-0.5, X, X - 1.0)"};
+    EXPECT_EQ(varied(like_swiftshader, int(glsl::SwiftShaderPart::outside), expressions, before),
+              (std::vector{2.0f, 0.0f, -3.2265625f, -4.2265625f}));
+    EXPECT_EQ(varied(like_swiftshader, 0, expressions, before),
+              (std::vector{-3.2265625f, -3.2265625f, -3.2265625f, -4.2265625f}));
+}
+
 /// A volume of bytes, between its texels and across its edges: the bits that Chromium 156 computed of it.
 TEST_F(VariationTest, FiltersAreSwiftShaders) {
     std::string bytes("BIN\0\4\0\0\0\4\0\0\0\4\0\0\0\1\0\0\0", 20);
