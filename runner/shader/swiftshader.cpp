@@ -72,7 +72,7 @@ float $tanh(float x){float a=$exp(x),b=$exp(-x);return $has(4)?(a-b)/(a+b):tanh(
 float $hidden(float v){return $bits($bits(v)^($mode>>20));}
 float $divide(float a,float b){if($has(16))b=$hidden(b);else return $has(8)?float(double(a)/double(b)):a/b;
 return $has(8)?float(double(a)/double(b)):a/b;}
-float $over(float a,float b){if($has(16)&&b==0.0)return a/$hidden(b);if(!$has(8))return a/b;precise float r=1.0/b,q=a*r;return q;}
+float $over(float a,float b){if(b==0.0)return $divide(a,b);if(!$has(8))return a/b;precise float r=1.0/b,q=a*r;return q;}
 float $mod(float x,float y){if(!$has(8))return mod(x,y);precise float r=x-y*floor($divide(x,y));return r;}
 float $smoothstep(float a,float b,float x){if(!$has(8))return smoothstep(a,b,x);
 precise float d=x-a,e=b-a;float t=clamp($divide(d,e),0.0,1.0);precise float r=t*t*(3.0-2.0*t);return r;}
@@ -111,8 +111,8 @@ precise @ r=a*(y-x)+x;return r;}
 @ $divide(@ a,float b){return $divide(a,@(b));}@ $divide(float a,@ b){return $divide(@(a),b);}
 @ $min(@ a,float b){return $min(a,@(b));}@ $max(@ a,float b){return $max(a,@(b));}
 @ $clamp(@ x,float a,float b){return $clamp(x,@(a),@(b));}
-@ $over(@ a,float b){if($has(16)&&b==0.0)return a/$hidden(b);if(!$has(8))return a/b;precise float r=1.0/b;precise @ q=a*r;return q;}
-@ $over(@ a,@ b){if($has(16)&&any(equal(b,@(0.0))))return $divide(a,b);if(!$has(8))return a/b;precise @ r=1.0/b,q=a*r;return q;}
+@ $over(@ a,float b){if(b==0.0)return $divide(a,b);if(!$has(8))return a/b;precise float r=1.0/b;precise @ q=a*r;return q;}
+@ $over(@ a,@ b){if(any(equal(b,@(0.0))))return $divide(a,b);if(!$has(8))return a/b;precise @ r=1.0/b,q=a*r;return q;}
 @ $over(float a,@ b){return $over(@(a),b);}@ $mod(@ a,float b){return $mod(a,@(b));}
 @ $smoothstep(float a,float b,@ x){return $smoothstep(@(a),@(b),x);}
 @ $mix(@ x,@ y,float a){return $has(8)?$mix(x,y,@(a)):mix(x,y,a);}
