@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -255,6 +256,9 @@ Result<void> explain_apart(DeviceDifference& difference, const std::string& devi
                          {"causes", causes}});
     };
     const auto explain = [&](DeviceDifference& found, const Tell& tell) -> Result<void> {
+        // Each variation is drawn a few times: with LLVM's optimisations llvmpipe compiles a large one for
+        // minutes. The numbers are the same without them.
+        ::setenv("GALLIVM_PERF", "nopt", 0);
         const auto context = TRY(host::HeadlessContext::create({device}));
         lab::ProbeBench bench(scene, {});
         return lab::explain(found, bench, state, there, other,

@@ -36,6 +36,7 @@ constexpr double k_cost_elsewhere = 0.1;
 constexpr size_t k_most_lines = 3;
 /// The lines that are named carry this share of what all lines do.
 constexpr double k_share_of_lines = 0.8;
+constexpr size_t k_most_parts = 8; ///< in which lines are left out, after halves and quarters
 /// A buffer's sample comes near the other device's if this part of the difference is left.
 constexpr double k_nearer = 0.1;
 /// If a text explains this share of the difference, no other text is tried.
@@ -45,8 +46,7 @@ constexpr double k_enough_seconds = 60;
 /// Seconds of a pass above which no model is tried: some thirty drawings follow, each up to four times
 /// slower.
 constexpr double k_slow_pass_seconds = 1;
-/// Pictures are not made smaller than this.
-constexpr int k_least_side = 24;
+constexpr int k_least_side = 24; ///< pictures are not made smaller than this
 
 /// A freedom of devices that a changed text imitates; the cause is named as `check` names its probe.
 struct Model {
@@ -458,16 +458,17 @@ private:
             return picture ? measured(*picture, {}).cause.moved : 0.0;
         };
         std::vector<Line> left(by_line.begin(), by_line.end());
-        while (left.size() > 1 && has_time()) {
-            const size_t half = left.size() / 2;
-            const double front = moves(std::span(left).first(half)),
-                         back = moves(std::span(left).subspan(half));
-            if (std::max(front, back) < k_share_of_lines * effect.cause.moved)
-                break;
-            if (front >= back)
-                left.resize(half);
-            else
-                left.erase(left.begin(), left.begin() + ptrdiff_t(half));
+        for (size_t parts = 2; parts <= std::min(left.size(), k_most_parts) && has_time();) {
+            bool smaller = false; // one of the parts was left out
+            for (size_t i = 0; i < parts && !smaller && has_time(); ++i) {
+                std::vector<Line> rest = left;
+                rest.erase(rest.begin() + ptrdiff_t(left.size() * i / parts),
+                           rest.begin() + ptrdiff_t(left.size() * (i + 1) / parts));
+                smaller = moves(rest) >= k_share_of_lines * effect.cause.moved;
+                if (smaller)
+                    left = std::move(rest);
+            }
+            parts = smaller ? 2 : parts < left.size() ? std::min(2 * parts, left.size()) : parts + 1;
         }
         std::vector<SourceLocation> places;
         for (const Line& line : std::span(left).first(std::min(left.size(), k_most_lines)))

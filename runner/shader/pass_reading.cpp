@@ -58,6 +58,33 @@ text::MappedText whole_text(const scene::Scene& scene, const scene::Pass& pass) 
     return text;
 }
 
+/// Returns the number of lines that ShaderToy puts before Common and the author's text: six of precisions,
+/// then its uniforms, prototypes and `main`.
+int site_lines(scene::PassKind kind) {
+    switch (kind) {
+    case scene::PassKind::buffer: return 27;
+    case scene::PassKind::cubemap: return 30;
+    case scene::PassKind::sound: return 20;
+    default: return 53;
+    }
+}
+
+/// Makes __LINE__ what it is on ShaderToy, whatever lines Tidemark puts before the author's.
+void count_lines_as_site(text::MappedText& source, scene::PassKind kind) {
+    constexpr std::string_view k_line = "__LINE__";
+    if (source.text().find(k_line) == std::string::npos)
+        return;
+    int own = 0; // lines before the author's
+    while (own < source.line_count() && source.lines().locate(own + 1).file.empty())
+        ++own;
+    const int by = site_lines(kind) - own;
+    std::vector<text::Edit> edits;
+    for (const text::Token& token : text::tokenize(source.text()))
+        if (token.kind == text::TokenKind::identifier && token.is(k_line))
+            edits.push_back({token.begin, token.end(), fmt::format("({} {:+d})", k_line, by)});
+    source.apply(edits);
+}
+
 } // namespace
 
 PassReading::PassReading(const scene::Scene& scene, const scene::Pass& pass)
@@ -114,6 +141,7 @@ Result<Assembly> PassReading::assemble(const Dialect& dialect) const {
         result.hashes = std::move(promoted.hashes);
     }
     result.source.append(body);
+    count_lines_as_site(result.source, pass_.kind);
     return result;
 }
 

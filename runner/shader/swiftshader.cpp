@@ -25,10 +25,8 @@ namespace {
 /// dFdxCoarse as dFdxFine, so that number is brought to the other pixels as the derivative of a number that
 /// is zero there. llvmpipe computes any number for a quotient by zero that it knows when it compiles;
 /// `$hidden` keeps a value from the compiler.
-constexpr std::string_view k_swift_numbers = R"(uniform int $mode;
-bool $has(int part){return ($mode&part)!=0;}
-float $bits(int b){return intBitsToFloat(b);}
-int $bits(float v){return floatBitsToInt(v);}
+constexpr std::string_view k_swift_numbers = R"(uniform int $mode;bool $has(int part){return ($mode&part)!=0;}
+float $bits(int b){return intBitsToFloat(b);}int $bits(float v){return floatBitsToInt(v);}
 float $fma(float a,float b,float c){precise float p=a*b,r=p+c;return r;}
 float $wave(float x){precise float s=x*x;return $fma($fma(74.4388885,s,-41.1693687),s,6.28230858)*x;}
 float $sin(float x){if(!$has(1))return sin(x);precise float t=$fma(x,-0.159154937,0.25);
@@ -74,7 +72,7 @@ float $tanh(float x){float a=$exp(x),b=$exp(-x);return $has(4)?(a-b)/(a+b):tanh(
 float $hidden(float v){return $bits($bits(v)^($mode>>20));}
 float $divide(float a,float b){if($has(16))b=$hidden(b);else return $has(8)?float(double(a)/double(b)):a/b;
 return $has(8)?float(double(a)/double(b)):a/b;}
-float $over(float a,float b){if($has(16)&&b==0.0)return a/$hidden(b);if(!$has(8))return a/b;precise float r=1.0/b,q=a*r;return q;}
+float $over(float a,float b){if(b==0.0)return $divide(a,b);if(!$has(8))return a/b;precise float r=1.0/b,q=a*r;return q;}
 float $mod(float x,float y){if(!$has(8))return mod(x,y);precise float r=x-y*floor($divide(x,y));return r;}
 float $smoothstep(float a,float b,float x){if(!$has(8))return smoothstep(a,b,x);
 precise float d=x-a,e=b-a;float t=clamp($divide(d,e),0.0,1.0);precise float r=t*t*(3.0-2.0*t);return r;}
@@ -82,45 +80,40 @@ bool $odd(float x,float y){return max($bits(x)&0x7fffffff,$bits(y)&0x7fffffff)>0
 float $min(float x,float y){if(!$has(16))return min(x,y);if($odd(x,y))return y;return x<y?x:y;}
 float $max(float x,float y){if(!$has(16))return max(x,y);if($odd(x,y))return y;return x>y?x:y;}
 float $clamp(float x,float a,float b){return $has(16)?$min($max(x,a),b):clamp(x,a,b);}
+float $bound(float x,float a,float b){return $has(16)&&x<=a?a:$clamp(x,a,b);}
 mat2 $inverse(mat2 m){if(!$has(8))return inverse(m);precise float d=1.0/(m[0][0]*m[1][1]-m[0][1]*m[1][0]);
 precise mat2 r=mat2(d*m[1][1],d*-m[0][1],d*-m[1][0],d*m[0][0]);return r;}
-mat3 $inverse(mat3 m){return inverse(m);}
-mat4 $inverse(mat4 m){return inverse(m);}
+mat3 $inverse(mat3 m){return inverse(m);}mat4 $inverse(mat4 m){return inverse(m);}
 int $modulo(int a,int b){if(!$has(16))return a%b;if(b==0||b==-1)return 0;int r=a-b*(a/b);
 return r!=0&&(r<0)!=(b<0)?r+b:r;}
 uint $modulo(uint a,uint b){return $has(16)&&b==0u?a%0xffffffffu:a%b;}
 int $quotient(int a,int b){if(!$has(16)||(b!=0&&b!=-1))return a/b;return a==0x80000000?1:-a;}
 uint $quotient(uint a,uint b){return $has(16)&&b==0u?a/0xffffffffu:a/b;}
 uint $uint(float f){return $has(16)&&!(f>=0.0&&f<4294967296.0)?0u:uint(f);}
-int $place(int i,int n){return $has(16)?clamp(i,0,n-1):i;}
-int $place(uint i,int n){return $has(16)?int(min(i,uint(n-1))):int(i);}
+int $place(int i,int n){return $has(16)?clamp(i,0,n-1):i;}int $place(uint i,int n){return $has(16)?int(min(i,uint(n-1))):int(i);}
 vec3 $cross(vec3 a,vec3 b){if(!$has(8))return cross(a,b);precise vec3 r=a.yzx*b.zxy-b.yzx*a.zxy;return r;}
 float $fract(float x){return $has(8)?min(x-floor(x),0.99999994):fract(x);}
 float $mix(float x,float y,float a){if(!$has(8))return mix(x,y,a);precise float r=a*(y-x)+x;return r;}
-float $mix(float x,float y,bool a){return a?y:x;}
-bool $even(float at){return (int(at)&1)==0;}
+float $mix(float x,float y,bool a){return a?y:x;}bool $even(float at){return (int(at)&1)==0;}
+float $levels(float q,float by){q*=q;return (float($bits(q))-float(0x3f800000))*by*5.9604644775390625e-8;}
 float $across(float v){return -dFdyFine($even(gl_FragCoord.y)?dFdxFine(v):0.0);}
 float $upwards(float v){return -dFdxFine($even(gl_FragCoord.x)?dFdyFine(v):0.0);}
-float $dFdx(float v){return $has(128)?$across(v):dFdx(v);}
-float $dFdy(float v){return $has(128)?$upwards(v):dFdy(v);}
+float $dFdx(float v){return $has(128)?$across(v):dFdx(v);}float $dFdy(float v){return $has(128)?$upwards(v):dFdy(v);}
 float $fwidth(float v){return $has(128)?abs($across(v))+abs($upwards(v)):fwidth(v);}
-float $dot(float a,float b){return a*b;}
-float $length(float v){return abs(v);}
+float $dot(float a,float b){return a*b;}float $length(float v){return abs(v);}
 float $distance(float a,float b){return abs(a-b);}
-float $normalize(float v){return normalize(v);}
-float $reflect(float i,float n){return reflect(i,n);}
+float $normalize(float v){return normalize(v);}float $reflect(float i,float n){return reflect(i,n);}
 )";
 
 /// One for each size @ of vectors.
 constexpr std::string_view k_swift_vectors = R"(@ $mix(@ x,@ y,@ a){if(!$has(8))return mix(x,y,a);
 precise @ r=a*(y-x)+x;return r;}
-@ $divide(@ a,float b){return $divide(a,@(b));}
-@ $divide(float a,@ b){return $divide(@(a),b);}
-@ $min(@ a,float b){return $min(a,@(b));}
-@ $max(@ a,float b){return $max(a,@(b));}
+@ $divide(@ a,float b){return $divide(a,@(b));}@ $divide(float a,@ b){return $divide(@(a),b);}
+@ $min(@ a,float b){return $min(a,@(b));}@ $max(@ a,float b){return $max(a,@(b));}
 @ $clamp(@ x,float a,float b){return $clamp(x,@(a),@(b));}
-@ $over(@ a,float b){if($has(16)&&b==0.0)return a/$hidden(b);if(!$has(8))return a/b;precise float r=1.0/b;precise @ q=a*r;return q;}
-@ $mod(@ a,float b){return $mod(a,@(b));}
+@ $over(@ a,float b){if(b==0.0)return $divide(a,b);if(!$has(8))return a/b;precise float r=1.0/b;precise @ q=a*r;return q;}
+@ $over(@ a,@ b){if(any(equal(b,@(0.0))))return $divide(a,b);if(!$has(8))return a/b;precise @ r=1.0/b,q=a*r;return q;}
+@ $over(float a,@ b){return $over(@(a),b);}@ $mod(@ a,float b){return $mod(a,@(b));}
 @ $smoothstep(float a,float b,@ x){return $smoothstep(@(a),@(b),x);}
 @ $mix(@ x,@ y,float a){return $has(8)?$mix(x,y,@(a)):mix(x,y,a);}
 float $length(@ v){return $has(8)?sqrt($dot(v,v)):length(v);}
@@ -131,27 +124,22 @@ u@ $u@(@ f){u@ r;for(int i=0;i<f.length();++i)r[i]=$uint(f[i]);return r;}
 @ $reflect(@ i,@ n){if(!$has(8))return reflect(i,n);precise @ r=i-(2.0*$dot(i,n))*n;return r;}
 )";
 
-/// Look-ups: the mipmap from the distance of the pixels, two mipmaps mixed, and weights of 16 bits from
-/// coordinates of 16 bits, or of floats for textures of floats.
-constexpr std::string_view k_swift_pictures = R"(
-float $levels(float q,float by){q*=q;return (float($bits(q))-float(0x3f800000))*by*5.9604644775390625e-8;}
-)";
-
-/// One for each kind of sampler: `@` is the type of the coordinates.
-constexpr std::string_view k_swift_lookup =
-    R"(vec4 $level(S s,@ p,float l){if(!$has(64))return textureLod(s,p,l);
-@ n=max(@(textureSize(s,int(l))),1.0);precise @ at=p*n-0.5;@ low=floor(at),f=at-low;
-vec4 t[C];bool bytes=true;
-for(int i=0;i<C;++i){@ o=@(i&1,(i>>1)&1 T);t[i]=textureLod(s,(low+o+0.5)/n,l);
+/// Look-ups, for each kind of sampler: `@` is the type of coordinates. Bytes are filtered as numbers up to
+/// 65280.
+constexpr std::string_view k_swift_lookup = R"(
+vec4 $level(S s,@ p,float l,out float by){@ n=max(@(textureSize(s,int(l))),1.0),e=floor(p);
+precise @ at=(p-e)*n-0.5;@ low=floor(at),f=at-low;vec4 t[C];bool bytes=true;
+for(int i=0;i<C;++i){t[i]=textureLod(s,(low+@(i&1,(i>>1)&1 T)+0.5)/n+e,l);
 vec4 b=t[i]*255.0;bytes=bytes&&all(lessThan(abs(b-roundEven(b)),vec4(1e-3)));}
-if(bytes){@ place=(trunc(p*65536.0)-floor(32768.0/n))*n/65536.0,lower=floor(place);
-for(int i=0;i<C;++i){@ o=@(i&1,(i>>1)&1 T);t[i]=textureLod(s,(lower+o+0.5)/n,l);}f=place-lower;}
-vec4 nearest=textureLod(s,(floor(p*n)+0.5)/n,l);
-for(int k=C/2,a=0;k>0;k/=2,++a)for(int i=0;i<k;++i)t[i]=mix(t[2*i],t[2*i+1],f[a]);
-vec4 own=textureLod(s,p,l);
-return own==nearest&&any(greaterThan(abs(own-t[0]),vec4(0.01)))?own:t[0];}
+if(bytes)for(int i=0;i<C;++i)t[i]=roundEven(t[i]*255.0)*256.0;by=bytes?1.0/65280.0:1.0;
+for(int k=C/2,a=0;k>0;k/=2,++a)for(int i=0;i<k;++i){
+precise vec4 r=t[2*i]+f[a]*(t[2*i+1]-t[2*i]);t[i]=r;}return t[0];}
 vec4 $mips(S s,@ p,float l){float top=float(textureQueryLevels(s)-1);l=clamp(l,0.0,top);float i=floor(l);
-vec4 a=$level(s,p,i);return l==i?a:mix(a,$level(s,p,i+1.0),l-i);}
+vec4 own=textureLod(s,p,i);if(!$has(64))return l==i?own:mix(own,textureLod(s,p,i+1.0),l-i);
+float by,other=1.0;vec4 a=$level(s,p,i,by),b=l==i?a:$level(s,p,i+1.0,other);
+precise vec4 r=(b-a)*(l-i)+a;r=l==i||by==other?r*by:mix(a*by,b*other,l-i);
+@ n=max(@(textureSize(s,int(i))),1.0);vec4 nearest=textureLod(s,(floor(p*n)+0.5)/n,i);
+return l==i&&own==nearest&&any(greaterThan(abs(own-r),vec4(0.01)))?own:r;}
 vec4 $texture(S s,@ p,float b){if(!$has(96))return texture(s,p,b);
 @ n=@(textureSize(s,0)),x=$across(p)*n,y=$upwards(p)*n;
 return $mips(s,p,$levels(max(dot(x,x),dot(y,y)),0.5)+b);}
@@ -262,7 +250,7 @@ std::string swift_overloads() {
     return text;
 }
 
-/// Returns functions that take whole numbers, too, and leave them as they are.
+/// Returns functions that take whole numbers, too.
 std::string swift_whole_overloads() {
     std::string text;
     for (const std::string_view type : k_whole_vectors.first<8>()) {
@@ -328,14 +316,13 @@ std::string swift_lookups() {
                        std::string_view third) {
         std::string text(k_swift_lookup);
         text = replaced(text, "S s", fmt::format("{} s", sampler));
-        text = replaced(text, "T)", fmt::format("{})", third));
-        text = replaced(text, "[C]", fmt::format("[{}]", corners));
-        text = replaced(text, "<C", fmt::format("<{}", corners));
-        text = replaced(text, "=C/", fmt::format("={}/", corners));
+        text = replaced(text, " T)", fmt::format("{})", third));
+        for (const char before : {'[', '<', '='})
+            text = replaced(text, fmt::format("{}C", before), fmt::format("{}{}", before, corners));
         return replaced(text, "@", type);
     };
-    return std::string(k_swift_pictures) + of("sampler2D", "vec2", "4", "") +
-           of("sampler3D", "vec3", "8", ",i>>2") + std::string(k_swift_cube);
+    return of("sampler2D", "vec2", "4", "") + of("sampler3D", "vec3", "8", ",i>>2") +
+           std::string(k_swift_cube);
 }
 
 const SwiftFunction* swift_function(const ParsedText& text, const TreeFacts& facts, NodeId id) {
@@ -351,9 +338,19 @@ const SwiftFunction* swift_function(const ParsedText& text, const TreeFacts& fac
     return found;
 }
 
+/// Functions of known values that SwiftShader's compiler (SPIRV-Tools) computes.
+constexpr std::string_view k_folded[] = {"mix",  "min", "max", "clamp", "sin",  "cos",  "tan", "asin", "acos",
+                                         "atan", "exp", "log", "exp2",  "log2", "sqrt", "pow", "dot"};
+
+/// How compilers know a value: they compute it as exactly as llvmpipe's.
+enum class Known {
+    no,
+    folded,   ///< through variables and inlined functions, by the functions of k_folded only
+    constant, ///< it is a constant expression, which ANGLE computes
+};
+
 /// Expressions whose value compilers know: of literals, and of variables, functions and arguments that have
-/// no other value. SwiftShader's compiler inlines functions, and computes such values as exactly as
-/// llvmpipe's.
+/// no other value.
 class KnownValues {
 public:
     KnownValues(const ParsedText& text, const TreeFacts& facts)
@@ -368,26 +365,30 @@ public:
         }
     }
 
-    /// `depth` limits the recursion.
-    bool knows(NodeId id, int depth = 0) const {
+    Known knows(NodeId id, int depth = 0) const {
         if (id == k_no_node || depth > 12)
-            return false;
+            return Known::no;
         switch (tree_[id].kind) {
-        case NodeKind::literal: return true;
+        case NodeKind::literal: return Known::constant;
         case NodeKind::prefix:
             if (is_change(text_, id))
-                return false;
+                return Known::no;
             [[fallthrough]];
         case NodeKind::parenthesis:
         case NodeKind::binary: return knows_parts(id, 0, depth);
         case NodeKind::member: return knows(tree_.child(id, 0), depth + 1);
-        case NodeKind::name: return knows(values_.of(id), depth + 1) || knows_parameter(id, depth);
+        case NodeKind::name: return knows_name(id, depth);
         case NodeKind::call: {
             const std::string_view name = called_name(text_, id);
-            return !facts_.function(name) && (find_builtin(name) || value_type(name)) &&
-                   tree_.child_count(id) > 1 && !name.starts_with("tex") && knows_parts(id, 1, depth);
+            const bool makes_value = value_type(name).has_value();
+            if (facts_.function(name) || (!makes_value && !find_builtin(name)) || tree_.child_count(id) < 2 ||
+                name.starts_with("tex"))
+                return Known::no;
+            const Known parts = knows_parts(id, 1, depth);
+            const bool folds = makes_value || std::ranges::find(k_folded, name) != std::end(k_folded);
+            return parts == Known::folded && !folds ? Known::no : parts;
         }
-        default: return false;
+        default: return Known::no;
         }
     }
 
@@ -395,11 +396,20 @@ private:
     /// A name in a function.
     using Place = std::pair<NodeId, std::string_view>;
 
-    bool knows_parts(NodeId id, size_t first, int depth) const {
-        for (size_t i = first; i < tree_.child_count(id); ++i)
-            if (!knows(tree_.child(id, i), depth + 1))
-                return false;
-        return true;
+    Known knows_parts(NodeId id, size_t first, int depth) const {
+        Known least = Known::constant;
+        for (size_t i = first; i < tree_.child_count(id) && least != Known::no; ++i)
+            least = std::min(least, knows(tree_.child(id, i), depth + 1));
+        return least;
+    }
+
+    Known knows_name(NodeId name, int depth) const {
+        const NodeId value = values_.of(name);
+        if (value == k_no_node)
+            return knows_parameter(name, depth) ? Known::folded : Known::no;
+        const NodeId declaration = tree_.around(value, NodeKind::declaration);
+        const bool is_constant = has_qualifier(text_, tree_.child(declaration, 0), "const");
+        return std::min(knows(value, depth + 1), is_constant ? Known::constant : Known::folded);
     }
 
     /// Returns whether the name is a parameter of which all calls give a known value.
@@ -416,7 +426,7 @@ private:
             const NodeId parameter = tree_.child(function, i);
             if (tree_[parameter].kind == NodeKind::parameter && text_.word_of(parameter) == place.second)
                 return std::ranges::all_of(calls->second, [&](NodeId call) {
-                    return i < tree_.child_count(call) && knows(tree_.child(call, i), depth + 1);
+                    return i < tree_.child_count(call) && knows(tree_.child(call, i), depth + 1) != Known::no;
                 });
         }
         return false;
@@ -460,8 +470,9 @@ bool is_element(const ParsedText& text, const TreeFacts& facts, NodeId id) {
 }
 
 /// Returns the function of the prelude for a product of a matrix, a quotient or a remainder; empty for other
-/// nodes.
-std::string_view swift_operator(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+/// nodes. `known` may be null: `divide` then stands for `over`, too.
+std::string_view swift_operator(const ParsedText& text, const TreeFacts& facts, const KnownValues* known,
+                                NodeId id) {
     const SyntaxTree& tree = text.tree();
     if (tree[id].kind != NodeKind::binary && tree[id].kind != NodeKind::assign)
         return {};
@@ -487,14 +498,34 @@ std::string_view swift_operator(const ParsedText& text, const TreeFacts& facts, 
         return times ? "times" : std::string_view{};
     if (times)
         return {};
-    const NodeId divisor = without_brackets(tree, tree.child(id, 1));
-    return tree[divisor].kind == NodeKind::literal ? "over" : "divide"; // by a constant: times its reciprocal
+    if (!known || known->knows(tree.child(id, 1)) == Known::no)
+        return "divide";
+    // By a known number: times its reciprocal, which both compilers merge with a factor.
+    const auto has_factor = [&](NodeId product) {
+        return tree[product].kind == NodeKind::binary && text.word_of(product) == "*" &&
+               (known->knows(tree.child(product, 0)) != Known::no ||
+                known->knows(tree.child(product, 1)) != Known::no);
+    };
+    const NodeId divisor = without_brackets(tree, tree.child(id, 1)), dividend = tree.child(id, 0);
+    const bool is_number = tree[divisor].kind == NodeKind::literal &&
+                           text.word_of(divisor).find_first_of("123456789") != std::string_view::npos;
+    return left->scalar() && is_number &&
+                   (has_factor(without_brackets(tree, dividend)) || has_factor(tree[id].parent))
+               ? std::string_view{}
+               : "over";
 }
 
 int operator_parts(std::string_view name) {
     if (name == "modulo" || name == "quotient")
         return int(outside);
     return int(products) | (name == "times" ? 0 : int(outside)); // by zero
+}
+
+/// Returns whether the value and the lower bound of a `clamp` are known. The compiler ignores the upper one.
+bool is_known_below(const ParsedText& text, const TreeFacts& facts, const KnownValues& known, NodeId id) {
+    const auto type = expression_type(text, facts, id);
+    const Known value = known.knows(text.tree().child(id, 1)), bound = known.knows(text.tree().child(id, 2));
+    return type && type->scalar() && called_name(text, id) == "clamp" && std::min(value, bound) != Known::no;
 }
 
 } // namespace
@@ -516,14 +547,15 @@ Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, 
                 !has_qualifier(text, type, "const") && !has_qualifier(text, type, "precise"))
                 edits.wrap(type, "precise ", "");
         }
-        if ((by_lines && !may(id)) || must_stay_constant(text, id) || known.knows(id))
+        if ((by_lines && !may(id)) || must_stay_constant(text, id) || known.knows(id) != Known::no)
             continue;
         if (const SwiftFunction* const function = swift_function(text, facts, id)) {
             if ((function->parts & parts) == 0)
                 continue;
             has_lookup = has_lookup || (function->parts & (int(mipmaps) | int(weights))) != 0;
-            edits.replace(tree[tree.child(id, 0)].word, prefix + std::string(function->name));
-        } else if (const auto name = swift_operator(text, facts, id);
+            const auto name = is_known_below(text, facts, known, id) ? "bound" : function->name;
+            edits.replace(tree[tree.child(id, 0)].word, prefix + std::string(name));
+        } else if (const auto name = swift_operator(text, facts, &known, id);
                    !name.empty() && (parts & operator_parts(name)) != 0) {
             has_matrix = has_matrix || name == "times";
             edits.wrap(id, prefix + std::string(name) + "(", ")");
@@ -561,7 +593,7 @@ int swiftshader_parts(const ParsedText& text, const TreeFacts& facts, NodeId id)
         return function->parts;
     if (is_element(text, facts, id))
         return int(outside);
-    const std::string_view name = swift_operator(text, facts, id);
+    const std::string_view name = swift_operator(text, facts, nullptr, id);
     return name.empty() ? 0 : operator_parts(name);
 }
 

@@ -72,6 +72,27 @@ const std::string k_swiftshader_sine =
     "roundEven(t)), s = z * z;\n"
     "precise float r = ((74.4388885 * s - 41.1693687) * s + 6.28230858) * z;\nreturn r;\n}";
 
+/// Two lines carry the difference, each in one half of the picture, with sines between them that do not show.
+TEST_F(DeviceDifferenceTest, LinesThatCarryItTogetherAreNamed) {
+    const std::string rest =
+        "\nfloat a(float x) { return 1e-4 * sin(x); }\n"
+        "float b(float x) { return 1e-4 * sin(x + 1.0); }\n"
+        "float d(float x) { return 1e-4 * sin(x + 2.0); }\n"
+        "float e(float x) { return 1e-4 * sin(x + 3.0); }\n"
+        "float right(vec2 p) { return fract(OTHER(dot(p, vec2(39.346, 11.135))) * 4375854.53); }\n"
+        "void mainImage(out vec4 c, in vec2 p) {\n"
+        "c = vec4(p.x < 32.0 ? hash(floor(p)) : right(floor(p)), a(p.x) + b(p.y), d(p.x) + e(p.y), "
+        "1.0);\n}\n";
+    const auto found = difference("#define OTHER sin\n" + k_sine_hash + rest,
+                                  k_swiftshader_sine + "\n#define OTHER other\n" + k_sine_hash + rest,
+                                  OtherDevice::swiftshader);
+    ASSERT_EQ(found.causes.size(), 1u);
+    std::vector<int> lines;
+    for (const SourceLocation& where : found.causes[0].places)
+        lines.push_back(where.line);
+    EXPECT_EQ(lines, (std::vector{2, 7}));
+}
+
 TEST_F(DeviceDifferenceTest, SwiftShadersSinesAreReproduced) {
     const auto found = difference("#define OTHER sin\n" + k_sine_hash + k_image,
                                   k_swiftshader_sine + "\n#define OTHER other\n" + k_sine_hash + k_image,

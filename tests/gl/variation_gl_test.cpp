@@ -334,4 +334,70 @@ TEST_F(VariationTest, AQuotientByAKnownZeroIsInfinite) {
             << parts;
 }
 
+/// SwiftShader's compiler knows the arguments and the divisors, but it does not compute `radians`, `length`,
+/// `floor` and `abs`. The bits are Chromium 156's; llvmpipe's own are others, except for the last two.
+TEST_F(VariationTest, OnlyFunctionsThatItsCompilerComputesAreExact) {
+    const std::string before = "#define X (-3.2265625 + float(iFrame))\n"
+                               "const float still = 2.3; float global = 2.3;\n"
+                               "float lens(float f) { return 1.0 / tan(radians(f) / 2.0); }\n"
+                               "float wave(float f) { return sin(length(vec2(f, 3.0)) * 9.0); }\n"
+                               "float hash(float f) { return fract(sin(floor(f) * 78.233) * 437.5); }\n"
+                               "float swing(float f) { return sin(abs(f) * 9.0); }\n"
+                               "float over(float f) { return X / f; }\n";
+    const std::vector<std::pair<std::string, uint32_t>> known = {
+        {"lens(45.0)", 0x401A8135},          {"wave(0.7)", 0x3F059BA2},
+        {"hash(12.0)", 0x3CEFA000},          {"swing(-12.0)", 0x3F6D3EAE},
+        {"X / still", 0xBFB390B3},           {"X / global", 0xBFB390B3},
+        {"over(2.3)", 0xBFB390B3},           {"(vec2(X) / vec2(2.3, 1.7)).x", 0xBFB390B3},
+        {"(vec2(X) / still).x", 0xBFB390B3}, {"X / -2.3", 0x3FB390B3},
+        {"X / 2.3 * 1.9", 0xC02A9643},       {"(X * 2.1) / 1.7", 0xC07F1696},
+    };
+    std::vector<std::string> expressions;
+    for (const auto& [expression, bits] : known)
+        expressions.push_back(expression);
+    const std::vector<float> found = varied(like_swiftshader, k_all_parts, expressions, before);
+    const std::vector<float> own = varied(like_swiftshader, 0, expressions, before);
+    for (size_t i = 0; i < known.size(); ++i) {
+        EXPECT_EQ(std::bit_cast<uint32_t>(found[i]), known[i].second) << expressions[i];
+        EXPECT_EQ(std::bit_cast<uint32_t>(own[i]) != known[i].second, i + 2 < known.size()) << expressions[i];
+    }
+}
+
+/// A lower bound above the upper one: of a value that it knows, SwiftShader's compiler looks at the lower one
+/// only. The numbers are Chromium 156's.
+TEST_F(VariationTest, AKnownValueIsClampedFromBelowOnly) {
+    const std::string before = "#define X (-3.2265625 + float(iFrame))\n"
+                               "float low(float x) { return clamp(0.5, 2.0, x); }\n";
+    const std::vector<std::string> expressions = {"low(X)", "clamp(-0.5, 0.0, X)", "clamp(1.5, 0.0, X)",
+                                                  "clamp(-0.5, X, X - 1.0)"};
+    EXPECT_EQ(varied(like_swiftshader, int(glsl::SwiftShaderPart::outside), expressions, before),
+              (std::vector{2.0f, 0.0f, -3.2265625f, -4.2265625f}));
+    EXPECT_EQ(varied(like_swiftshader, 0, expressions, before),
+              (std::vector{-3.2265625f, -3.2265625f, -3.2265625f, -4.2265625f}));
+}
+
+/// A volume of bytes, between its texels and across its edges: the bits that Chromium 156 computed of it.
+TEST_F(VariationTest, FiltersAreSwiftShaders) {
+    std::string bytes("BIN\0\4\0\0\0\4\0\0\0\4\0\0\0\1\0\0\0", 20);
+    for (int i = 0; i < 64; ++i)
+        bytes += char(i * i * 37 % 251);
+    put("volume.bin", bytes);
+    const std::vector<std::string> expressions = {
+        "textureLod(iChannel0, vec3(0.31, 0.47, 0.83), 0.0).x",
+        "textureLod(iChannel0, vec3(1.93, -0.28, 3.02), 0.0).x",
+        "textureLod(iChannel0, vec3(0.31, 0.47, 0.83), 0.7).x",
+        "texture(iChannel0, vec3(p.x * 0.01, 0.47, 0.83)).x",
+        "texture(iChannel0, vec3(p.x * 0.12, p.x * 0.47, 0.83)).x",
+    };
+    const auto bits = [&](int mode) {
+        std::vector<uint32_t> found;
+        for (const float value : varied(like_swiftshader, mode, expressions, "#iChannel0 \"volume.bin\"\n"))
+            found.push_back(std::bit_cast<uint32_t>(value));
+        return found;
+    };
+    EXPECT_EQ(bits(k_all_parts),
+              (std::vector<uint32_t>{0x3EEC7CDD, 0x3EC20774, 0x3EEC7CDD, 0x3EF9ECD2, 0x3F1DA09A}));
+    EXPECT_NE(bits(0), bits(k_all_parts)) << "this driver filters otherwise";
+}
+
 } // namespace tidemark::lab::variation_gl_test
