@@ -187,6 +187,8 @@ class Lens(OverlayTest):
         """All of them take minutes."""
         view = self.open_text(HALVING.replace("LIMIT", "12"))
         view.key("shift+l")
+        view.wait_for_words("^lens clocks: ")
+        view.key("shift+l")
         view.wait_for_words("^lens proof: ")
         self.assertLess(self.longest_answer(view), 10 if is_sanitized() else 3)
 
