@@ -97,7 +97,7 @@ TEST(LensView, a_lens_with_a_line_comes_last) {
     EXPECT_EQ(view.chooser().variable, "2");
 }
 
-TEST(LensView, a_late_refusal_leaves_the_next_lens_as_it_is) {
+TEST(LensView, a_late_refusal_leaves_the_next_lens_unchanged) {
     LensView view = with_scene();
     view.choose("steps");
     const auto order = view.next(moment_of(view, 0), false, 0);
