@@ -108,23 +108,22 @@ public:
                 visit(function);
         if (result_.repeated <= 0 || result_.repeated < 0.5 * result_.work)
             return fail(ErrorCode::load, "the line's operations cannot be repeated");
-        result_.text = written([](const Wrap& wrap) -> const std::string& { return wrap.after; });
-        result_.control = written([](const Wrap& wrap) -> const std::string& { return wrap.after_control; });
+        result_.text = written(&Around::after);
+        result_.control = written(&Around::after_control);
         return std::move(result_);
     }
 
 private:
     /// Words around a node: the same ones precede it in both texts.
-    struct Wrap {
+    struct Around {
         std::string before, after, after_control;
     };
 
-    template <class After>
-    std::string written(const After& after) const {
+    std::string written(std::string Around::*after) const {
         SourceRewriter edits(text_);
         for (const auto& [node, wraps] : wraps_)
-            for (const Wrap& wrap : wraps)
-                edits.wrap(node, wrap.before, after(wrap));
+            for (const Around& each : wraps)
+                edits.wrap(node, each.before, each.*after);
         return headers_of(text_) + twice_functions(prefix_) + temporaries_ + edits.text();
     }
 
@@ -367,8 +366,8 @@ private:
     const SourceLocation& place_;
     std::vector<bool> known_;
     std::string prefix_;
-    std::set<std::string_view> counters_;       ///< variables of heads of loops, which compilers may know
-    std::map<NodeId, std::vector<Wrap>> wraps_; ///< inner ones first
+    std::set<std::string_view> counters_;         ///< variables of heads of loops, which compilers may know
+    std::map<NodeId, std::vector<Around>> wraps_; ///< inner ones first
     std::string temporaries_;
     int variables_ = 0;
     LineTwice result_;
