@@ -308,9 +308,7 @@ Result<int> check_probes(const ProbesRequest& request, Interrupt& interrupt) {
     if (!(request.budget > 0))
         return fail(ErrorCode::usage, "--budget: give a number of seconds above 0");
     const Clock::time_point start = Clock::now();
-    // Probes compile many texts and draw each in few small pictures. Without LLVM's optimisation llvmpipe
-    // draws the same bytes and compiles faster; it does not mix such code with other code in its cache.
-    ::setenv("GALLIVM_PERF", "nopt", 0);
+    host::compile_for_few_drawings();
     auto scene = TRY(load(request.scene));
     const auto promises = TRY(promises_of(request.scene, scene));
     const OutputPath folder = OutputPath::typed(request.output).sparing(files_read(scene));

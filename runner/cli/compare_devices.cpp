@@ -26,7 +26,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -256,9 +255,7 @@ Result<void> explain_apart(DeviceDifference& difference, const std::string& devi
                          {"causes", causes}});
     };
     const auto explain = [&](DeviceDifference& found, const Tell& tell) -> Result<void> {
-        // Each variation is drawn a few times: with LLVM's optimisations llvmpipe compiles a large one for
-        // minutes. The numbers are the same without them.
-        ::setenv("GALLIVM_PERF", "nopt", 0);
+        host::compile_for_few_drawings();
         const auto context = TRY(host::HeadlessContext::create({device}));
         lab::ProbeBench bench(scene, {});
         return lab::explain(found, bench, state, there, other,

@@ -477,6 +477,10 @@ struct HeadlessContext::State {
     std::string device;
 };
 
+void compile_for_few_drawings() {
+    ::setenv("GALLIVM_PERF", "nopt", 0);
+}
+
 HeadlessContext::HeadlessContext(std::unique_ptr<State> state) : state_(std::move(state)) {}
 HeadlessContext::HeadlessContext(HeadlessContext&&) noexcept = default;
 HeadlessContext& HeadlessContext::operator=(HeadlessContext&&) noexcept = default;

@@ -69,6 +69,12 @@ private:
 // Makes an OpenGL 4.5 core context, or one of OpenGL ES, with no window and no surface, through EGL. Takes
 // the name of a device; the context is current on the calling thread. Draws nothing and prints nothing.
 
+/// Makes llvmpipe compile for texts that are drawn a few times in small pictures: without LLVM's
+/// optimisations it draws the same bytes, and compiles faster, a large text in seconds instead of minutes. It
+/// does not mix such code with other code in its cache. An environment with GALLIVM_PERF decides itself. Call
+/// it before the first context.
+void compile_for_few_drawings();
+
 /// Whether the driver reports explanations of errors (GL_KHR_debug); costs time in every GL call.
 enum class DebugContext { no, yes };
 
