@@ -490,17 +490,6 @@ private:
     std::string problem_;
 };
 
-/// Draws a pass with its own program.
-Result<image::Image> drawn_own(const PassPreview& preview) {
-    auto target = gl::make_render_target(gl::make_texture(preview.extent(), GL_RGBA32F, 1));
-    if (!target)
-        return fail(ErrorCode::no_memory, "no memory for a picture");
-    preview.draw(preview.program(), *target);
-    image::Image picture(preview.extent(), 4, image::SampleType::f32);
-    gl::read_pixels(*target, GL_RGBA, GL_FLOAT, picture.bytes);
-    return picture;
-}
-
 } // namespace
 
 // At 1.3 SwiftShader's sine is 1.2e-4 off.
@@ -543,7 +532,7 @@ Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const Fram
         const PictureKind kind = is_image ? PictureKind::image : PictureKind::buffer;
         const auto preview = TRY(bench.preview(state, text.pass, run_up));
         const bool is_fed = in_order && use_pictures(*renderer, text.pass, there);
-        const image::Image fed = TRY(drawn_own(preview));
+        const image::Image fed = TRY(draw_own(preview, preview.extent()));
         if (is_fed)
             own = &fed;
         const image::Image asked = is_image ? comparable(*own, *others) : *own;
@@ -552,7 +541,7 @@ Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const Fram
         if (!explainer.asked())
             continue;
         const Stopwatch drawing; // the first drawing included compilation
-        TRY(drawn_own(preview));
+        TRY(draw_own(preview, preview.extent()));
         if (drawing.elapsed().wall > 1000 * k_slow_pass_seconds &&
             std::min(state.extent.width, state.extent.height) > k_least_side) {
             difference.too_slow = true;

@@ -100,10 +100,6 @@ Result<RunsOfSites> runs_of_sites(const CountingScene& counting, std::string_vie
                                                       .specialise = glsl::Specialise::unreachable}));
     const PassPreview preview = render::FrameStepper(renderer, state, first_frame_of(state))
                                     .preview(state.frame, renderer.shown_index());
-    auto target = gl::make_render_target(gl::make_texture(state.extent, GL_RGBA32F, 1));
-    if (!target)
-        return fail(ErrorCode::no_memory, "the driver has no memory for the counts");
-    image::Image counts(state.extent, 4, image::SampleType::f32);
     RunsOfSites runs(wanted.size());
     for (size_t first = 0; first < wanted.size(); first += 4) {
         const size_t end = std::min(first + 4, wanted.size());
@@ -112,8 +108,7 @@ Result<RunsOfSites> runs_of_sites(const CountingScene& counting, std::string_vie
         std::vector<scene::Knob> knobs = renderer.scene().knobs;
         knobs.back().value = {double(first / 4)};
         renderer.turn(std::move(knobs));
-        preview.draw(preview.program(), *target);
-        gl::read_pixels(*target, GL_RGBA, GL_FLOAT, counts.bytes);
+        const image::Image counts = TRY(draw_own(preview, state.extent));
         for (size_t site = first; site < end; ++site)
             if (wanted[site])
                 add_counts(counts, int(site - first), group, runs[site]);

@@ -66,6 +66,16 @@ image::Image StandIn::picture() const {
     return image;
 }
 
+Result<image::Image> draw_own(const PassPreview& preview, Extent extent) {
+    const auto target = gl::make_render_target(gl::make_texture(extent, GL_RGBA32F, 1));
+    if (!target)
+        return fail(ErrorCode::no_memory, "the driver has no memory for a picture");
+    preview.draw(preview.program(), *target);
+    image::Image picture(extent, 4, image::SampleType::f32);
+    gl::read_pixels(*target, GL_RGBA, GL_FLOAT, picture.bytes);
+    return picture;
+}
+
 Result<VariedPictures> draw_varied(const PassPreview& preview, const glsl::Variation& varied,
                                    std::span<const glsl::VariationMode> modes) {
     auto stand_in = TRY(StandIn::link(preview, varied.text, "a variation of the text"));

@@ -67,6 +67,9 @@ private:
     gl::RenderTarget target_;
 };
 
+/// Draws a pass with its own program and reads the picture back, RGBA floats.
+Result<image::Image> draw_own(const PassPreview& preview, Extent extent);
+
 /// Pictures of a varied text: unchanged, and in each mode.
 struct VariedPictures {
     image::Image plain;

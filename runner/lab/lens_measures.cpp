@@ -11,7 +11,6 @@
 #include "render/frame_stepper.hpp"
 #include "shader/variation.hpp"
 
-#include <GL/glcorearb.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -104,13 +103,8 @@ Result<LensNumbers> read_clocks(const LensPlan& plan, const LensFrame& frame, co
     if (!frame.drawn->can_draw_again())
         return numbers;
     const PassPreview preview = PassPreview::again(*frame.drawn, frame.inputs);
-    auto target = gl::make_render_target(gl::make_texture(numbers.extent, GL_RGBA32F, 1));
-    if (!target)
-        return fail(ErrorCode::no_memory, "the driver has no memory for the cycles");
-    image::Image drawn(numbers.extent, 4, image::SampleType::f32);
     for (int i = 1; i < k_clock_drawings && keep_going(); ++i) {
-        preview.draw(preview.program(), *target);
-        gl::read_pixels(*target, GL_RGBA, GL_FLOAT, drawn.bytes);
+        const image::Image drawn = TRY(draw_own(preview, numbers.extent));
         for (size_t pixel = 0; pixel < numbers.values.size(); ++pixel)
             numbers.values[pixel] = std::min(numbers.values[pixel], drawn.f32()[4 * pixel]);
     }

@@ -144,7 +144,7 @@ bool has_binaries() {
     return formats > 0;
 }
 
-/// Hashes all that determines the binary: our version, the driver and the two texts.
+/// Hashes all that determines the binary: our version, the driver, its extensions and the two texts.
 std::string key_of(std::string_view vertex, std::string_view fragment) {
     const Capabilities driver = query_capabilities();
     std::string all;
@@ -154,6 +154,8 @@ std::string key_of(std::string_view vertex, std::string_view fragment) {
         all += part;
         all += '\0'; // does not occur in a part
     }
+    for (const std::string& extension : query_extensions()) // a text asks for them by `#ifdef`
+        all += extension + ' ';
     return sha256(std::as_bytes(std::span(all)));
 }
 

@@ -191,7 +191,7 @@ Result<Scene> load_by_project(const fs::path& folder, const PassFiles& files, co
             if (pass.file)
                 TRY(loader.load_common(code));
             else
-                scene.common.append(plain_text(std::move(pass.code)), place, 1);
+                scene.common.append(plain_text(std::move(pass.code)) + '\n', place, 1);
             continue;
         }
         Draft& draft = drafts.drafts[*drafts.of_pass[i]];
@@ -275,8 +275,8 @@ Result<Scene> load_json_scene(const fs::path& path, const LoadOptions& options) 
         TRY(draft_project(scene, {project, names, path.parent_path(), media, bounds, path.string()}));
     for (size_t i = 0; i < names.size(); ++i) {
         const std::string place = fmt::format("{}:{}", path.string(), names[i]);
-        text::MappedText& text = drafts.text_of(i, scene);
-        text.append(plain_text(std::move(project.passes[i].code)), place, 1);
+        const std::string code = plain_text(std::move(project.passes[i].code));
+        drafts.text_of(i, scene).append(drafts.of_pass[i] ? code : code + '\n', place, 1);
     }
     TRY(finish_scene(scene, std::move(drafts.drafts), drafts.order));
     return scene;

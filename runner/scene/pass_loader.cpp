@@ -163,8 +163,8 @@ size_t PassLoader::add(Draft draft, Order order) {
     return drafts_.size() - 1;
 }
 
-Result<PassLoader::FileText> PassLoader::read(const fs::path& file) {
-    const auto read_text = [&](const fs::path& path) -> Result<std::string> {
+Result<PassLoader::FileText> PassLoader::read(const fs::path& file, bool common) {
+    const auto read_part = [&](const fs::path& path) -> Result<std::string> {
         // The path that the user gave may be a link.
         if (path != scene_.file.lexically_normal())
             TRY(bounds_.check(path));
@@ -177,6 +177,11 @@ Result<PassLoader::FileText> PassLoader::read(const fs::path& file) {
         if (!text && !advice.empty())
             return fail(text.error().code, fmt::format("{}. {}", text.error().message, advice));
         return text;
+    };
+    const auto read_text = [&](const fs::path& path) {
+        return read_part(path).map([&](std::string text) {
+            return common && path == file ? text::with_plain_line_ends(std::move(text)) + '\n' : text;
+        });
     };
     auto expanded = TRY(text::expand_includes(file, read_text, bounds_.library()));
     for (const auto* paths : {&expanded.files, &expanded.missing}) // a missing one may appear later
@@ -221,7 +226,7 @@ Result<void> PassLoader::add_knobs(std::vector<Knob> knobs) {
 }
 
 Result<void> PassLoader::load_common(const fs::path& file) {
-    auto read_file = TRY(read(file));
+    auto read_file = TRY(read(file, true));
     TRY(take_size(read_file.directives, {}));
     commons_.push_back({file.lexically_normal(), std::move(read_file.text)});
     return {};

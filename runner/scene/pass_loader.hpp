@@ -66,7 +66,7 @@ private:
         OtherHosts others{};
     };
 
-    Result<FileText> read(const std::filesystem::path& file);
+    Result<FileText> read(const std::filesystem::path& file, bool common = false);
     /// `image` is Image's file; empty for other passes and Common.
     Result<void> take_size(const Directives& directives, const std::filesystem::path& image);
     Result<void> add_knobs(std::vector<Knob> knobs);

@@ -333,14 +333,16 @@ public:
         for (const Pass& pass : scene_.passes)
             if (pass.kind == PassKind::image)
                 passes.push_back(image_of(pass));
-        const std::string common = knobs_as_constants(scene_) + code_of(scene_.common);
-        if (!common.empty())
+        std::string common = knobs_as_constants(scene_) + code_of(scene_.common);
+        if (!common.empty()) {
+            common.pop_back(); // ShaderToy adds this line end
             passes.push_back({{"inputs", Json::array()},
                               {"outputs", Json::array()},
                               {"code", common},
                               {"name", "Common"},
                               {"description", ""},
                               {"type", "common"}});
+        }
         for (size_t i = 0; i < scene_.passes.size(); ++i) {
             const Pass& pass = scene_.passes[i];
             if (pass.kind == PassKind::buffer)

@@ -55,8 +55,10 @@ struct Pass {
 
 struct Scene {
     std::filesystem::path file; ///< as named on the command line
-    text::MappedText common;    ///< precedes the text of every pass
-    std::vector<Pass> passes;   ///< in drawing order; a sound pass, if any, is last
+    /// Precedes the text of every pass. As on ShaderToy a line end follows each Common, even after its last
+    /// one.
+    text::MappedText common;
+    std::vector<Pass> passes; ///< in drawing order; a sound pass, if any, is last
     std::vector<Knob> knobs;
     std::optional<Extent> size{}; ///< size that the author states with `#iSize`
     bool moves_view = false;      ///< has `#iFirstPersonControls`: iViewMatrix follows the user's mouse

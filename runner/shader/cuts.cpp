@@ -501,7 +501,6 @@ std::vector<Cut> Cutter::cuts() const {
         else if (!is_expression(kind))
             add_statement(id, cuts);
     }
-    add_differences(cuts);
     std::ranges::stable_sort(cuts, std::greater<>(), &Cut::work);
     return cuts;
 }

@@ -44,9 +44,8 @@ private:
 
 // Proposes what could be left out of a text: terms, factors, statements, factors where the other one is 0,
 // iterations of loops (all after a number, or those after a march's step is small or large), the limits that
-// end a loop, the length of a march's steps, one side of differences, the choice of a texture's level, and
-// values that a number could replace. Returns edits only; the caller measures what a cut saves and what it
-// does to the picture.
+// end a loop, the length of a march's steps, the choice of a texture's level, and values that a number could
+// replace. Returns edits only; the caller measures what a cut saves and what it does to the picture.
 
 struct Cut {
     Cure change;
@@ -98,7 +97,6 @@ private:
     void add_exits(NodeId step, std::vector<Cut>& cuts) const;
     void add_longer_steps(NodeId step, NodeId loop, std::vector<Cut>& cuts) const;
     void add_limits(NodeId test, const SingleValues& values, std::vector<Cut>& cuts) const;
-    void add_differences(std::vector<Cut>& cuts) const;
     NodeId loop_left_by(NodeId test) const;
     NodeId step_value(NodeId id) const;
     bool may_be_scalar(NodeId id) const;

@@ -346,26 +346,12 @@ private:
         return maybe && (all_[id] >= k_separate_work || calls(id)) && !must_stay_constant(text_, id);
     }
 
-    /// Returns the definition that a call means: by its number of arguments, then by their types.
+    /// Returns the definition that a call means; k_no_node if there is none.
     NodeId definition_of(NodeId call) const {
-        const FunctionFacts* const function = facts_.function(called_name(text_, call));
-        NodeId best = k_no_node;
-        size_t most = 0;
-        for (const NodeId definition : function ? function->definitions : std::vector<NodeId>{}) {
-            const std::vector<NodeId> parameters = parameters_of(text_, definition);
-            if (body_of_function(text_, definition) == k_no_node ||
-                parameters.size() + 1 != tree_.child_count(call))
-                continue;
-            size_t fitting = 1;
-            for (size_t i = 0; i < parameters.size(); ++i)
-                fitting += expression_type(text_, facts_, tree_.child(call, i + 1)) ==
-                           value_type(type_name(text_, tree_.child(parameters[i], 0)));
-            if (fitting > most) {
-                most = fitting;
-                best = definition;
-            }
-        }
-        return best;
+        for (const NodeId definition : called_definitions(text_, facts_, call))
+            if (body_of_function(text_, definition) != k_no_node)
+                return definition;
+        return k_no_node;
     }
 
     void add_own(NodeId id, Found& found) {

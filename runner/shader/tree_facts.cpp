@@ -1,6 +1,7 @@
 #include "shader/tree_facts.hpp"
 
 #include "shader/builtin_functions.hpp"
+#include "shader/source_edits.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -135,12 +136,36 @@ public:
         }
     }
 
+    std::vector<NodeId> called_definitions(NodeId call) const {
+        const FunctionFacts* const function = facts_.function(called_name(text_, call));
+        if (!function)
+            return {};
+        std::vector<Argument> arguments; // empty if there is no choice
+        for (size_t i = 1; i < tree_.child_count(call) && function->definitions.size() > 1; ++i)
+            arguments.push_back(argument(tree_.child(call, i)));
+        std::map<size_t, std::vector<NodeId>> by_differing;
+        for (const NodeId definition : function->definitions) {
+            const std::vector<NodeId> parameters = parameters_of(text_, definition);
+            if (parameters.size() + 1 != tree_.child_count(call))
+                continue;
+            size_t differing = 0;
+            for (size_t i = 0; i < arguments.size(); ++i)
+                differing += differs(arguments[i], parameters[i]);
+            by_differing[differing].push_back(definition);
+        }
+        return by_differing.empty() ? std::vector<NodeId>{} : by_differing.begin()->second;
+    }
+
 private:
     /// The declared type of a name, an element or a member.
     struct Declared {
         std::string_view type;
         size_t dimensions = 0;
         bool operator==(const Declared&) const = default;
+    };
+    struct Argument {
+        std::optional<Declared> declared;
+        std::optional<ValueType> value;
     };
 
     template <class T>
@@ -199,18 +224,16 @@ private:
         }
     }
 
-    /// Returns the type that all overloads of the author's function have, or the structure that is
+    /// Returns the type that the called overloads of the author's function have, or the structure that is
     /// constructed.
     std::optional<Declared> declared_call(NodeId id) const {
-        const std::string_view name = called_name(text_, id);
-        if (facts_.structures.contains(name))
+        if (const std::string_view name = called_name(text_, id); facts_.structures.contains(name))
             return Declared{name};
         std::vector<Declared> types;
-        if (const FunctionFacts* const own = facts_.function(name))
-            for (const NodeId definition : own->definitions) {
-                const NodeId type = tree_.child(definition, 0);
-                types.push_back({type_name(text_, type), dimensions(text_, type, k_no_node)});
-            }
+        for (const NodeId definition : called_definitions(id)) {
+            const NodeId type = tree_.child(definition, 0);
+            types.push_back({type_name(text_, type), dimensions(text_, type, k_no_node)});
+        }
         return agreed(types);
     }
 
@@ -233,8 +256,8 @@ private:
 
     std::optional<ValueType> of_call(NodeId id) const {
         const std::string_view name = called_name(text_, id);
-        if (const FunctionFacts* const own = facts_.function(name))
-            return of_own(*own, id);
+        if (facts_.function(name))
+            return value_of(declared_call(id));
         if (const auto constructed = value_type(name))
             return constructed;
         const BuiltinFunction* const builtin = find_builtin(name);
@@ -252,34 +275,18 @@ private:
         return type_of_call(*builtin, arguments);
     }
 
-    /// Returns whether the call has as many arguments as the definition has parameters, and none that is
-    /// known to have another type.
-    bool fits(NodeId definition, NodeId call) const {
-        size_t index = 0;
-        for (const NodeId part : tree_.children(definition)) {
-            if (tree_[part].kind != NodeKind::parameter)
-                continue;
-            if (++index >= tree_.child_count(call))
-                return false;
-            const NodeId type = tree_.child(part, 0);
-            const auto argument = of(tree_.child(call, index));
-            if (argument && dimensions(text_, type, part) == 0 &&
-                argument != value_type(type_name(text_, type)))
-                return false;
-        }
-        return index + 1 == tree_.child_count(call);
+    /// Does not type a call twice: the time would double with each level of nested calls.
+    Argument argument(NodeId id) const {
+        const auto known = declared(id);
+        return {known, known || calls_authors_function(text_, facts_, id) ? value_of(known) : of(id)};
     }
 
-    /// Returns the common type of the overloads that fit the call, or of all if none does (numbers may be
-    /// converted); nothing if they differ.
-    std::optional<ValueType> of_own(const FunctionFacts& function, NodeId call) const {
-        std::vector<std::optional<ValueType>> fitting, all;
-        for (const NodeId definition : function.definitions) {
-            all.push_back(value_type(type_name(text_, tree_.child(definition, 0))));
-            if (function.definitions.size() > 1 && fits(definition, call))
-                fitting.push_back(all.back());
-        }
-        return agreed(fitting.empty() ? all : fitting).value_or(std::nullopt);
+    /// Returns whether the argument is known to have another type than the parameter.
+    bool differs(const Argument& argument, NodeId parameter) const {
+        const NodeId type = tree_.child(parameter, 0);
+        const Declared wanted{type_name(text_, type), dimensions(text_, type, parameter)};
+        return argument.value ? argument.value != value_of(wanted)
+                              : argument.declared && argument.declared != wanted;
     }
 
     const ParsedText& text_;
@@ -447,6 +454,10 @@ bool must_stay_constant(const ParsedText& text, NodeId id) {
 
 std::optional<ValueType> expression_type(const ParsedText& text, const TreeFacts& facts, NodeId expression) {
     return Typer(text, facts).of(expression);
+}
+
+std::vector<NodeId> called_definitions(const ParsedText& text, const TreeFacts& facts, NodeId call) {
+    return Typer(text, facts).called_definitions(call);
 }
 
 SingleValues::SingleValues(const ParsedText& text, const TreeFacts& facts) : text_(text) {

@@ -95,6 +95,9 @@ std::unordered_set<std::string_view> functions_of_main(const ParsedText& text, c
 /// Returns scalar, vector and matrix types. Returns nothing for other types, and for a name that its
 /// function, or else the text outside of functions, declares with two types.
 std::optional<ValueType> expression_type(const ParsedText& text, const TreeFacts& facts, NodeId expression);
+/// Returns the overloads of the author's function that a call may mean, prototypes included: those with as
+/// many parameters as it has arguments, of which the fewest are known to have another type.
+std::vector<NodeId> called_definitions(const ParsedText& text, const TreeFacts& facts, NodeId call);
 
 // Finds the single value of a variable that is initialised in its declaration and never changed.
 

@@ -91,7 +91,7 @@ class Export(ProgramTest):
         project = json.loads(self.succeed("export", "a.glsl", "--set", "speed=3").stdout)
         passes = project["Shader"]["renderpass"]
         self.assertEqual([p["type"] for p in passes], ["image", "common"])
-        self.assertEqual(passes[1]["code"], "const float speed = 3.0;\n")
+        self.assertEqual(passes[1]["code"], "const float speed = 3.0;")
         self.assertEqual(project["Shader"]["info"]["name"], "a")
 
     def test_embedded_page_is_ascii(self):

@@ -84,6 +84,22 @@ class Overlay(OverlayTest):
                 wait_for(lambda: view.picture() == plain, "the picture without the help")
                 view.close()
 
+    def test_opengl_es_shows_the_same_help(self):
+        """Its text is a texture without mipmaps on the unit of a channel that has some. Mesa prints errors of OpenGL."""
+        self.write("red.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0, 0.0, 0.0, 1.0); }\n")
+        self.write("a.glsl", '#iChannel0 "red.glsl"\n#iChannel0::MinFilter "NearestMipMapNearest"\n'
+                             "void mainImage(out vec4 c, in vec2 p) { c = texture(iChannel0, p / iResolution.xy); }\n")
+        helps = []
+        for options in ((), ("--es",)):
+            view = self.open("a.glsl", "--size", "640x360", *options, MESA_DEBUG="1")
+            plain = view.picture()
+            view.key("F1")
+            view.wait_for_change(plain)
+            helps.append(b"".join(view.picture()))
+            self.assertNotIn("User error", view.stderr())
+            view.close()
+        self.assertLessEqual(max(abs(a - b) for a, b in zip(*helps)), 1)
+
     def test_a_scene_that_reads_the_keyboard_receives_tab(self):
         self.write("a.glsl", '#iChannel0 "keyboard"\nvoid mainImage(out vec4 c, in vec2 p) '
                              "{ c = vec4(texelFetch(iChannel0, ivec2(9, 2), 0).r); }\n")

@@ -5,7 +5,7 @@
 #include "window/plugin/imgui_drawing.hpp"
 #include "window/plugin/panels.hpp"
 
-#include <GL/gl.h>
+#include <backends/imgui_impl_opengl3_loader.h>
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_internal.h>

@@ -6,8 +6,8 @@
 #include "window/plugin/imgui_drawing.hpp"
 #include "window/plugin/panels.hpp"
 
-#include <GL/gl.h>
 #include <backends/imgui_impl_opengl3.h>
+#include <backends/imgui_impl_opengl3_loader.h>
 #include <imgui.h>
 #include <imgui_internal.h>
 
@@ -178,11 +178,30 @@ ImFont* add_font(double scale) {
     return ImGui::GetIO().Fonts->AddFontDefault(&font);
 }
 
-/// Returns the version line of Dear ImGui's shaders in the current context.
-const char* glsl_version() {
+/// Returns whether the current context is one of OpenGL ES.
+bool is_es() {
     const auto* const version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
-    const bool es = version && std::string_view(version).starts_with("OpenGL ES");
-    return es ? "#version 300 es" : "#version 450 core";
+    return version && std::string_view(version).starts_with("OpenGL ES");
+}
+
+/// Removes the back end's calls about state that OpenGL ES lacks. Before 1.90.5 it takes ES 3.1 for OpenGL
+/// 3.1.
+void leave_out_desktop_state() {
+    static const auto driver = imgl3wProcs.gl;
+    imgl3wProcs.gl.PolygonMode = [](GLenum, GLenum) {};
+    imgl3wProcs.gl.GetIntegerv = [](GLenum name, GLint* values) {
+        if (name == GL_POLYGON_MODE)
+            values[0] = values[1] = GL_FILL;
+        else
+            driver.GetIntegerv(name, values);
+    };
+    imgl3wProcs.gl.IsEnabled = [](GLenum state) {
+        return state == GL_PRIMITIVE_RESTART ? GLboolean(GL_FALSE) : driver.IsEnabled(state);
+    };
+    imgl3wProcs.gl.Disable = [](GLenum state) {
+        if (state != GL_PRIMITIVE_RESTART)
+            driver.Disable(state);
+    };
 }
 
 // The panels, drawn by Dear ImGui through its OpenGL 3 back end. Only one object may exist at a time.
@@ -194,7 +213,11 @@ public:
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr; // no settings file
         set_up_input(io);
-        ImGui_ImplOpenGL3_Init(glsl_version());
+        imgl3wInit(); // is_es needs its functions
+        const bool es = is_es();
+        ImGui_ImplOpenGL3_Init(es ? "#version 300 es" : "#version 450 core");
+        if (es)
+            leave_out_desktop_state();
     }
 
     ~ImGuiPanels() override {
@@ -228,7 +251,8 @@ public:
     void draw() override {
         run();
         if (model_.lens || !model_.status.empty())
-            run(); // their height follows their text
+            run();           // their height follows their text
+        glBindSampler(0, 0); // that of a channel, which the back end leaves bound in OpenGL ES before 1.89.6
         ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     }
 

@@ -112,6 +112,15 @@ TEST_F(Export, invalid_folders_are_not_joined) {
     EXPECT_THAT(refused(), HasSubstr("lies outside the scene's folder"));
 }
 
+TEST_F(Export, the_text_of_common_keeps_its_end) {
+    for (const std::string code : {"int c;", "int c;\n", "int c;\n\n"}) {
+        save("x.json",
+             Json::array({{{"type", "image"}, {"code", k_main_image}}, {{"type", "common"}, {"code", code}}})
+                 .dump());
+        EXPECT_EQ(made_of("x.json")["Shader"]["renderpass"][1]["code"], code);
+    }
+}
+
 TEST_F(Export, a_file_becomes_a_project) {
     save("lib.glsl", "float one() { return 1.0; }\n");
     save("a.glsl",
@@ -121,7 +130,7 @@ TEST_F(Export, a_file_becomes_a_project) {
     const Json project = made_of("a.glsl");
     const Json& passes = project["Shader"]["renderpass"];
     ASSERT_EQ(passes.size(), 2u);
-    EXPECT_EQ(passes[1]["code"], "const float speed = 2.0;\nconst vec3 tint = vec3(1, 0.5, 0);\n");
+    EXPECT_EQ(passes[1]["code"], "const float speed = 2.0;\nconst vec3 tint = vec3(1, 0.5, 0);");
     EXPECT_EQ(passes[1]["type"], "common");
     EXPECT_THAT(passes[0]["code"].get<std::string>(), testing::StartsWith("float one() { return 1.0; }\n"));
     ASSERT_EQ(passes[0]["inputs"].size(), 2u);

@@ -23,7 +23,7 @@ TEST_F(Folder, every_pass_by_our_names) {
     save("readme.md", "");
     const Scene scene = load();
     EXPECT_THAT(names_of(scene), ElementsAre("Buffer A", "Buffer B", "Cube A", "Image", "Sound"));
-    EXPECT_EQ(scene.common.text(), "\nint c;\n");
+    EXPECT_EQ(scene.common.text(), "\nint c;\n\n");
     ASSERT_EQ(scene.knobs.size(), 1u);
     EXPECT_EQ(input(scene, 0, 0), ChannelInput(PassOutput{0}));
     EXPECT_EQ(input(scene, 0, 1), ChannelInput(PassOutput{1}));
@@ -91,7 +91,7 @@ TEST_F(Folder, common_included_by_a_pass_is_pasted_once) {
     const Scene scene = load();
     EXPECT_EQ(scene.common.text(), "");
     EXPECT_EQ(scene.passes[0].text.text(), "int c;\n\n" + k_main_image);
-    EXPECT_EQ(scene.passes[1].text.text(), "int c;\n" + k_main_image);
+    EXPECT_EQ(scene.passes[1].text.text(), "int c;\n\n" + k_main_image);
 }
 
 TEST_F(Folder, an_image_that_a_buffer_reads_becomes_a_buffer) {

@@ -87,9 +87,9 @@ TEST_F(Json, passes_are_found_by_output_and_drawn_in_list_order) {
 TEST_F(Json, several_commons_keep_the_order_of_the_list_and_their_line_numbers) {
     const auto scene =
         load(project(std::string(k_image) + R"(,{"type":"common","name":"","code":"int a;\r\nint b;"},)"
-                                            R"({"type":"common","name":"","code":"int c;"})"));
+                                            R"({"type":"common","name":"","code":"int c;\n"})"));
     ASSERT_TRUE(scene) << to_string(scene.error());
-    EXPECT_EQ(scene->common.text(), "int a;\nint b;\nint c;\n");
+    EXPECT_EQ(scene->common.text(), "int a;\nint b;\nint c;\n\n") << "a line end follows each";
     const std::string file = (folder_ / "x.json").string();
     EXPECT_EQ(scene->common.lines().locate(2), (SourceLocation{file + ":Common", 2, 0}));
     EXPECT_EQ(scene->common.lines().locate(3), (SourceLocation{file + ":Common 2", 1, 0}));

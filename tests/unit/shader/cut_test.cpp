@@ -191,32 +191,6 @@ TEST(Cut, CodeOfAnEndlessLoopIsKept) {
     EXPECT_EQ(cuts_of(in_main("for (;;) { s += dear(u); }")).endless, 1U);
 }
 
-TEST(Cut, CentralDifferencesBecomeOneSided) {
-    const std::string head = "float f(vec3 p) { return sin(p.x) * cos(p.y) + exp(p.z); }\n"
-                             "struct Hit { float d; };\nHit g(vec3 p) { return Hit(f(p)); }\n"
-                             "out vec4 c; uniform vec3 u;\n";
-    const auto normal = [&](const std::string& x, const std::string& y, const std::string& before = "") {
-        return head + "void main() { vec2 e = vec2(0.01, 0.0); " + before + "c.xy = normalize(vec2(" + x +
-               ", " + y + ")); }\n";
-    };
-    const std::string x = "2.0 * (f(u + e.xyy) - centre)", y = "2.0 * (f(u + e.yxy) - centre)";
-    EXPECT_TRUE(makes(normal("f(u + e.xyy) - f(u - e.xyy)", "f(u + e.yxy) - f(u - e.yxy)"),
-                      normal(x, y, "float centre = f ( u ); ")));
-    EXPECT_TRUE(makes(normal("g(u + vec3(e.x, 0, 0)).d - g(u + vec3(-e.x, 0, 0)).d",
-                             "g(u + vec3(0, e.x, 0)).d - g(u + vec3(0, -e.x, 0)).d"),
-                      normal("2.0 * (g(u + vec3(e.x, 0, 0)).d - centre)",
-                             "2.0 * (g(u + vec3(0, e.x, 0)).d - centre)", "float centre = g ( u ) . d; ")));
-    const auto none = [&](const std::string& a, const std::string& b) {
-        for (const std::string& text : texts_of(normal(a, b)))
-            EXPECT_EQ(text.find("centre"), text.npos) << text;
-    };
-    none("f(vec3(u.x + e.x, u.yz)) - f(vec3(u.x - e.x, u.yz))",
-         "f(vec3(u.x, u.y + e.x, u.z)) - f(vec3(u.x, u.y - e.x, u.z))"); // other centres, as written
-    none("f(u + e.xyy) - f(u - e.yxy)", "f(u + e.yxy) - f(u - e.xyy)");
-    none("f(u + e.xyy) - f(u)", "f(u + e.yxy) - f(u)");
-    none("f(u + e.xyy) - f(u - e.xyy)", "e.x"); // one of them saves nothing
-}
-
 TEST(Cut, ANumberReplacesAnExpression) {
     const std::string text = "vec3 dear(vec3 x) { return sin(x) * cos(x); }\nout vec4 c; uniform vec3 u;\n"
                              "void main() { c.xyz = dear(u); }\n";

@@ -13,7 +13,10 @@ std::string type_of(const std::string& expression) {
         "Ray cast(vec3 p) { return Ray(p); }\nvec2 some(vec2 p) { return p; }\nvec3 some(vec3 p) { return p; "
         "}\n"
         "float some(vec3 p, vec3 q) { return 1.0; }\nfloat three(int x) { return 1.0; }\n"
-        "vec2 three(ivec2 x) { return vec2(x); }\n"
+        "vec2 three(ivec2 x) { return vec2(x); }\nstruct Ball { float r; };\n"
+        "float four(Ray r) { return 1.0; }\nvec2 four(Ball b) { return vec2(b.r); }\n"
+        "vec3 four(float a[3]) { return vec3(a[0]); }\n"
+        "float five(float a, float b) { return a; }\nvec3 five(vec3 a, float b) { return a; }\n"
         "void f(float twice) { vec4 v; float a[3]; Ray ray; float d; { vec2 d; } int n; }\n"
         "float g(vec3 p, float x) { ivec2 i; float a[3]; Ray ray; Ray many[2];\n"
         "{ vec2 same; } { vec2 same; } { vec2 other; } { float other; } return " +
@@ -56,6 +59,18 @@ TEST(ExpressionType, FollowsDeclarationsAndFunctions) {
     EXPECT_EQ(type_of("some(p)"), "vec3");
     EXPECT_EQ(type_of("some(p.xy)"), "vec2");
     EXPECT_EQ(type_of("some(p, p)"), "float");
+    EXPECT_EQ(type_of("four(ray)"), "float");
+    EXPECT_EQ(type_of("four(cast(p))"), "float");
+    EXPECT_EQ(type_of("four(Ball(x))"), "vec2");
+    EXPECT_EQ(type_of("four(a)"), "vec3");
+    EXPECT_EQ(type_of("five(p, 1)"), "vec3"); // 1 becomes a float
+}
+
+TEST(ExpressionType, NestedCallsAreTypedOnce) {
+    std::string nested = "missing";
+    for (int i = 0; i < 50; ++i)
+        nested = "some(" + nested + ")";
+    EXPECT_EQ(type_of(nested), ""); // within a second, not 2^50 steps
 }
 
 TEST(ExpressionType, IsUnknownWithoutADeclaration) {
@@ -66,6 +81,7 @@ TEST(ExpressionType, IsUnknownWithoutADeclaration) {
     EXPECT_EQ(type_of("other"), "");
     EXPECT_EQ(type_of("some(missing)"), ""); // its overloads differ
     EXPECT_EQ(type_of("three(missing)"), "");
+    EXPECT_EQ(type_of("four(missing)"), "");
     EXPECT_EQ(type_of("missing"), "");
     EXPECT_EQ(type_of("missing(p)"), "");
 }
