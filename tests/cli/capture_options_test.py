@@ -1,6 +1,5 @@
 """The options of `capture` that say what a frame sees: their effect, told by the shader itself, and their
 errors."""
-import json
 import struct
 
 from support import png, probe
@@ -356,7 +355,11 @@ class Specialised(ProgramTest):
 
 
 class OpenGLES(ProgramTest):
-    """`--es`: the conformance scenes have the same bytes as with OpenGL 4.5, without calls that OpenGL ES lacks."""
+    """`--es`: scenes have the same bytes as with OpenGL 4.5, without calls that OpenGL ES lacks. gl_contexts draws every
+    conformance scene with OpenGL ES and compares it with the pixels of the convention."""
+
+    CASES = ("common_cube_and_buffer_start_at_zero", "mipmaps_of_a_buffer_that_reads_itself/project.json",
+             "volume_has_its_first_bytes_at_the_origin/scene.glsl", "uniforms_of_the_extension/scene.glsl")
 
     def drawn(self, *words: str, **variables: str) -> bytes:
         """With OpenGL ES. Mesa names each wrong call when MESA_DEBUG is set."""
@@ -365,18 +368,10 @@ class OpenGLES(ProgramTest):
         return done.stdout
 
     def test_draws_what_opengl_draws(self):
-        drawn = 0
-        for case in sorted((ROOT / "tests" / "cases" / "conformance").iterdir()):
-            expected = json.loads((case / "expected.json").read_text()) if case.is_dir() else {}
-            if not expected.get("frames"):
-                continue
-            scene = next((case / n for n in ("scene.glsl", "project.json") if (case / n).exists()), case)
-            width, height = expected["size"]
-            words = (str(scene), "--size", f"{width}x{height}", "--frame", "3")
-            with self.subTest(case=case.name):
+        for case in self.CASES:
+            words = (str(ROOT / "tests" / "cases" / "conformance" / case), "--size", "4x4", "--frame", "3")
+            with self.subTest(case=case):
                 self.assertEqual(self.drawn(*words), self.succeed("capture", *words, "-o", "-").stdout)
-                drawn += 1
-        self.assertGreater(drawn, 40)
 
     def test_tiles_and_sequences(self):
         self.write("a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(p / iResolution.xy, sin(iTime), 1.0); }\n")

@@ -1,6 +1,7 @@
 """`compare`: two pictures or two sequences, their numbers, limits and errors."""
 import json
 import math
+import shutil
 import unittest
 
 from support import browser, png
@@ -77,20 +78,32 @@ class Pictures(Compare):
         for name, value in (("nan", "sqrt(-p.x)"), ("inf", "1. / (p.x - .5)"), ("minus", "-1. / (p.x - .5)")):
             self.write(f"{name}.glsl", f"void mainImage(out vec4 c, vec2 p) {{ c = vec4(p.x < 1. ? {value} : .5); }}")
         for name in ("good", "nan", "inf", "minus"):
-            self.succeed("capture", f"{name}.glsl", "--size", "20x20", "-o", f"{name}_01.exr", "--depth", "float")
+            self.succeed("capture", f"{name}.glsl", "--size", "20x20", "-o", f"{name}.exr", "--depth", "float")
+        for frame, pair in enumerate((("good", "nan"), ("inf", "good"), ("nan", "inf"), ("inf", "minus"))):
+            for side, name in zip("ab", pair):
+                for sequence in (side if "good" in pair else "", side + "all"):
+                    if sequence:
+                        shutil.copy(self.folder / f"{name}.exr", self.folder / f"{sequence}_{frame:02}.exr")
+        for frame, name in enumerate(("nan", "inf")):
+            shutil.copy(self.folder / f"{name}.exr", self.folder / f"same_{frame:02}.exr")
         limits = [("--max-rmse", "1e9"), ("--max-relative-mse", "1e9"), ("--max-difference", "0"),
                   ("--max-difference", "1e9"), ("--max-flip", "2"), ("--max-differing", "100"), ("--min-psnr", "-1e9"),
                   ("--min-ssim", "-2")]
-        for left, right in (("good", "nan"), ("inf", "good"), ("nan", "inf"), ("inf", "minus")):
-            for limit in limits if "good" in (left, right) else limits[2:3]:
-                with self.subTest(left=left, right=right, limit=limit):
-                    self.compared(f"{left}_01.exr", f"{right}_01.exr", *limit, code=1)
-            self.compared(f"{left}_##.exr", f"{right}_##.exr", "--max-difference", "0", code=1)
-        for name in ("nan", "inf"):  # the same of them in both is equal
-            every = [word for limit in limits for word in limit if limit != ("--max-difference", "1e9")]
-            self.compared(f"{name}_01.exr", f"{name}_01.exr", *every)
-            self.compared(f"{name}_01.exr", f"{name}_01.exr", "--max-differing", "0", "--min-ssim", "1", "--max-flip", "0")
-        done = self.run_program("compare", "good_01.exr", "nan_01.exr", "--max-difference", "0")
+        for limit in limits:  # every frame of the sequence fails
+            with self.subTest(limit=limit):
+                done = self.run_program("compare", "a_##.exr", "b_##.exr", *limit)
+                self.assertEqual(done.returncode, 1)
+                self.assertEqual([line.split(":")[0] for line in done.stderr.splitlines()], ["frame 0", "frame 1"])
+        done = self.run_program("compare", "aall_##.exr", "ball_##.exr", "--max-difference", "0")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual([line.split(":")[0] for line in done.stderr.splitlines()], [f"frame {n}" for n in range(4)])
+        # The same of them in both is equal.
+        every = [word for limit in limits for word in limit if limit != ("--max-difference", "1e9")]
+        self.compared("same_##.exr", "same_##.exr", *every)
+        self.compared("same_##.exr", "same_##.exr", "--max-differing", "0", "--min-ssim", "1", "--max-flip", "0")
+        done = self.run_program("compare", "good.exr", "nan.exr", "--max-difference", "0", "--json")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(len(json.loads(done.stdout)["frames"]), 1)
         self.assertEqual(done.stderr, "largest difference 0 is not within --max-difference 0: NaN or infinity where the other "
                                       "picture has another value\n")
 
@@ -323,10 +336,10 @@ class Browsers(OnDevices):
         self.assertIn("wrong.glsl:2", found["wrong.glsl"]["problems"]["chromium:swiftshader"])
 
     def test_a_slow_scene_is_examined_in_a_smaller_picture(self):
-        """Every pixel computes some 50,000 random numbers, which takes seconds in the whole picture."""
+        """Every pixel of the whole picture computes 50,000 random numbers, which takes seconds; of a smaller one 500."""
         hash, _ = self.HASH.splitlines()
         self.write("a.glsl", f"{hash}\nvoid mainImage(out vec4 c, in vec2 p) {{\n    uvec4 s = uvec4(p, p + 7.0);\n"
-                             "    for (int i = 0; i < 50000 + min(iFrame, 0); ++i) s = s * 1664525u + s.yzwx;\n"
+                             "    for (int i = 0; i < (iResolution.x > 300.0 ? 50000 : 500); ++i) s = s * 1664525u + s.yzwx;\n"
                              "    c = vec4(vec3(hash(p)) + 1e-20 * vec3(s.xyz), 1.0);\n}\n")
         scene = self.outcomes("surfaceless,chromium:swiftshader", "a.glsl", size="320x180")["a.glsl"]
         self.assertEqual((scene["verdict"], scene["causes"][0]["cause"]), ("explained", "sine"))

@@ -1,5 +1,6 @@
 // Makes its own contexts, so nothing here may share a process with a test that holds one.
 #include "host/gl_context.hpp"
+#include "lab/device_check.hpp"
 #include "render/gl_context.hpp"
 #include "render/gl_sync.hpp"
 #include "render/gl_textures.hpp"
@@ -366,6 +367,20 @@ TEST(OpenglEs, textures_of_bytes_are_read_as_floats) {
         gl::upload(volume, slice, GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(texel)));
     }
     EXPECT_THAT(gl::read_part(volume, 2, {0, 0, {1, 1}}), testing::ElementsAre(0.4F, 0, 0, 1));
+}
+
+TEST(OpenglEs, conformance_scenes_have_the_pixels_of_the_convention) {
+    const auto context = HeadlessContext::create({"es:auto"});
+    ASSERT_TRUE(context) << context.error().message;
+    const auto projects =
+        lab::conformance_projects(std::filesystem::path(TIDEMARK_SOURCE_DIR) / "tests/cases/conformance");
+    EXPECT_GT(projects.size(), 40U);
+    for (const std::filesystem::path& project : projects) {
+        SCOPED_TRACE(project.filename());
+        const auto drawn = lab::conforms(project);
+        EXPECT_TRUE(drawn) << to_string(drawn.error());
+        EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR)); // no call that OpenGL ES lacks
+    }
 }
 
 } // namespace tidemark::host::headless_context_gl_test

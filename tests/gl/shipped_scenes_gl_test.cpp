@@ -146,6 +146,25 @@ TEST_F(ShippedScenes, ViewsStraightDownAreFinite) {
     }
 }
 
+/// At the limits of --camera, and with a pan that goes far out.
+TEST_F(ShippedScenes, ViewsFromTheLimitsOfTheCameraAreFinite) {
+    for (const fs::path& file : scene_files()) {
+        const auto scene = scene::load_scene(file);
+        ASSERT_TRUE(scene) << to_string(scene.error());
+        Renderer drawing = renderer(*scene, {80, 45});
+        for (const char* camera :
+             {"210,89.9,10", "30,-89.9,10", "30,20,0.001", "30,20,1000000", "30,0,10,1000,500,-2000"}) {
+            SCOPED_TRACE(file.string() + " " + camera);
+            const auto parsed = parse_camera(camera);
+            ASSERT_TRUE(parsed) << to_string(parsed.error());
+            EXPECT_EQ(
+                image::census(frame(drawing, inputs_of({.time = 2, .extent = {80, 45}, .camera = *parsed})))
+                    .non_finite(),
+                0U);
+        }
+    }
+}
+
 TEST_F(ShippedScenes, ThePseudo3dSeasNearEdgeIsIndependentOfTheSize) {
     auto scene = scene::load_scene(k_shaders / "pseudo3d_water.glsl");
     ASSERT_TRUE(scene);

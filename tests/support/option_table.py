@@ -17,6 +17,7 @@ BAKE_NAME = "tidemark_bake"  # the program of shaders/bake, which has no command
 WIDTH = 30  # of the column of names in CLI11's help, in bytes
 
 
+@functools.cache
 def printed_help(command: str) -> str:
     words = [BAKE] if command == BAKE_NAME else [PROGRAM, *command.split()]
     return subprocess.run([*words, "--help"], check=True, capture_output=True, text=True,

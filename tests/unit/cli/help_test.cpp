@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <regex>
+
 namespace tidemark::cli::help_test {
 
 using testing::ElementsAre;
@@ -28,6 +30,20 @@ TEST(HelpTopics, mentions_of_a_word_are_sorted_by_frequency) {
     EXPECT_EQ(found[1].topic, "times");
     EXPECT_EQ(found[1].line, "A NaN at 0 s.");
     EXPECT_THAT(mentions_of("keyz", topics_of(pages)), testing::IsEmpty());
+}
+
+TEST(HelpPages, every_section_is_plain_text_under_its_heading) {
+    const std::regex markup(R"(\]\(|\n\|--|<!--|!\[|<img|\*\*)");
+    int sections = 0;
+    for (const Topic& topic : topics_of(help_pages())) {
+        SCOPED_TRACE(topic.name);
+        const std::string_view line = topic.markdown.substr(0, topic.markdown.find('\n'));
+        const std::string text = plain_text(topic.markdown);
+        EXPECT_THAT(text, testing::StartsWith(std::string(line.substr(line.find(' ') + 1)) + "\n"));
+        EXPECT_FALSE(std::regex_search(text, markup));
+        ++sections;
+    }
+    EXPECT_GT(sections, 100);
 }
 
 TEST(HelpText, links_and_emphasis_become_plain_words) {

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -306,11 +307,12 @@ TEST_F(Video, truncated_files_are_refused) {
         {"a.gif", {}},
         {"a.avi", {"-c:v", "mpeg4"}},
     };
+    size_t kind = 0;
     for (const auto& [name, encoder] : kinds) {
         const std::string whole = bytes_of(make(name, encoder, 20));
         EXPECT_TRUE(VideoFrames::open(put(name, whole))) << name;
-        for (const size_t length :
-             {whole.size() / 10, whole.size() / 2, whole.size() * 9 / 10, whole.size() - 1}) {
+        const size_t tenths = std::array<size_t, 3>{1, 5, 9}[kind++ % 3];
+        for (const size_t length : {whole.size() * tenths / 10, whole.size() - 1}) {
             EXPECT_FALSE(VideoFrames::open(put(name, whole.substr(0, length))))
                 << name << " cut to " << length;
         }
