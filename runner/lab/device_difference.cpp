@@ -270,7 +270,6 @@ public:
             causes.push_back(effect->cause);
         return causes;
     }
-    /// Finds the lines of the chosen causes.
     void find_lines(std::span<DeviceCause> causes) {
         for (size_t i = 0; i < causes.size(); ++i)
             if (causes[i].places.empty())
@@ -287,6 +286,7 @@ private:
     struct SwiftDrawing {
         glsl::Variation varied;
         StandIn stand_in;
+        int parts;
         bool precise;
         size_t asked;
         Mask met{};
@@ -300,18 +300,23 @@ private:
             problem_ = to_string(stand_in.error());
             return std::nullopt;
         }
-        return SwiftDrawing{std::move(varied), *std::move(stand_in), precise, asked_};
+        return SwiftDrawing{std::move(varied), *std::move(stand_in), parts, precise, asked_};
     }
 
-    image::Image picture_with(SwiftDrawing& drawing, int parts, ExactMipmaps& mipmaps) const {
+    Mask met_with(SwiftDrawing& drawing, int parts, ExactMipmaps& mipmaps) {
+        // No mode of a text undoes its order: drivers copy a variable where the text does.
+        constexpr int k_order = int(glsl::SwiftShaderPart::order);
+        if ((drawing.parts & ~parts & k_order) != 0)
+            if (auto other = link_swiftshader(drawing.parts & ~k_order, drawing.precise))
+                return met_with(*other, parts, mipmaps);
         mipmaps.use((parts & k_mipmap_contents) != 0);
         drawing.stand_in.set(drawing.varied.mode_uniform, parts);
         drawing.stand_in.draw(preview_);
-        return drawing.stand_in.picture();
+        return met(drawing.stand_in.picture());
     }
 
     /// Tries first without the weights of filters, which cost most. Returns the parts that meet more.
-    int draw_with_fewest(SwiftDrawing& drawing, int parts, ExactMipmaps& mipmaps) const {
+    int draw_with_fewest(SwiftDrawing& drawing, int parts, ExactMipmaps& mipmaps) {
         constexpr int k_weights = int(glsl::SwiftShaderPart::weights);
         drawing.met = met_with(drawing, parts & ~k_weights, mipmaps);
         if ((parts & k_weights) == 0 || drawing.share() >= k_all_met || !has_time())
@@ -321,10 +326,6 @@ private:
             return parts;
         }
         return parts & ~k_weights;
-    }
-
-    Mask met_with(SwiftDrawing& drawing, int parts, ExactMipmaps& mipmaps) const {
-        return met(picture_with(drawing, parts, mipmaps));
     }
 
     /// Returns the pixels in question that are drawn as on the other device; of a buffer, also those that
@@ -348,8 +349,8 @@ private:
         return mask;
     }
 
-    /// Leaves out the parts that are not needed, and adds an effect for each of the others. `plain`: the text
-    /// without `precise` variables, if `best` has them and meets more.
+    /// Leaves out parts that are not needed, and adds an effect for each of the others. `plain`: without
+    /// `precise`.
     void add_swift_effects(SwiftDrawing& best, const SwiftDrawing* plain, int present,
                            ExactMipmaps& mipmaps) {
         const double enough = double(count(best.met)) - k_least_gain * double(asked_);
@@ -391,8 +392,7 @@ private:
             add({part.name, part.says}, met_with(best, needed & ~part.part, mipmaps), std::move(effect));
         }
         if (needed == 0 && !plain)
-            add({"rounding",
-                 "every operation drawn in the order of the text, none left out or known beforehand"},
+            add({"rounding", "every operation drawn in the order of the text, none left out"},
                 Mask(question_.size()), {});
     }
 

@@ -477,8 +477,7 @@ Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, 
         if ((parts & int(order)) != 0 && std::ranges::binary_search(early, id)) {
             const std::string copy = fmt::format("{}early{}", prefix, id);
             copies += fmt::format("{} {};\n", to_string(*expression_type(text, facts, id)), copy);
-            edits.wrap(id, fmt::format("({}=", copy),
-                       fmt::format(",{}has({})?{}:{})", prefix, int(order), copy, words_of(text, id)));
+            edits.wrap(id, fmt::format("({}=", copy), ")");
             varied = true;
         }
         if (varied)

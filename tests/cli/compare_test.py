@@ -321,11 +321,17 @@ class Browsers(OnDevices):
         self.write("zero.glsl", "float near(float a, float b, float k) {\n    return clamp(0.5 - 0.5 * (a + b) / k, 0.0, 1.0);\n}\n"
                                 "void mainImage(out vec4 c, in vec2 p) {\n"
                                 "    c = vec4(near(p.x - 20.0, p.y * 0.3, 0.0), 0.5, 0.5, 1.0);\n}\n")
+        self.write("order.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    float n = floor(p.x / 8.0);\n"
+                                 "    c = vec4(vec2(n * 0.05, n += 3.0).x, 0.5, 0.5, 1.0);\n}\n")
+        self.write("repeated.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    vec2 size = vec2(20.0, 0.0);\n"
+                                    "    float d = length(mod(p, size) - 0.5 * size);\n"
+                                    "    c = vec4(min(d, 5.0) / 5.0, 0.5, 0.5, 1.0);\n}\n")
         self.write("wrong.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    float f = 1;\n    c = vec4(f);\n}\n")
         found = self.outcomes("surfaceless,chromium:swiftshader", ".", code=1)
         for name, cause, place, line in (
                 ("hash.glsl", "sine", "", 1), ("project", "sine", "Buffer A", 2), ("remainder.glsl", "undefined", "", 3),
-                ("derivative.glsl", "derivatives", "", 3), ("zero.glsl", "undefined", "", 2)):
+                ("derivative.glsl", "derivatives", "", 3), ("zero.glsl", "undefined", "", 2),
+                ("order.glsl", "order", "", 3), ("repeated.glsl", "undefined", "", 3)):
             with self.subTest(scene=name):
                 scene = found[name]
                 first = scene["causes"][0]

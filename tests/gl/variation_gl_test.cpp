@@ -334,6 +334,58 @@ TEST_F(VariationTest, AQuotientByAKnownZeroIsInfinite) {
             << parts;
 }
 
+/// llvmpipe computes 1.7 of `mod(1.7, 0.0)`; Chromium 156 computes NaN. A sphere that is repeated in one
+/// direction only, by `mod` of a vec3, is then not to be seen.
+TEST_F(VariationTest, ARemainderOfAKnownZeroIsNan) {
+    const std::string before = "#define O float(iFrame)\n#define X (1.7 + O)\n"
+                               "float nan_as(float v) { return isnan(v) ? 7.0 : v; }\n"
+                               "vec3 repeated(vec3 p, vec3 c) { return mod(p + 0.5 * c, c) - 0.5 * c; }\n";
+    const std::vector<std::string> expressions = {
+        "nan_as(mod(X, 0.0))", "nan_as(mod(-X, 0.0))", "nan_as(mod(O, 0.0))",
+        "nan_as(repeated(vec3(X), vec3(1.5, 0.0, 0.0)).y)", "mod(X, 1.5)"};
+    for (const int parts : {int(glsl::SwiftShaderPart::outside), k_all_parts})
+        EXPECT_EQ(varied(like_swiftshader, parts, expressions, before),
+                  (std::vector{7.0f, 7.0f, 7.0f, 7.0f, 0.200000048f}))
+            << parts;
+}
+
+/// Operators read variables that an expression to their right sets: what Chromium 156 computed of them, with
+/// T = 1. llvmpipe computes operators last.
+TEST_F(VariationTest, OperatorsReadVariablesInChromiumsOrder) {
+    const std::string before =
+        "#define T (1.0 + float(iFrame))\nfloat global;\n"
+        "float next() { global += 1.0; return global; }\nfloat deeper() { return next(); }\n"
+        "float raised(inout float a) { a += 1.0; return a; }\n"
+        "float pair(float a, float b) { return 10.0 * a + b; }\n"
+        "float as_pair(vec2 v) { return pair(v.x, v.y); }\n"
+        "float f1(float c) { return as_pair(vec2(c * 2.0, c += 1.0)); }\n"
+        "float f2(float c) { return as_pair(vec2(c, c += 1.0)); }\n"
+        "float f3(float c) { return as_pair(vec2(-c, c += 1.0)); }\n"
+        "float f4(float c) { return c * 100.0 + c++ * 10.0 + c; }\n"
+        "float f5(float t) { global = t; return as_pair(vec2(global * 2.0, deeper())); }\n"
+        "float f6(float t) { global = t; return global + next(); }\n"
+        "float f7(float c) { return c * 10.0 + raised(c); }\n"
+        "float f8(float t) { vec2 c = vec2(t); return c.x * 10.0 + (c.x += 1.0); }\n"
+        "float f9(float t) { float a[2]; a[0] = t; a[1] = 2.0; return a[0] * 10.0 + (a[0] += 1.0); }\n"
+        "float f10(float t) { float a[2]; a[0] = 2.0; a[1] = 5.0; int i = int(t);"
+        " return a[i - 1] + 10.0 * float(i++); }\n"
+        "float f11(float c) { return pair(c * 2.0, c += 1.0); }\n"
+        "float f12(float c) { c += c * 10.0 + c++; return c; }\n"
+        "float f13(float c) { return c * 10.0 + (c += 1.0, c); }\n"
+        "float f14(float t) { vec4 c = vec4(t); ivec4 b = ivec4(vec2(2.0) * c.a, c += 1.0);"
+        " return float(b.x * 1000 + b.y * 100 + b.z * 10 + b.w); }\n";
+    const std::vector<float> known = {22, 22, -8, 112, 22, 4, 12, 12, 12, 12, 22, 13, 12, 2222};
+    std::vector<std::string> expressions;
+    for (size_t i = 1; i <= known.size(); ++i)
+        expressions.push_back(fmt::format("f{}(T)", i));
+    EXPECT_EQ(varied(like_swiftshader, int(glsl::SwiftShaderPart::order), expressions, before), known);
+    const std::vector<float> own = varied(like_swiftshader, 0, expressions, before);
+    size_t unlike = 0;
+    for (size_t i = 0; i < known.size(); ++i)
+        unlike += own[i] != known[i];
+    EXPECT_GT(unlike, 8u) << "this driver has another order";
+}
+
 /// SwiftShader's compiler knows the arguments and the divisors, but it does not compute `radians`, `length`,
 /// `floor` and `abs`. The bits are Chromium 156's; llvmpipe's own are others, except for the last two.
 TEST_F(VariationTest, OnlyFunctionsThatItsCompilerComputesAreExact) {

@@ -41,6 +41,17 @@ TEST(Variation, OnlyBuiltInSinesAreReplaced) {
               0u);
 }
 
+TEST(Variation, ReadsThatAnExpressionToTheRightPrecedesInMesaAreFound) {
+    const Read of =
+        read("float g;\nfloat next() { return g++; }\nfloat f(float c, vec2 v, float a[3], int i) {\n"
+             "float d = c * 2.0 + c++; d = c + c++; d = g * 3.0 + next(); d = a[i] + float(i++);\n"
+             "d = c * 2.0, c++; d = v.x * 2.0 + (v.x = 1.0); return (c++, c * 2.0); }\n");
+    std::vector<std::string> found;
+    for (const NodeId id : early_reads(*of.text, of.facts))
+        found.push_back(of.text->excerpt(id));
+    EXPECT_EQ(found, (std::vector<std::string>{"c", "g", "i", "v.x"}));
+}
+
 TEST(Variation, InexactOperationsAreWrapped) {
     const Variation found =
         varied(vary_rounding, "float f(float x) { x /= 3.0; return sqrt(x / 7.0) + x * x; }\n");
