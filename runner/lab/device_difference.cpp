@@ -94,6 +94,7 @@ constexpr SwiftPart k_swift_parts[] = {
     {int(glsl::SwiftShaderPart::mipmaps), "mipmaps", "SwiftShader's choice of the mipmap"},
     {int(glsl::SwiftShaderPart::outside), "undefined",
      "SwiftShader's values where a function or an operator is undefined"},
+    {int(glsl::SwiftShaderPart::order), "order", "a variable read before the same expression sets it"},
     {int(glsl::SwiftShaderPart::powers), "functions", "SwiftShader's pow, exp and log"},
     {int(glsl::SwiftShaderPart::arcs), "functions", "SwiftShader's atan, asin and acos"},
     {int(glsl::SwiftShaderPart::sines), "sine", "SwiftShader's sines, which are up to 1.5e-4 off"},
@@ -177,8 +178,8 @@ public:
     /// most of it, are causes.
     void try_swiftshader(ExactMipmaps& mipmaps) {
         int present = mipmaps.any() ? k_mipmap_contents : 0;
-        for (glsl::NodeId id = 1; id < text_.text->tree().nodes.size(); ++id)
-            present |= glsl::swiftshader_parts(*text_.text, text_.facts, id);
+        for (const int parts : glsl::swiftshader_parts(*text_.text, text_.facts))
+            present |= parts;
         if (!mipmaps.any())
             present &= ~int(glsl::SwiftShaderPart::mipmaps);
         std::optional<SwiftDrawing> best, plain;
@@ -309,8 +310,7 @@ private:
         return drawing.stand_in.picture();
     }
 
-    /// Draws with the parts, first without the weights of filters, whose look-ups cost most. Returns the
-    /// parts that meet more.
+    /// Tries first without the weights of filters, which cost most. Returns the parts that meet more.
     int draw_with_fewest(SwiftDrawing& drawing, int parts, ExactMipmaps& mipmaps) const {
         constexpr int k_weights = int(glsl::SwiftShaderPart::weights);
         drawing.met = met_with(drawing, parts & ~k_weights, mipmaps);
@@ -373,6 +373,7 @@ private:
         };
         if (plain)
             add({"rounding", "every operation in the order of the text, and none left out"}, plain->met, {});
+        const std::vector<int> parts_of = glsl::swiftshader_parts(*text_.text, text_.facts);
         for (const SwiftPart& part : k_swift_parts) {
             if ((needed & part.part) == 0)
                 continue;
@@ -385,7 +386,7 @@ private:
             };
             const int uses = part.part == k_mipmap_contents ? int(glsl::SwiftShaderPart::mipmaps) : part.part;
             for (const glsl::NodeId id : best.varied.places)
-                if ((glsl::swiftshader_parts(*text_.text, text_.facts, id) & uses) != 0)
+                if ((parts_of[id] & uses) != 0)
                     effect.places.push_back(id);
             add({part.name, part.says}, met_with(best, needed & ~part.part, mipmaps), std::move(effect));
         }
@@ -411,8 +412,7 @@ private:
         return effect;
     }
 
-    /// Returns the picture with a variation of the text; nothing if it has no places, or if the driver
-    /// refuses it.
+    /// Returns nothing if the variation has no places, or if the driver refuses it.
     std::optional<image::Image> picture_with(const glsl::Variation& varied, int mode) {
         if (varied.places.empty())
             return std::nullopt;

@@ -207,8 +207,8 @@ class WorkWriter : LensWriter {
 public:
     WorkWriter(const ParsedText& text, const TreeFacts& facts, WorkAnswer answer, const WorkWeights& weights)
         : LensWriter(text, facts), answer_(answer), weights_(weights), needed_(find_needed(text, facts)),
-          known_(find_known(text, facts, !weights.device.empty())), own_(tree_.nodes.size()),
-          all_(tree_.nodes.size()) {}
+          known_(find_known(text, facts, weights.device.empty() ? KnownTo::compilers : KnownTo::frame)),
+          own_(tree_.nodes.size()), all_(tree_.nodes.size()) {}
 
     Result<WorkText> run() {
         TRY(check());

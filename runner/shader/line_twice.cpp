@@ -92,7 +92,8 @@ public:
     TwiceWriter(const ParsedText& text, const TreeFacts& facts, const WorkText& counted,
                 const SourceLocation& place, bool uniforms_are_known)
         : text_(text), tree_(text.tree()), facts_(facts), counted_(counted), place_(place),
-          known_(find_known(text, facts, uniforms_are_known)), prefix_(fresh_prefix(text)) {
+          known_(find_known(text, facts, uniforms_are_known ? KnownTo::frame : KnownTo::compilers)),
+          prefix_(fresh_prefix(text)) {
         for (NodeId id = 1; id < tree_.nodes.size(); ++id)
             if (tree_[id].kind == NodeKind::declarator &&
                 tree_[tree_[tree_[id].parent].parent].kind == NodeKind::loop_for)

@@ -4,6 +4,7 @@
 // tests/gl/variation_gl_test.cpp compares them with numbers that Chromium computed.
 #include "shader/builtin_functions.hpp"
 #include "shader/source_edits.hpp"
+#include "shader/variables.hpp"
 #include "shader/variation.hpp"
 #include "shader/watch.hpp"
 
@@ -75,7 +76,8 @@ float $hidden(float v){return $bits($bits(v)^($mode>>20));}
 float $divide(float a,float b){float c=$hidden(b),s=float(double(a)/double(b)),t=float(double(a)/double(c));
 float m=a/b,n=a/c;bool exact=$has(8);m=exact?s:m;n=exact?t:n;return $has(16)?n:m;}
 float $over(float a,float b){precise float r=1.0/b,q=a*r;float u=a/b,z=$divide(a,b);q=$has(8)?q:u;return b==0.0?z:q;}
-float $mod(float x,float y){precise float r=x-y*floor($divide(x,y));float u=mod(x,y);return $has(8)?r:u;}
+float $mod(float x,float y){float h=$hidden(y),u=mod(x,y);precise float r=x-h*floor($divide(x,h));
+return $has(y==0.0?16:8)?r:u;}
 float $smoothstep(float a,float b,float x){precise float d=x-a,e=b-a;float t=clamp($divide(d,e),0.0,1.0);
 precise float r=t*t*(3.0-2.0*t);float u=smoothstep(a,b,x);return $has(8)?r:u;}
 bool $odd(float x,float y){return max($bits(x)&0x7fffffff,$bits(y)&0x7fffffff)>0x7f800000;}
@@ -367,108 +369,6 @@ const SwiftFunction* swift_function(const ParsedText& text, const TreeFacts& fac
     return found;
 }
 
-/// Functions of known values that SwiftShader's compiler (SPIRV-Tools) computes.
-constexpr std::string_view k_folded[] = {"mix",  "min", "max", "clamp", "sin",  "cos",  "tan", "asin", "acos",
-                                         "atan", "exp", "log", "exp2",  "log2", "sqrt", "pow", "dot"};
-
-/// How compilers know a value: they compute it as exactly as llvmpipe's.
-enum class Known {
-    no,
-    folded,   ///< through variables and inlined functions, by the functions of k_folded only
-    constant, ///< it is a constant expression, which ANGLE computes
-};
-
-/// Expressions whose value compilers know: of literals, and of variables, functions and arguments that have
-/// no other value.
-class KnownValues {
-public:
-    KnownValues(const ParsedText& text, const TreeFacts& facts)
-        : text_(text), facts_(facts), tree_(text.tree()), values_(text, facts) {
-        for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
-            if (tree_[id].kind == NodeKind::call)
-                calls_[called_name(text, id)].push_back(id);
-            else if (tree_[id].kind == NodeKind::declarator)
-                declared_.insert({tree_.around(id, NodeKind::function), text.word_of(id)});
-            for (const std::string_view name : names_set(text, facts, id))
-                set_.insert({tree_.around(id, NodeKind::function), name});
-        }
-    }
-
-    Known knows(NodeId id, int depth = 0) const {
-        if (id == k_no_node || depth > 12)
-            return Known::no;
-        switch (tree_[id].kind) {
-        case NodeKind::literal: return Known::constant;
-        case NodeKind::prefix:
-            if (is_change(text_, id))
-                return Known::no;
-            [[fallthrough]];
-        case NodeKind::parenthesis:
-        case NodeKind::binary: return knows_parts(id, 0, depth);
-        case NodeKind::member: return knows(tree_.child(id, 0), depth + 1);
-        case NodeKind::name: return knows_name(id, depth);
-        case NodeKind::call: {
-            const std::string_view name = called_name(text_, id);
-            const bool makes_value = value_type(name).has_value();
-            if (facts_.function(name) || (!makes_value && !find_builtin(name)) || tree_.child_count(id) < 2 ||
-                name.starts_with("tex"))
-                return Known::no;
-            const Known parts = knows_parts(id, 1, depth);
-            const bool folds = makes_value || std::ranges::find(k_folded, name) != std::end(k_folded);
-            return parts == Known::folded && !folds ? Known::no : parts;
-        }
-        default: return Known::no;
-        }
-    }
-
-private:
-    /// A name in a function.
-    using Place = std::pair<NodeId, std::string_view>;
-
-    Known knows_parts(NodeId id, size_t first, int depth) const {
-        Known least = Known::constant;
-        for (size_t i = first; i < tree_.child_count(id) && least != Known::no; ++i)
-            least = std::min(least, knows(tree_.child(id, i), depth + 1));
-        return least;
-    }
-
-    Known knows_name(NodeId name, int depth) const {
-        const NodeId value = values_.of(name);
-        if (value == k_no_node)
-            return knows_parameter(name, depth) ? Known::folded : Known::no;
-        const NodeId declaration = tree_.around(value, NodeKind::declaration);
-        const bool is_constant = has_qualifier(text_, tree_.child(declaration, 0), "const");
-        return std::min(knows(value, depth + 1), is_constant ? Known::constant : Known::folded);
-    }
-
-    /// Returns whether the name is a parameter of which all calls give a known value.
-    bool knows_parameter(NodeId name, int depth) const {
-        const NodeId function = tree_.around(name, NodeKind::function);
-        const Place place{function, text_.word_of(name)};
-        if (function == k_no_node || set_.contains(place) || declared_.contains(place))
-            return false;
-        const FunctionFacts* const facts = facts_.function(text_.word_of(function));
-        const auto calls = calls_.find(text_.word_of(function));
-        if (!facts || facts->definitions.size() != 1 || calls == calls_.end())
-            return false;
-        for (size_t i = 1; i < tree_.child_count(function); ++i) {
-            const NodeId parameter = tree_.child(function, i);
-            if (tree_[parameter].kind == NodeKind::parameter && text_.word_of(parameter) == place.second)
-                return std::ranges::all_of(calls->second, [&](NodeId call) {
-                    return i < tree_.child_count(call) && knows(tree_.child(call, i), depth + 1) != Known::no;
-                });
-        }
-        return false;
-    }
-
-    const ParsedText& text_;
-    const TreeFacts& facts_;
-    const SyntaxTree& tree_;
-    SingleValues values_;
-    std::map<std::string_view, std::vector<NodeId>> calls_;
-    std::set<Place> set_, declared_;
-};
-
 /// Returns whether the expression has no side effects and is short enough to be repeated.
 bool is_repeatable(const ParsedText& text, const TreeFacts& facts, NodeId id) {
     const SyntaxTree& tree = text.tree();
@@ -515,8 +415,8 @@ bool is_read(const ParsedText& text, const TreeFacts& facts, NodeId id) {
 
 /// Returns the function of the prelude for a product of a matrix, a quotient or a remainder; empty for other
 /// nodes. `known` may be null: `divide` then stands for `over`, too.
-std::string_view swift_operator(const ParsedText& text, const TreeFacts& facts, const KnownValues* known,
-                                NodeId id) {
+std::string_view swift_operator(const ParsedText& text, const TreeFacts& facts,
+                                const std::vector<bool>* known, NodeId id) {
     const SyntaxTree& tree = text.tree();
     if (tree[id].kind != NodeKind::binary && tree[id].kind != NodeKind::assign)
         return {};
@@ -542,13 +442,12 @@ std::string_view swift_operator(const ParsedText& text, const TreeFacts& facts, 
         return times ? "times" : std::string_view{};
     if (times)
         return {};
-    if (!known || known->knows(tree.child(id, 1)) == Known::no)
+    if (!known || !(*known)[tree.child(id, 1)])
         return "divide";
     // By a known number: times its reciprocal, which both compilers merge with a factor.
     const auto has_factor = [&](NodeId product) {
         return tree[product].kind == NodeKind::binary && text.word_of(product) == "*" &&
-               (known->knows(tree.child(product, 0)) != Known::no ||
-                known->knows(tree.child(product, 1)) != Known::no);
+               ((*known)[tree.child(product, 0)] || (*known)[tree.child(product, 1)]);
     };
     const NodeId divisor = without_brackets(tree, tree.child(id, 1)), dividend = tree.child(id, 0);
     const bool is_number = tree[divisor].kind == NodeKind::literal &&
@@ -566,10 +465,11 @@ int operator_parts(std::string_view name) {
 }
 
 /// Returns whether the value and the lower bound of a `clamp` are known. The compiler ignores the upper one.
-bool is_known_below(const ParsedText& text, const TreeFacts& facts, const KnownValues& known, NodeId id) {
+bool is_known_below(const ParsedText& text, const TreeFacts& facts, const std::vector<bool>& known,
+                    NodeId id) {
     const auto type = expression_type(text, facts, id);
-    const Known value = known.knows(text.tree().child(id, 1)), bound = known.knows(text.tree().child(id, 2));
-    return type && type->scalar() && called_name(text, id) == "clamp" && std::min(value, bound) != Known::no;
+    return type && type->scalar() && called_name(text, id) == "clamp" && known[text.tree().child(id, 1)] &&
+           known[text.tree().child(id, 2)];
 }
 
 } // namespace
@@ -581,8 +481,10 @@ Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, 
     const bool by_lines = bool(may);
     Variation result{{}, prefix + "mode", {}};
     SourceRewriter edits(text);
-    const KnownValues known(text, facts);
-    int all_parts = 0; // of the text
+    const std::vector<bool> known = find_known(text, facts, KnownTo::swiftshader);
+    const std::vector<NodeId> early = early_reads(text, facts);
+    std::string copies; ///< variables that keep what is read early
+    int all_parts = 0;  // of the text
     for (NodeId id = 1; id < tree.nodes.size(); ++id)
         if (const SwiftFunction* const function = swift_function(text, facts, id))
             all_parts |= function->parts;
@@ -595,11 +497,11 @@ Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, 
                 !has_qualifier(text, type, "const") && !has_qualifier(text, type, "precise"))
                 edits.wrap(type, "precise ", "");
         }
-        if ((by_lines && !may(id)) || must_stay_constant(text, id) || known.knows(id) != Known::no)
+        if ((by_lines && !may(id)) || must_stay_constant(text, id) || known[id])
             continue;
-        if (const SwiftFunction* const function = swift_function(text, facts, id)) {
-            if ((function->parts & parts) == 0)
-                continue;
+        bool varied = true;
+        if (const SwiftFunction* const function = swift_function(text, facts, id);
+            function && (function->parts & parts) != 0) {
             has_lookup = has_lookup || (function->parts & (int(mipmaps) | int(weights))) != 0;
             const auto name = is_known_below(text, facts, known, id) ? "bound" : function->name;
             edits.replace(tree[tree.child(id, 0)].word, prefix + std::string(name));
@@ -620,9 +522,17 @@ Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, 
             edits.wrap(tree.child(id, 1), prefix + "place(",
                        fmt::format(",({}).length())", words_of(text, tree.child(id, 0))));
         } else {
-            continue;
+            varied = false;
         }
-        result.places.push_back(id);
+        if ((parts & int(order)) != 0 && std::ranges::binary_search(early, id)) {
+            const std::string copy = fmt::format("{}early{}", prefix, id);
+            copies += fmt::format("{} {};\n", to_string(*expression_type(text, facts, id)), copy);
+            edits.wrap(id, fmt::format("({}=", copy),
+                       fmt::format(",{}has({})?{}:{})", prefix, int(order), copy, words_of(text, id)));
+            varied = true;
+        }
+        if (varied)
+            result.places.push_back(id);
     }
     std::string prelude =
         "#extension GL_ARB_gpu_shader5 : enable\n#extension GL_ARB_gpu_shader_fp64 : enable\n"
@@ -634,17 +544,24 @@ Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, 
         prelude += replaced(swift_matrices(), "$", prefix);
     if (has_lookup)
         prelude += replaced(swift_lookups(), "$", prefix);
-    result.text = headers_with_buffers(text) + prelude + edits.text();
+    result.text = headers_with_buffers(text) + prelude + copies + edits.text();
     return result;
 }
 
-int swiftshader_parts(const ParsedText& text, const TreeFacts& facts, NodeId id) {
-    if (const SwiftFunction* const function = swift_function(text, facts, id))
-        return function->parts;
-    if (is_element(text, facts, id))
-        return int(outside);
-    const std::string_view name = swift_operator(text, facts, nullptr, id);
-    return name.empty() ? 0 : operator_parts(name);
+std::vector<int> swiftshader_parts(const ParsedText& text, const TreeFacts& facts) {
+    std::vector<int> result(text.tree().nodes.size());
+    for (NodeId id = 1; id < result.size(); ++id) {
+        const std::string_view name = swift_operator(text, facts, nullptr, id);
+        if (const SwiftFunction* const function = swift_function(text, facts, id))
+            result[id] = function->parts;
+        else if (is_element(text, facts, id))
+            result[id] = int(outside);
+        else if (!name.empty())
+            result[id] = operator_parts(name);
+    }
+    for (const NodeId id : early_reads(text, facts))
+        result[id] |= int(order);
+    return result;
 }
 
 } // namespace tidemark::glsl

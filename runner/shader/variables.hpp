@@ -145,9 +145,15 @@ Assignment find_assignment(const ParsedText& text, const TreeFacts& facts, Shape
 /// as a whole: a variable that is read anywhere in its function counts as read after each assignment.
 std::vector<bool> find_needed(const ParsedText& text, const TreeFacts& facts);
 
-/// Returns for each expression whether compilers know its value: literals, variables that get one such value,
-/// parameters that get only such values, and what is computed of these. `uniforms`: also what is computed of
-/// uniforms, which has one value for the frame.
-std::vector<bool> find_known(const ParsedText& text, const TreeFacts& facts, bool uniforms);
+/// Who knows a value.
+enum class KnownTo {
+    compilers,
+    frame,       ///< also what is computed of uniforms, which has one value for the frame
+    swiftshader, ///< compilers of SwiftShader, which compute few functions
+};
+
+/// Returns for each expression whether its value is known: literals, variables that get one such value,
+/// parameters that get only such values, and what is computed of these.
+std::vector<bool> find_known(const ParsedText& text, const TreeFacts& facts, KnownTo whom);
 
 } // namespace tidemark::glsl

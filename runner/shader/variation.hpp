@@ -79,15 +79,22 @@ enum class SwiftShaderPart {
     mipmaps = 32,      ///< the choice of the mipmap, and no shortcut between two
     weights = 64,      ///< of linear texture filters
     derivatives = 128, ///< one for a block of 2x2 pixels
+    order = 256,       ///< an operator reads its variables before an expression to its right sets them
 };
-inline constexpr int k_swiftshader_parts = 8;
+inline constexpr int k_swiftshader_parts = 9;
 
 /// Computes as SwiftShader does, bit for bit except for textures, the `parts` whose bits the mode has.
 /// `precise` also declares float variables so: SwiftShader reorders nothing.
 Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, int parts, bool precise,
                                 const MayVary& may = {});
-/// Returns the parts that a node of the text belongs to.
-int swiftshader_parts(const ParsedText& text, const TreeFacts& facts, NodeId id);
+/// Returns the parts that each node of the text belongs to.
+std::vector<int> swiftshader_parts(const ParsedText& text, const TreeFacts& facts);
+
+/// Returns variables, or parts of variables, that an operator or a function reads although an expression to
+/// its right sets them: `c` in `c * 2.0 + c++`. ANGLE reads them before; Mesa sets them before, because it
+/// puts off operators. Neither puts off calls of the author's functions, and both read the operands of `c +
+/// c++` last.
+std::vector<NodeId> early_reads(const ParsedText& text, const TreeFacts& facts);
 
 /// A mode of a variation, with its name for reports.
 struct VariationMode {
