@@ -87,7 +87,7 @@ struct SwiftPart {
 /// In the order in which they are left out: parts with the smallest effect first.
 constexpr SwiftPart k_swift_parts[] = {
     {k_mipmap_contents, "mipmaps", "mipmaps rounded to the nearest byte, not upwards"},
-    {int(glsl::SwiftShaderPart::weights), "filter", "SwiftShader's weights of linear texture filters"},
+    {int(glsl::SwiftShaderPart::weights), "filter", "SwiftShader's weights and positions of texture filters"},
     {int(glsl::SwiftShaderPart::derivatives), "derivatives", "one derivative for a block of 2x2 pixels"},
     {int(glsl::SwiftShaderPart::products), "rounding",
      "SwiftShader's roundings of dot products, matrices, quotients and mix"},

@@ -326,12 +326,25 @@ class Browsers(OnDevices):
         self.write("repeated.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    vec2 size = vec2(20.0, 0.0);\n"
                                     "    float d = length(mod(p, size) - 0.5 * size);\n"
                                     "    c = vec4(min(d, 5.0) / 5.0, 0.5, 0.5, 1.0);\n}\n")
+        self.write("branch.glsl", "const float levels[4] = float[4](0.9, 0.3, 0.7, 0.2);\nvoid mainImage(out vec4 c, in vec2 p) {\n"
+                                  "    int k = int(p.x * 0.6) % 4;\n    c = vec4(0.5);\n    if ((int(p.x) & 1) == 1)\n"
+                                  "        c.x = abs(dFdx(levels[k]));\n}\n")
+        self.write("quotient.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    c = vec4(0.5);\n    if ((int(p.x) & 1) == 1)\n"
+                                    "        c.x = fract(dFdx(mod(p.x * p.x / (1.0 + p.y), 7.0)));\n}\n")
+        self.succeed("capture", "hash.glsl", "--size", "64x64", "-o", "noise.png")
+        self.write("nearest.glsl", '#iChannel0 "noise.png"\n#iChannel0::MinFilter "Nearest"\n#iChannel0::MagFilter "Nearest"\n'
+                                   "void mainImage(out vec4 c, in vec2 p) {\n"
+                                   "    c = texture(iChannel0, floor(p) / -64.0 - 6e-6);\n}\n")
+        self.write("levels.glsl", '#iChannel0 "noise.png"\n#iChannel0::MinFilter "LinearMipMapLinear"\n'
+                                  "void mainImage(out vec4 c, in vec2 p) {\n    float step = (int(p.x) & 2) == 0 ? 0.011 : 0.037;\n"
+                                  "    c = 8.0 * texture(iChannel0, step * p) - 3.5;\n}\n")
         self.write("wrong.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    float f = 1;\n    c = vec4(f);\n}\n")
         found = self.outcomes("surfaceless,chromium:swiftshader", ".", code=1)
         for name, cause, place, line in (
                 ("hash.glsl", "sine", "", 1), ("project", "sine", "Buffer A", 2), ("remainder.glsl", "undefined", "", 3),
-                ("derivative.glsl", "derivatives", "", 3), ("zero.glsl", "undefined", "", 2),
-                ("order.glsl", "order", "", 3), ("repeated.glsl", "undefined", "", 3)):
+                ("derivative.glsl", "derivatives", "", 3), ("zero.glsl", "undefined", "", 2), ("order.glsl", "order", "", 3),
+                ("repeated.glsl", "undefined", "", 3), ("branch.glsl", "undefined", "", 6), ("quotient.glsl", "derivatives", "", 4),
+                ("nearest.glsl", "filter", "", 5), ("levels.glsl", "filter", "", 5)):
             with self.subTest(scene=name):
                 scene = found[name]
                 first = scene["causes"][0]

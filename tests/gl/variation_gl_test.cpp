@@ -126,6 +126,12 @@ constexpr std::array k_of_swiftshader = {
     OfSwiftShader{"normalize(V).y", {0x3F63FBD0, 0x3EB3AED5, 0x3F668D6F}},
     OfSwiftShader{"length(V)", {0x413B0A74, 0x400E20CD, 0x40CC65ED}},
     OfSwiftShader{"reflect(V, W).y", {0x4097C333, 0xC09FE2CF, 0x40F27E64}},
+    OfSwiftShader{"determinant(M)", {0x436D06CB, 0x41B1AB3C, 0x42B36AC2}},
+    OfSwiftShader{"inverse(M)[1].y", {0xBE017EE6, 0xBF097DA6, 0x3E183FE1}},
+    OfSwiftShader{"inverse(M)[2].x", {0x3D1481AB, 0x3E4BD135, 0xBDBF2E4E}},
+    OfSwiftShader{"determinant(N)", {0x44773A81, 0x431769E1, 0x4337FE02}},
+    OfSwiftShader{"inverse(N)[1].z", {0x3D0F6B2A, 0x3D4F6669, 0x3DBA81B5}},
+    OfSwiftShader{"inverse(N)[3].x", {0x3E1D912F, 0x3E88353A, 0xBEDCC71A}},
 };
 
 TEST_F(VariationTest, FunctionsAreSwiftShadersBitForBit) {
@@ -138,12 +144,14 @@ TEST_F(VariationTest, FunctionsAreSwiftShadersBitForBit) {
     for (const OfSwiftShader& each : k_of_swiftshader)
         expressions.emplace_back(each.expression);
     for (size_t i = 0; i < numbers.size(); ++i) {
-        const std::string before =
-            fmt::format("#define X ({} + float(iFrame))\n"
-                        "#define V vec3(X, X * X, 1.0 - X)\n"
-                        "#define W vec3(1.1, 0.7, X + 3.3)\n"
-                        "#define M mat3(X, 1.3, 2.7, abs(X), X * 3.1, 0.3, 1.9, X, 7.7)\n",
-                        numbers[i]);
+        const std::string before = fmt::format(
+            "#define X ({} + float(iFrame))\n"
+            "#define V vec3(X, X * X, 1.0 - X)\n"
+            "#define W vec3(1.1, 0.7, X + 3.3)\n"
+            "#define M mat3(X, 1.3, 2.7, abs(X), X * 3.1, 0.3, 1.9, X, 7.7)\n"
+            "#define N mat4(X, 1.3, 2.7, 0.9, abs(X), X * 3.1, 0.3, 0.4, 1.9, X, 7.7, -2.1, 1.7, 0.6, "
+            "X * 0.3, 3.3)\n",
+            numbers[i]);
         const std::vector<float> found = varied(vary, 31, expressions, before);
         const std::vector<float> own = varied(vary, 0, expressions, before);
         size_t unlike = 0;
