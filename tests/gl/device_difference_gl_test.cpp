@@ -182,7 +182,7 @@ TEST_F(DeviceDifferenceTest, TheOrderOfADotProductIsFoundWithItsLine) {
         return std::string("float hash(vec2 p) {\n") +
                "vec3 a = vec3(p.x + 0.1, p.y + 0.7, p.x * p.y) * vec3(12.9898, 78.233, 37.719), b = "
                "a.zxy;\n" +
-               "float d = " + dot + ";\nreturn fract(d * 7.31);\n}" + k_image;
+               "float d = " + dot + ";\nreturn fract(d * 731.7);\n}" + k_image;
     };
     const std::string own = text("dot(a, b)");
     const std::pair<std::string, std::string> orders[] = {
