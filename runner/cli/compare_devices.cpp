@@ -184,23 +184,43 @@ Result<Drawn> drawn_in_browser(std::optional<web::Browser>& browser, const std::
                      : frame.error().message};
 }
 
-/// Returns what is known of a browser's driver, by what it draws.
-Result<lab::OtherDevice> other_device(std::optional<web::Browser>& browser, const std::string& device) {
-    if (!web::is_browser(device))
-        return lab::OtherDevice::unknown;
+/// "pictures:FOLDER" is a device that drew the pictures of the folder, one with the name of each scene.
+constexpr std::string_view k_pictures_prefix = "pictures:";
+
+scene::Scene scene_of_text(std::string_view text) {
     scene::Scene scene;
-    scene.file = "sine.glsl";
+    scene.file = "test.glsl";
     scene.passes.resize(1);
-    scene.passes[0].text.append(std::string(lab::k_swiftshader_test), "sine.glsl", 1);
+    scene.passes[0].text.append(std::string(text), "test.glsl", 1);
+    return scene;
+}
+
+/// Returns whether both devices compute functions with the same bits.
+Result<bool> have_same_functions(const std::array<std::string, 2>& devices) {
+    render::FrameState state;
+    state.extent = lab::k_functions_extent;
+    const scene::Scene scene = scene_of_text(lab::k_functions_test);
+    const Drawn here = TRY(drawn_on(devices[0], scene, state)),
+                there = TRY(drawn_on(devices[1], scene, state));
+    return here.problem.empty() && there.problem.empty() &&
+           here.frame.passes[0].picture.bytes == there.frame.passes[0].picture.bytes;
+}
+
+/// Returns what is known of the second device's driver, by what it draws.
+Result<lab::OtherDevice> other_device(std::optional<web::Browser>& browser,
+                                      const std::array<std::string, 2>& devices) {
+    if (devices[1].starts_with(k_pictures_prefix))
+        return lab::OtherDevice::unknown;
+    if (!web::is_browser(devices[1]))
+        return TRY(have_same_functions(devices)) ? lab::OtherDevice::same_functions
+                                                 : lab::OtherDevice::unknown;
     render::FrameState state;
     state.extent = {1, 1};
-    const Drawn drawn = TRY(drawn_in_browser(browser, device, scene, state));
+    const Drawn drawn =
+        TRY(drawn_in_browser(browser, devices[1], scene_of_text(lab::k_swiftshader_test), state));
     const bool white = !drawn.frame.passes.empty() && drawn.frame.passes[0].picture.f32()[0] > 0.5f;
     return white ? lab::OtherDevice::swiftshader : lab::OtherDevice::unknown;
 }
-
-/// "pictures:FOLDER" is a device that drew the pictures of the folder, one with the name of each scene.
-constexpr std::string_view k_pictures_prefix = "pictures:";
 
 Drawn found_in(const fs::path& folder, const fs::path& path, const scene::Scene& scene, Extent extent) {
     std::error_code ignored;
@@ -335,7 +355,7 @@ Result<SceneOutcome> outcome_of(const DevicesRequest& request, std::optional<web
         return result;
     }
     if (!other) // asked once, when the first scene differs
-        other = TRY(other_device(browser, request.devices[1]));
+        other = TRY(other_device(browser, request.devices));
     TRY(explain_in_time(request, browser, result.difference, *scene, path, there.frame, *other));
     result.outcome =
         result.difference.explained >= lab::k_explained_share ? Outcome::explained : Outcome::unexplained;

@@ -54,9 +54,14 @@ struct Model {
     glsl::VariedArithmetic arithmetic;
 };
 
-std::vector<Model> device_models() {
-    std::vector<Model> models{{"sine", glsl::varied_sines()}};
-    for (glsl::VariedArithmetic& operations : glsl::varied_operations())
+/// `functions`: also tries other sines, quotients, roots, powers and logarithms.
+std::vector<Model> device_models(bool functions) {
+    std::vector<Model> models;
+    for (glsl::VariedArithmetic& formulas : glsl::varied_formulas())
+        models.push_back({"rounding", std::move(formulas)});
+    if (functions)
+        models.push_back({"sine", glsl::varied_sines()});
+    for (glsl::VariedArithmetic& operations : functions ? glsl::varied_operations() : glsl::varied_sums())
         models.push_back({"rounding", std::move(operations)});
     models.push_back(
         {"mipmaps",
@@ -110,20 +115,6 @@ std::vector<Model> last_bit_models() {
 
 size_t count(const Mask& mask) {
     return size_t(std::ranges::count(mask, true));
-}
-
-/// Returns the pixels of the mask and their eight neighbours.
-Mask grown(const Mask& mask, Extent extent) {
-    Mask result(mask.size());
-    for (int y = 0; y < extent.height; ++y)
-        for (int x = 0; x < extent.width; ++x) {
-            if (!mask[size_t(y) * size_t(extent.width) + size_t(x)])
-                continue;
-            for (int v = std::max(y - 1, 0); v <= std::min(y + 1, extent.height - 1); ++v)
-                for (int u = std::max(x - 1, 0); u <= std::min(x + 1, extent.width - 1); ++u)
-                    result[size_t(v) * size_t(extent.width) + size_t(u)] = true;
-        }
-    return result;
 }
 
 Mask both(const Mask& left, const Mask& right) {
@@ -492,10 +483,6 @@ private:
 
 } // namespace
 
-// At 1.3 SwiftShader's sine is 1.2e-4 off.
-const std::string_view k_swiftshader_test = "void mainImage(out vec4 c, in vec2 p) { c = vec4(step(1e-5, "
-                                            "abs(sin(1.3 + min(iTime, 0.0)) - 0.963558185))); }";
-
 Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const FrameState& state,
                      const FramePictures& there, OtherDevice other, const SeeCauses& see) {
     const Stopwatch watch;
@@ -552,7 +539,7 @@ Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const Fram
             explainer.try_swiftshader(mipmaps);
             explainer.try_models(models_beside_swiftshader());
         } else {
-            explainer.try_models(device_models());
+            explainer.try_models(device_models(other != OtherDevice::same_functions));
             if (!explainer.reproduced())
                 explainer.try_undefined();
         }

@@ -67,6 +67,8 @@ enum class PictureKind { image, buffer };
 double same_pixel(PictureKind kind);
 /// Returns the pixels in which a sample differs by more than `limit`; alpha counts in buffers only.
 Mask differing(const image::Image& left, const image::Image& right, double limit, PictureKind kind);
+/// Returns the pixels of the mask and their eight neighbours.
+Mask grown(const Mask& mask, Extent extent);
 /// Returns `here` as it is, or rounded to 8 bits if `there` comes from such a file.
 image::Image comparable(const image::Image& here, const image::Image& there);
 /// Returns the picture of the pass with that name; null: there is none.
@@ -93,8 +95,8 @@ private:
 Result<DeviceDifference> compare_devices(const image::Image& here, const image::Image& there);
 
 /// The driver of the other device. For SwiftShader, whose functions are imitated bit for bit, models that
-/// only guess at functions are not tried.
-enum class OtherDevice { unknown, swiftshader };
+/// only guess at functions are not tried; nor are they for a device whose functions have the same bits.
+enum class OtherDevice { unknown, swiftshader, same_functions };
 
 /// Called with what is known so far, before the lines of causes are searched: that may take long.
 using SeeCauses = std::function<void(const DeviceDifference&)>;
@@ -107,5 +109,8 @@ Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const Fram
 
 /// A text whose Image is white where sines are SwiftShader's, else black.
 extern const std::string_view k_swiftshader_test;
+/// A text whose red shows ten functions, one a row, of 64 numbers each that no compiler knows.
+extern const std::string_view k_functions_test;
+inline constexpr Extent k_functions_extent{64, 10};
 
 } // namespace tidemark::lab

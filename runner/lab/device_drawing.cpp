@@ -360,6 +360,19 @@ Mask differing(const image::Image& left, const image::Image& right, double limit
     return mask;
 }
 
+Mask grown(const Mask& mask, Extent extent) {
+    Mask result(mask.size());
+    for (int y = 0; y < extent.height; ++y)
+        for (int x = 0; x < extent.width; ++x) {
+            if (!mask[size_t(y) * size_t(extent.width) + size_t(x)])
+                continue;
+            for (int v = std::max(y - 1, 0); v <= std::min(y + 1, extent.height - 1); ++v)
+                for (int u = std::max(x - 1, 0); u <= std::min(x + 1, extent.width - 1); ++u)
+                    result[size_t(v) * size_t(extent.width) + size_t(u)] = true;
+        }
+    return result;
+}
+
 image::Image comparable(const image::Image& here, const image::Image& there) {
     image::Image result = here;
     if (has_bytes_alone(there))
@@ -444,5 +457,22 @@ Result<DeviceDifference> compare_devices(const image::Image& here, const image::
     }
     return result;
 }
+
+// At 1.3 SwiftShader's sine is 1.2e-4 off.
+const std::string_view k_swiftshader_test = "void mainImage(out vec4 c, in vec2 p) { c = vec4(step(1e-5, "
+                                            "abs(sin(1.3 + min(iTime, 0.0)) - 0.963558185))); }";
+
+const std::string_view k_functions_test = R"(float number(vec2 p, uint seed) {
+    uint n = (uint(p.x) * 7919u + uint(p.y) * 104729u + seed) * 747796405u + 2891336453u;
+    n = ((n >> ((n >> 28u) + 4u)) ^ n) * 277803737u;
+    return uintBitsToFloat(0x3F800000u | (n >> 9u)) * 9.0 - 8.75;
+}
+void mainImage(out vec4 c, in vec2 p) {
+    float x = number(p, 1u), y = number(p, 2u);
+    float values[10] = float[10](sin(9.0 * x), cos(9.0 * x), tan(x), atan(x - 4.0), exp(x - 4.0), log(x), pow(x, y),
+                                 sqrt(x), inversesqrt(x), y / x);
+    c = vec4(values[int(p.y)], 0.0, 0.0, 1.0);
+}
+)";
 
 } // namespace tidemark::lab

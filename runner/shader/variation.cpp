@@ -358,19 +358,28 @@ Variation vary_halves(const ParsedText& text, const TreeFacts& facts, const MayV
     return vary_results(text, may, k_half, [&](NodeId id) { return is_operation(text, facts, id); });
 }
 
-Variation vary_precision(const ParsedText& text, const TreeFacts&, const MayVary& may) {
+namespace {
+
+/// Declares a float variable of a function `precise`. Returns whether the node declares one.
+bool make_precise(const ParsedText& text, NodeId id, SourceRewriter& edits) {
     const SyntaxTree& tree = text.tree();
-    const std::string header = "#extension GL_ARB_gpu_shader5 : enable\n";
-    return vary(text, may, {}, header, [&](NodeId id, SourceRewriter& edits) {
-        if (tree[id].kind != NodeKind::declaration || tree.around(id, NodeKind::function) == k_no_node)
-            return false;
-        const NodeId type = tree.child(id, 0);
-        if (class_of_type(type_name(text, type)) != TypeClass::floating ||
-            has_qualifier(text, type, "const") || has_qualifier(text, type, "precise"))
-            return false;
-        edits.wrap(type, "precise ", "");
-        return true;
-    });
+    if (tree[id].kind != NodeKind::declaration || tree.around(id, NodeKind::function) == k_no_node)
+        return false;
+    const NodeId type = tree.child(id, 0);
+    if (class_of_type(type_name(text, type)) != TypeClass::floating || has_qualifier(text, type, "const") ||
+        has_qualifier(text, type, "precise"))
+        return false;
+    edits.wrap(type, "precise ", "");
+    return true;
+}
+
+constexpr std::string_view k_precise_header = "#extension GL_ARB_gpu_shader5 : enable\n";
+
+} // namespace
+
+Variation vary_precision(const ParsedText& text, const TreeFacts&, const MayVary& may) {
+    return vary(text, may, {}, std::string(k_precise_header),
+                [&](NodeId id, SourceRewriter& edits) { return make_precise(text, id, edits); });
 }
 
 // Varies sums as other compilers write them: a product added with one rounding, and terms added from the
@@ -397,6 +406,114 @@ Variation vary_order(const ParsedText& text, const TreeFacts& facts, const MayVa
         reverse(text, id, edits);
         return true;
     });
+}
+
+// Varies the formulas that compilers write for built-in functions.
+
+namespace {
+
+/// Functions of the prelude that are made of a dot product, for vectors of type `@`.
+constexpr std::string_view k_made_of_dots =
+    R"(float $length(@ v){return ($mode&3)!=0?sqrt($dot(v,v)):length(v);}
+float $distance(@ a,@ b){return ($mode&3)!=0?$length(a-b):distance(a,b);}
+@ $normalize(@ v){return ($mode&3)!=0?v*inversesqrt($dot(v,v)):normalize(v);}
+@ $reflect(@ i,@ n){return ($mode&3)!=0?i-2.0*$dot(n,i)*n:reflect(i,n);}
+@ $refract(@ i,@ n,float e){if(($mode&3)==0)return refract(i,n,e);
+float d=$dot(n,i),k=1.0-e*e*(1.0-d*d);return k<0.0?@(0.0):e*i-(e*d+sqrt(k))*n;}
+)";
+
+/// The same where the order does not matter: numbers, and vectors of two.
+constexpr std::string_view k_made_of_short_dots = R"(float $dot(@ a,@ b){return dot(a,b);}
+float $length(@ v){return length(v);}
+float $distance(@ a,@ b){return distance(a,b);}
+@ $normalize(@ v){return normalize(v);}
+@ $reflect(@ i,@ n){return reflect(i,n);}
+@ $refract(@ i,@ n,float e){return refract(i,n,e);}
+)";
+
+std::string formula_prelude(std::string_view prefix) {
+    std::string text = "uniform int $mode;\nfloat $pow(float x,float y){return ($mode&4)!=0&&y==0.5?sqrt(x):"
+                       "pow(x,y);}\n";
+    for (int size = 1; size <= 4; ++size) {
+        const std::string_view type = k_float_vectors[size_t(size) - 1];
+        std::string first = "a[0]*b[0]", last = fmt::format("a[{0}]*b[{0}]", size - 1), powers;
+        for (int i = 1; i < size; ++i) {
+            first += fmt::format("+a[{0}]*b[{0}]", i);
+            last += fmt::format("+a[{0}]*b[{0}]", size - 1 - i);
+        }
+        for (int i = 0; i < size; ++i)
+            powers += fmt::format("{}$pow(x[{}],y[{}])", i > 0 ? "," : "", i, i);
+        if (size > 2)
+            text +=
+                fmt::format("float $dot({0} a,{0} b){{return ($mode&1)!=0?{1}:($mode&2)!=0?{2}:dot(a,b);}}\n",
+                            type, first, last);
+        if (size > 1)
+            text += fmt::format("{0} $pow({0} x,{0} y){{return {0}({1});}}\n", type, powers);
+        text += spell(size > 2 ? k_made_of_dots : k_made_of_short_dots, prefix, type);
+    }
+    for (int columns = 2; columns <= 4; ++columns)
+        for (int rows = 2; rows <= 4; ++rows) {
+            std::string parts;
+            for (int column = 0; column < columns; ++column)
+                parts += fmt::format("{}$dot(v,m[{}])", column > 0 ? "," : "", column);
+            text +=
+                fmt::format("vec{0} $times(vec{1} v,mat{0}x{1} m){{return ($mode&3)!=0?vec{0}({2}):v*m;}}\n",
+                            columns, rows, parts);
+        }
+    return spell(text, prefix);
+}
+
+/// Returns the prelude's function for a call or a product; empty: the node is none of them.
+std::string_view formula_of(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+    constexpr std::string_view k_functions[] = {"dot",     "length",  "distance", "normalize",
+                                                "reflect", "refract", "pow"};
+    const SyntaxTree& tree = text.tree();
+    if (tree[id].kind == NodeKind::call) {
+        const std::string_view name = called_name(text, id);
+        return std::ranges::count(k_functions, name) > 0 && !facts.function(name) ? name : std::string_view{};
+    }
+    const std::string_view word = text.word_of(id);
+    if (!(tree[id].kind == NodeKind::binary && word == "*") &&
+        !(tree[id].kind == NodeKind::assign && word == "*="))
+        return {};
+    const auto left = expression_type(text, facts, tree.child(id, 0));
+    const auto right = expression_type(text, facts, tree.child(id, 1));
+    const bool is_row = left && right && right->matrix() && !left->matrix() && !left->scalar();
+    return is_row && left->base == 'f' && right->base == 'f' ? "times" : std::string_view{};
+}
+
+Variation vary_formulas_in(const ParsedText& text, const TreeFacts& facts, const MayVary& may, bool precise) {
+    const SyntaxTree& tree = text.tree();
+    const std::string prefix = fresh_prefix(text);
+    const std::string header(precise ? k_precise_header : "");
+    return vary(text, may, prefix + "mode", header + formula_prelude(prefix),
+                [&](NodeId id, SourceRewriter& edits) {
+                    if (precise && make_precise(text, id, edits))
+                        return true;
+                    const std::string_view name = formula_of(text, facts, id);
+                    if (name.empty() || must_stay_constant(text, id))
+                        return false;
+                    const std::string function = prefix + std::string(name);
+                    if (tree[id].kind == NodeKind::call) {
+                        edits.replace(tree[tree.child(id, 0)].word, function);
+                        return true;
+                    }
+                    edits.wrap(id, function + "(", ")");
+                    if (tree[id].kind == NodeKind::assign)
+                        edits.wrap(id, "(" + words_of(text, tree.child(id, 0)) + "=", ")");
+                    edits.replace(tree[id].word, ",");
+                    return true;
+                });
+}
+
+} // namespace
+
+Variation vary_formulas(const ParsedText& text, const TreeFacts& facts, const MayVary& may) {
+    return vary_formulas_in(text, facts, may, false);
+}
+
+Variation vary_precise_formulas(const ParsedText& text, const TreeFacts& facts, const MayVary& may) {
+    return vary_formulas_in(text, facts, may, true);
 }
 
 // Varies what a device measures between neighbouring pixels.
@@ -446,11 +563,32 @@ VariedArithmetic varied_inputs() {
     return {vary_inputs, {{1, "iTime, iResolution and iMouse a unit in the last place larger", false}}};
 }
 
-std::vector<VariedArithmetic> varied_operations() {
+std::vector<VariedArithmetic> varied_sums() {
     return {{vary_precision, {{0, "everything `precise`", false}}},
             {vary_contraction, {{1, "fused multiply-add"}}},
-            {vary_order, {{0, "sums added in reverse order", false}}},
-            {vary_rounding, {{1, "quotients, roots, powers and logarithms a unit off"}}}};
+            {vary_order, {{0, "sums added in reverse order", false}}}};
+}
+
+std::vector<VariedArithmetic> varied_operations() {
+    std::vector<VariedArithmetic> all = varied_sums();
+    all.push_back({vary_rounding, {{1, "quotients, roots, powers and logarithms a unit off"}}});
+    return all;
+}
+
+std::vector<VariedArithmetic> varied_formulas() {
+    constexpr int k_first = int(FormulaPart::first_component), k_last = int(FormulaPart::last_component),
+                  k_root = int(FormulaPart::root);
+    std::vector<VariationMode> modes{
+        {k_first, "dot products summed from the first component on"},
+        {k_last, "dot products summed from the last component on"},
+        {k_root, "pow(x, 0.5) as a root"},
+        {k_first | k_root, "dot products summed from the first component on, and pow(x, 0.5) as a root"},
+        {k_last | k_root, "dot products summed from the last component on, and pow(x, 0.5) as a root"}};
+    return {
+        {vary_formulas, modes},
+        {vary_precise_formulas,
+         {{k_first | k_root, "everything `precise`, with dot products summed from the first component on"},
+          {k_last | k_root, "everything `precise`, with dot products summed from the last component on"}}}};
 }
 
 std::vector<VariedArithmetic> varied_roundings() {

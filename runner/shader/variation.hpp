@@ -69,6 +69,19 @@ Variation vary_derivatives(const ParsedText& text, const TreeFacts& facts, const
 /// Declares float variables `precise`: nothing is contracted or reordered. It has no modes.
 Variation vary_precision(const ParsedText& text, const TreeFacts& facts, const MayVary& may = {});
 
+/// Formulas that a compiler chooses for built-in functions, as bits of a mode.
+enum class FormulaPart {
+    first_component = 1, ///< dot products of three and more components are summed from the first one on
+    last_component = 2,  ///< or from the last one on
+    root = 4,            ///< pow(x, 0.5) is a square root
+};
+
+/// Computes with the formulas whose bits the mode has. `length`, `distance`, `normalize`, `reflect`,
+/// `refract` and a vector times a matrix are made of dot products.
+Variation vary_formulas(const ParsedText& text, const TreeFacts& facts, const MayVary& may = {});
+/// Does the same, and declares float variables `precise`.
+Variation vary_precise_formulas(const ParsedText& text, const TreeFacts& facts, const MayVary& may = {});
+
 /// Kinds of operations that SwiftShader computes in its own way, as bits.
 enum class SwiftShaderPart {
     sines = 1,         ///< a polynomial of degree 5: up to 1.5e-4 off
@@ -115,6 +128,10 @@ VariedArithmetic varied_sines();
 VariedArithmetic varied_inputs();
 /// Returns the roundings of operations by other GPUs and drivers, except for sines and `mediump`.
 std::vector<VariedArithmetic> varied_operations();
+/// Returns those of sums and products only.
+std::vector<VariedArithmetic> varied_sums();
+/// Returns the formulas of other compilers.
+std::vector<VariedArithmetic> varied_formulas();
 /// Returns the inputs and the operations.
 std::vector<VariedArithmetic> varied_roundings();
 

@@ -2,6 +2,10 @@
 #include "gl_test.hpp"
 #include "lab/device_difference.hpp"
 
+#include <cmath>
+#include <set>
+#include <utility>
+
 namespace tidemark::lab::device_difference_gl_test {
 
 constexpr Extent k_extent{64, 36};
@@ -169,6 +173,61 @@ TEST_F(DeviceDifferenceTest, AnUnknownDifferenceInFeedbackStaysUnexplained) {
     const auto found = difference(eighths, more, state_at(2, k_extent), OtherDevice::unknown);
     EXPECT_EQ(found.differing, k_extent.pixels());
     EXPECT_EQ(found.explained, 0.0);
+}
+
+/// A hash of a dot product, which the other device sums from the first component on, as zink does. Each
+/// driver has an order of its own, so one of the two texts differs.
+TEST_F(DeviceDifferenceTest, TheOrderOfADotProductIsFoundWithItsLine) {
+    const auto text = [](const char* dot) {
+        return std::string("float hash(vec2 p) {\n") +
+               "vec3 a = vec3(p.x + 0.1, p.y + 0.7, p.x * p.y) * vec3(12.9898, 78.233, 37.719), b = "
+               "a.zxy;\n" +
+               "float d = " + dot + ";\nreturn fract(d * 731.7);\n}" + k_image;
+    };
+    const std::string own = text("dot(a, b)");
+    const std::pair<std::string, std::string> orders[] = {
+        {"dot products summed from the first component on", text("(a.x * b.x + a.y * b.y) + a.z * b.z")},
+        {"dot products summed from the last component on", text("(a.z * b.z + a.y * b.y) + a.x * b.x")}};
+    size_t differing = 0;
+    for (const auto& [says, other] : orders) {
+        const auto found = difference(own, other, OtherDevice::same_functions);
+        if (found.differing == 0)
+            continue;
+        ++differing;
+        EXPECT_GT(found.differing, 100u);
+        ASSERT_EQ(found.causes.size(), 1u);
+        EXPECT_EQ(found.causes[0].says, says);
+        EXPECT_TRUE(found.causes[0].reproduced);
+        ASSERT_EQ(found.causes[0].places.size(), 1u);
+        EXPECT_EQ(found.causes[0].places[0].line, 3);
+    }
+    EXPECT_GE(differing, 1u);
+}
+
+/// A sine that differs moves these pixels, but no sine is tried for a device whose sines are the same.
+TEST_F(DeviceDifferenceTest, ADeviceWithTheSameFunctionsHasNoOtherSine) {
+    const std::string smaller =
+        "float other(float x) { float r = sin(x); return uintBitsToFloat(floatBitsToUint(r) - 1u); }";
+    const auto found =
+        difference("#define OTHER sin\n" + k_sine_hash + k_image,
+                   smaller + "\n#define OTHER other\n" + k_sine_hash + k_image, OtherDevice::same_functions);
+    EXPECT_GT(found.differing, 300u);
+    for (const DeviceCause& cause : found.causes)
+        EXPECT_EQ(cause.name, "rounding");
+}
+
+TEST_F(DeviceDifferenceTest, TheTestOfFunctionsDrawsTenFiniteRows) {
+    FrameState state = state_at(2, k_functions_extent);
+    ProbeBench bench(scene_of(std::string(k_functions_test)), {});
+    const auto frame = draw_frame(bench, state);
+    ASSERT_TRUE(frame) << to_string(frame.error());
+    const image::Image& picture = frame->passes[0].picture;
+    std::set<float> numbers;
+    for (size_t pixel = 0; pixel < k_functions_extent.pixels(); ++pixel) {
+        EXPECT_TRUE(std::isfinite(picture.f32()[4 * pixel])) << pixel;
+        numbers.insert(picture.f32()[4 * pixel]);
+    }
+    EXPECT_GT(numbers.size(), 600u);
 }
 
 TEST_F(DeviceDifferenceTest, AnUndefinedPowerIsFoundWithItsLine) {

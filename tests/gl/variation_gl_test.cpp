@@ -10,6 +10,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <tuple>
 
 namespace tidemark::lab::variation_gl_test {
 
@@ -92,6 +93,38 @@ TEST_F(VariationTest, ASumIsAddedInReverseOrder) {
         varied(glsl::vary_order, 0, {"A + B + C", "A - B - C + A", "(vec2(A) - B + C).y"}, k_numbers);
     ASSERT_NE((a + b) + c, a + (b + c));
     EXPECT_EQ(found, (std::vector<float>{a + (b + c), a - (b + (c - a)), a - (b - c)}));
+}
+
+/// Between 1e8 and -1e8 a one is lost.
+TEST_F(VariationTest, DotProductsAreSummedFromEitherEnd) {
+    const std::string before = "#define BIG (1e8 + float(iFrame))\n#define ONE (1.0 + float(iFrame))\n"
+                               "#define V vec3(BIG, -BIG, ONE)\n#define W vec4(BIG, -BIG, ONE, ONE)\n";
+    const std::vector<std::string> expressions = {
+        "dot(V, vec3(ONE))",
+        "dot(W, vec4(ONE))",
+        "(V * mat3(vec3(0.0), vec3(ONE), vec3(0.0))).y",
+        "dot(reflect(vec3(ONE), V).xy, vec2(ONE, 0.0))", // 1 - 2 * dot * 1e8
+        "length(vec3(3.0, 4.0, 12.0) * ONE)",
+        "distance(vec3(3.0, 4.0, 12.0) * ONE, vec3(0.0))",
+        "normalize(vec3(2.0, 3.0, 6.0) * ONE).z",
+        "refract(vec3(0.0, -0.6, -0.8) * ONE, vec3(0.0, 0.0, 1.0), 1.0).y",
+    };
+    for (const auto& [mode, three, four, reflected] :
+         {std::tuple(1, 1.0f, 2.0f, -2e8f), std::tuple(2, 0.0f, 0.0f, 1.0f)}) {
+        const std::vector<float> found = varied(glsl::vary_formulas, mode, expressions, before);
+        EXPECT_EQ(std::vector(found.begin(), found.begin() + 6),
+                  (std::vector{three, four, three, reflected, 13.0f, 13.0f}))
+            << mode;
+        EXPECT_NEAR(found[6], 6.0 / 7, 1e-6) << mode;
+        EXPECT_NEAR(found[7], -0.6, 1e-6) << mode;
+    }
+}
+
+TEST_F(VariationTest, APowerOfAHalfIsARoot) {
+    const std::string before = "#define X (7.3 + float(iFrame))\n";
+    const std::vector<float> found =
+        varied(glsl::vary_formulas, 4, {"pow(X, 0.5)", "pow(vec2(X), vec2(2.0, 0.5)).y"}, before);
+    EXPECT_EQ(found, (std::vector<float>(2, std::sqrt(7.3f))));
 }
 
 /// An expression in X, and the bits that Chromium 156 computed of it with SwiftShader for three numbers.
