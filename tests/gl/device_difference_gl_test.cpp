@@ -180,9 +180,8 @@ TEST_F(DeviceDifferenceTest, AnUnknownDifferenceInFeedbackStaysUnexplained) {
 TEST_F(DeviceDifferenceTest, TheOrderOfADotProductIsFoundWithItsLine) {
     const auto text = [](const char* dot) {
         return std::string("float hash(vec2 p) {\n") +
-               "vec3 a = vec3(p.x + 0.1, p.y + 0.7, p.x * p.y) * vec3(12.9898, 78.233, 37.719), b = "
-               "a.zxy;\n" +
-               "float d = " + dot + ";\nreturn fract(d * 731.7);\n}" + k_image;
+               "vec3 a = vec3(0.1 + 0.013 * p.x, 0.7 + 0.017 * p.y, 0.0013 * p.x * p.y), b = a.zxy;\n" +
+               "float d = " + dot + ";\nreturn fract(d * 43758.5);\n}" + k_image;
     };
     const std::string own = text("dot(a, b)");
     const std::pair<std::string, std::string> orders[] = {

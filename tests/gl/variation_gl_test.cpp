@@ -95,10 +95,11 @@ TEST_F(VariationTest, ASumIsAddedInReverseOrder) {
     EXPECT_EQ(found, (std::vector<float>{a + (b + c), a - (b + (c - a)), a - (b - c)}));
 }
 
-/// Between 1e8 and -1e8 a one is lost.
+/// Between 1e8 and -1e8 a one is lost. No compiler knows that the two are each other's negative.
 TEST_F(VariationTest, DotProductsAreSummedFromEitherEnd) {
-    const std::string before = "#define BIG (1e8 + float(iFrame))\n#define ONE (1.0 + float(iFrame))\n"
-                               "#define V vec3(BIG, -BIG, ONE)\n#define W vec4(BIG, -BIG, ONE, ONE)\n";
+    const std::string before = "#define BIG (1e8 + float(iFrame))\n#define LOW (float(iFrame) * 3.0 - "
+                               "1e8)\n#define ONE (1.0 + float(iFrame))\n"
+                               "#define V vec3(BIG, LOW, ONE)\n#define W vec4(BIG, LOW, ONE, ONE)\n";
     const std::vector<std::string> expressions = {
         "dot(V, vec3(ONE))",
         "dot(W, vec4(ONE))",
