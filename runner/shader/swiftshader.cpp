@@ -26,8 +26,9 @@ namespace {
 /// dFdxCoarse as dFdxFine, so that number is brought to the other pixels as the derivative of a number that
 /// is zero there. llvmpipe computes any number for a quotient by zero that it knows when it compiles;
 /// `$hidden` keeps a value from the compiler. Neighbours that do not take a branch have an influence on the
-/// derivatives in it, so functions choose their result without a branch; what such pixels read by an index is
-/// 0 there, which `$live` detects because llvmpipe does not write for them.
+/// derivatives in it, so functions choose their result without a branch, except `$zero`: of a choice without
+/// one LLVM would always take the number that is defined. What such pixels read by an index is 0 there, which
+/// `$live` detects because llvmpipe does not write for them.
 constexpr std::string_view k_swift_numbers = R"(uniform int $mode;bool $has(int part){return ($mode&part)!=0;}
 float $bits(int b){return intBitsToFloat(b);}int $bits(float v){return floatBitsToInt(v);}
 float $fma(float a,float b,float c){precise float p=a*b,r=p+c;return r;}
@@ -73,9 +74,10 @@ float $sinh(float x){float r=($exp(x)-$exp(-x))*0.5,u=sinh(x);return $has(4)?r:u
 float $cosh(float x){float r=($exp(x)+$exp(-x))*0.5,u=cosh(x);return $has(4)?r:u;}
 float $tanh(float x){float a=$exp(x),b=$exp(-x),r=(a-b)/(a+b),u=tanh(x);return $has(4)?r:u;}
 float $hidden(float v){return $bits($bits(v)^($mode>>20));}
-float $divide(float a,float b){float c=$hidden(b),s=float(double(a)/double(b)),t=float(double(a)/double(c));
-float m=a/b,n=a/c;bool exact=$has(8);m=exact?s:m;n=exact?t:n;return $has(16)?n:m;}
-float $over(float a,float b){precise float r=1.0/b,q=a*r;float u=a/b,z=$divide(a,b);q=$has(8)?q:u;return b==0.0?z:q;}
+float $zero(float a,float b){if($has(16))b=$hidden(b);else return $has(8)?float(double(a)/double(b)):a/b;
+return $has(8)?float(double(a)/double(b)):a/b;}
+float $divide(float a,float b){float s=float(double(a)/double(b)),q=a/b;q=$has(8)?s:q;if(b==0.0)q=$zero(a,b);return q;}
+float $over(float a,float b){precise float r=1.0/b,q=a*r;float u=a/b;q=$has(8)?q:u;if(b==0.0)q=$zero(a,b);return q;}
 float $mod(float x,float y){float h=$hidden(y),u=mod(x,y);precise float r=x-h*floor($divide(x,h));
 return $has(y==0.0?16:8)?r:u;}
 float $smoothstep(float a,float b,float x){precise float d=x-a,e=b-a;float t=clamp($divide(d,e),0.0,1.0);

@@ -421,7 +421,13 @@ TEST_F(VariationTest, OperatorsReadVariablesInChromiumsOrder) {
     for (size_t i = 1; i <= known.size(); ++i)
         expressions.push_back(fmt::format("f{}(T)", i));
     EXPECT_EQ(varied(like_swiftshader, int(glsl::SwiftShaderPart::order), expressions, before), known);
-    const std::vector<float> own = varied(like_swiftshader, 0, expressions, before);
+    // No mode of a text undoes its order.
+    const auto without = [](const glsl::ParsedText& text, const glsl::TreeFacts& facts,
+                            const glsl::MayVary& may) {
+        return glsl::vary_like_swiftshader(text, facts, k_all_parts & ~int(glsl::SwiftShaderPart::order),
+                                           false, may);
+    };
+    const std::vector<float> own = varied(without, k_all_parts, expressions, before);
     size_t unlike = 0;
     for (size_t i = 0; i < known.size(); ++i)
         unlike += own[i] != known[i];
