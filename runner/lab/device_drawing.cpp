@@ -421,8 +421,9 @@ bool use_pictures(const render::Renderer& renderer, size_t pass, const FramePict
 ExactMipmaps::ExactMipmaps(const render::Renderer& renderer, size_t pass) {
     for (int unit = 0; unit < scene::k_channel_count; ++unit) {
         const gl::Texture* const texture = renderer.texture_at(pass, unit);
+        constexpr GLenum k_bytes[] = {GL_R8, GL_RG8, GL_RGB8, GL_RGBA8};
         if (texture && texture->levels > 1 && !texture->es &&
-            (texture->internal_format == GL_RGBA8 || texture->internal_format == GL_R8))
+            std::ranges::find(k_bytes, texture->internal_format) != std::end(k_bytes))
             textures_.push_back(texture);
     }
 }
