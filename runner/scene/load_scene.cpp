@@ -275,8 +275,10 @@ Result<Scene> load_json_scene(const fs::path& path, const LoadOptions& options) 
         TRY(draft_project(scene, {project, names, path.parent_path(), media, bounds, path.string()}));
     for (size_t i = 0; i < names.size(); ++i) {
         const std::string place = fmt::format("{}:{}", path.string(), names[i]);
-        const std::string code = plain_text(std::move(project.passes[i].code));
-        drafts.text_of(i, scene).append(drafts.of_pass[i] ? code : code + '\n', place, 1);
+        std::string text = plain_text(std::move(project.passes[i].code));
+        if (!drafts.of_pass[i]) // a Common
+            text += '\n';
+        drafts.text_of(i, scene).append(text, place, 1);
     }
     TRY(finish_scene(scene, std::move(drafts.drafts), drafts.order));
     return scene;

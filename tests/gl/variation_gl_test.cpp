@@ -235,7 +235,8 @@ TEST_F(VariationTest, ALineDoneTwiceKeepsThePicture) {
         }
         stand_in->draw(preview);
         std::vector<int> shown; // drivers may add in another order, so the last digits of floats may differ
-        for (const float sample : stand_in->picture().f32())
+        const image::Image picture = stand_in->picture();
+        for (const float sample : picture.f32())
             shown.push_back(int(std::lround(255.0f * std::clamp(sample, 0.0f, 1.0f))));
         return shown;
     };
