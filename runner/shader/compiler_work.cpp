@@ -1,5 +1,5 @@
-// What compilers do with a text: work that they leave out, since nothing reads its result or they know it,
-// and the order in which they read variables.
+// What compilers do with a text. They leave out work whose result is not read, or is known when they compile.
+// And they read variables in orders of their own.
 #include "shader/builtin_functions.hpp"
 #include "shader/march_record.hpp"
 #include "shader/source_edits.hpp"

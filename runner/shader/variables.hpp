@@ -145,7 +145,7 @@ Assignment find_assignment(const ParsedText& text, const TreeFacts& facts, Shape
 /// as a whole: a variable that is read anywhere in its function counts as read after each assignment.
 std::vector<bool> find_needed(const ParsedText& text, const TreeFacts& facts);
 
-/// Who knows a value.
+/// For whom `find_known` looks: a compiler knows the values that it computes itself.
 enum class KnownTo {
     compilers,
     frame,       ///< also what is computed of uniforms, which has one value for the frame
