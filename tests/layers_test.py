@@ -27,7 +27,7 @@ ALLOWED = {
 
 # Folders inside of a room: plug-ins, which are libraries of their own, and files that are not C++.
 FOLDERS = {
-    "media": {"plugin"}, "proof": {"plugin"}, "window": {"plugin"}, "web": {"plugin", "host", "viewer"}, "lab": {"page"},
+    "media": {"plugin"}, "proof": {"plugin"}, "window": {"plugin"}, "web": {"plugin", "host", "viewer"}, "lab": {"page"}, "shader": {"swiftshader"},
     "cli": {"manual", "scenes"}, "editor": {"vscode"}, "install": {"bundle"},
 }
 

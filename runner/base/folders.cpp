@@ -185,10 +185,10 @@ void FileCache::keep(const std::string& key, std::string_view bytes) const {
         return;
     const std::string entry = digest_of(key, bytes).append(bytes);
     const bool whole = write_all(file.get(), std::as_bytes(std::span(entry))) == 0 && file.close() == 0;
-    if (whole && ::renameat(folder.get(), half.c_str(), folder.get(), key.c_str()) == 0)
-        make_room(folder.get());
-    else
+    if (!whole || ::renameat(folder.get(), half.c_str(), folder.get(), key.c_str()) != 0)
         ::unlinkat(folder.get(), half.c_str(), 0);
+    else if (key.front() == '0' || entry.size() > most_bytes_ / 64)
+        make_room(folder.get()); // looks at all files, which takes longer than to keep this one
 }
 
 /// Removes the least recently used files beyond the limit, unfinished ones included, but only files of ours.

@@ -53,7 +53,8 @@ std::optional<std::filesystem::path> user_cache_folder();
 /// left alone. Several processes may use it at once.
 class FileCache {
 public:
-    /// Holds about `most_bytes`; beyond that the least recently used entries are removed.
+    /// Holds about `most_bytes`; beyond that the least recently used entries are removed, but not at each
+    /// small entry: a quarter more may be held for a while.
     FileCache(std::filesystem::path folder, uint64_t most_bytes)
         : folder_(std::move(folder)), most_bytes_(most_bytes) {}
 

@@ -51,6 +51,42 @@ std::vector<size_t> inner_words(std::string_view replacement) {
     return begins;
 }
 
+constexpr std::string_view k_line_joint = "\\\n";
+
+/// Returns whether two characters can belong to one token, or begin a comment.
+bool may_be_of_one_token(char left, char right) {
+    constexpr std::string_view signs = "+-*/%<>=!&|^#.";
+    return (is_word_character(left) || left == '.')
+               ? is_word_character(right) || right == '.'
+               : signs.find(left) != signs.npos && signs.find(right) != signs.npos;
+}
+
+/// Returns edits that put joined lines, from offset `begin` on, into one where a joint splits a token.
+std::vector<Edit> joined_lines(std::string_view text, size_t begin) {
+    std::vector<Edit> edits;
+    size_t joint = text.find(k_line_joint, begin);
+    while (joint != text.npos) {
+        size_t after = joint;
+        while (text.substr(after).starts_with(k_line_joint))
+            after += k_line_joint.size();
+        if (joint == begin || after == text.size() || !may_be_of_one_token(text[joint - 1], text[after])) {
+            joint = text.find(k_line_joint, after);
+            continue;
+        }
+        Edit edit{joint, after};
+        while (after < text.size() && text[after] != '\n') {
+            const bool joins = text.substr(after).starts_with(k_line_joint);
+            if (!joins)
+                edit.replacement += text[after];
+            after += joins ? k_line_joint.size() : 1;
+        }
+        edit.end = after;
+        edits.push_back(std::move(edit));
+        joint = text.find(k_line_joint, after);
+    }
+    return edits;
+}
+
 } // namespace
 
 void LineMap::begin_run(int line, std::string_view file, int source_line) {
@@ -121,7 +157,9 @@ void MappedText::append(std::string_view chunk, std::string_view file, int first
     if (chunk.empty())
         return;
     lines_.begin_run(line_count_ + 1, file, first_line);
+    const size_t begin = text_.size();
     append_lines(chunk);
+    apply(joined_lines(text_, begin));
 }
 
 void MappedText::append(const MappedText& other) {

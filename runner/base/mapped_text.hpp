@@ -53,7 +53,8 @@ struct Edit {
     std::string replacement{};
 };
 
-/// Text with its LineMap. Every chunk starts on a new line, and the whole ends with a newline.
+/// Text with its LineMap. Every chunk starts on a new line, and the whole ends with a newline. Where a
+/// backslash and a line end split a token, as GLSL allows, the rest of the joined lines stands on the first.
 class MappedText {
 public:
     void append(std::string_view chunk, std::string_view file, int first_line);

@@ -11,6 +11,7 @@
 #include "host/forked.hpp"
 #include "host/gl_context.hpp"
 #include "host/json.hpp"
+#include "host/supervision.hpp"
 #include "lab/device_difference.hpp"
 #include "lab/report_page.hpp"
 #include "media/comparison.hpp"
@@ -121,13 +122,20 @@ DeviceCause cause_of(const Json& json) {
     return cause;
 }
 
-/// Draws a state of the scene on a device, in a child process.
-Result<Drawn> drawn_on(const std::string& device, const scene::Scene& scene,
-                       const render::FrameState& state) {
+/// Returns why a child process ended early; empty: it did not.
+std::string end_of(const ForkedResult& run) {
+    return run.over_memory ? fmt::format("it takes more than {} of memory", memory_text(memory_of_a_part()))
+                           : run.crash;
+}
+
+/// Draws a state on a device, in a child process; a scene with feedback is drawn from frame `first` on.
+Result<Drawn> drawn_on(const std::string& device, const scene::Scene& scene, const render::FrameState& state,
+                       int first) {
     const SharedBytes bytes;
     const auto draw = [&](const Tell& tell) -> Result<void> {
         const auto context = TRY(host::HeadlessContext::create({device}));
         lab::ProbeBench bench(scene, {});
+        bench.start_at(first);
         const lab::FramePictures frame = TRY(lab::draw_frame(bench, state));
         for (const auto* const passes : {&frame.passes, &frame.before})
             for (const PassPicture& pass : *passes) {
@@ -144,7 +152,7 @@ Result<Drawn> drawn_on(const std::string& device, const scene::Scene& scene,
             if (const auto done = draw(tell); !done)
                 tell(dump(Json{{"problem", to_string(done.error())}}));
         },
-        {k_patience_seconds},
+        {.seconds = k_patience_seconds, .memory = memory_of_a_part()},
         [&](std::string_view line) {
             const Json json = parse_json(line);
             if (json.contains("problem")) {
@@ -161,20 +169,20 @@ Result<Drawn> drawn_on(const std::string& device, const scene::Scene& scene,
         }));
     if (run.timed_out)
         drawn.problem = fmt::format("no picture within {:.0f} s", k_patience_seconds);
-    else if (!run.crash.empty())
-        drawn.problem = run.crash;
+    else if (const std::string end = end_of(run); !end.empty())
+        drawn.problem = end;
     return drawn;
 }
 
 /// Draws a state of the scene as an exported page. Starts the browser if it does not run.
 Result<Drawn> drawn_in_browser(std::optional<web::Browser>& browser, const std::string& device,
-                               const scene::Scene& scene, const render::FrameState& state) {
+                               const scene::Scene& scene, const render::FrameState& state, int first) {
     if (!browser)
         browser = TRY(web::Browser::start(device));
     const auto page = web::make_page(scene, web::PageForm::whole, run_numbers(state));
     if (!page)
         return Drawn{{}, to_string(page.error())};
-    auto frame = browser->draw(*page, state, lab::first_frame_of(state), k_patience_seconds);
+    auto frame = browser->draw(*page, state, first, k_patience_seconds);
     if (frame)
         return Drawn{*std::move(frame), {}};
     browser.reset(); // it may be busy, or broken
@@ -197,11 +205,10 @@ scene::Scene scene_of_text(std::string_view text) {
 
 /// Returns whether both devices compute functions with the same bits.
 Result<bool> have_same_functions(const std::array<std::string, 2>& devices) {
-    render::FrameState state;
-    state.extent = lab::k_functions_extent;
+    const render::FrameState state{.extent = lab::k_functions_extent};
     const scene::Scene scene = scene_of_text(lab::k_functions_test);
-    const Drawn here = TRY(drawn_on(devices[0], scene, state)),
-                there = TRY(drawn_on(devices[1], scene, state));
+    const Drawn here = TRY(drawn_on(devices[0], scene, state, 0)),
+                there = TRY(drawn_on(devices[1], scene, state, 0));
     return here.problem.empty() && there.problem.empty() &&
            here.frame.passes[0].picture.bytes == there.frame.passes[0].picture.bytes;
 }
@@ -214,10 +221,9 @@ Result<lab::OtherDevice> other_device(std::optional<web::Browser>& browser,
     if (!web::is_browser(devices[1]))
         return TRY(have_same_functions(devices)) ? lab::OtherDevice::same_functions
                                                  : lab::OtherDevice::unknown;
-    render::FrameState state;
-    state.extent = {1, 1};
+    const render::FrameState state{.extent = {1, 1}};
     const Drawn drawn =
-        TRY(drawn_in_browser(browser, devices[1], scene_of_text(lab::k_swiftshader_test), state));
+        TRY(drawn_in_browser(browser, devices[1], scene_of_text(lab::k_swiftshader_test), state, 0));
     const bool white = !drawn.frame.passes.empty() && drawn.frame.passes[0].picture.f32()[0] > 0.5f;
     return white ? lab::OtherDevice::swiftshader : lab::OtherDevice::unknown;
 }
@@ -248,13 +254,13 @@ Drawn found_in(const fs::path& folder, const fs::path& path, const scene::Scene&
 
 /// Draws the scene, of the file `path`, on the second device.
 Result<Drawn> drawn_there(const DevicesRequest& request, std::optional<web::Browser>& browser,
-                          const scene::Scene& scene, const fs::path& path) {
+                          const scene::Scene& scene, const fs::path& path, int first) {
     const std::string& device = request.devices[1];
     const render::FrameState& state = request.sequence.state;
     if (device.starts_with(k_pictures_prefix))
         return found_in(device.substr(k_pictures_prefix.size()), path, scene, state.extent);
-    return web::is_browser(device) ? drawn_in_browser(browser, device, scene, state)
-                                   : drawn_on(device, scene, state);
+    return web::is_browser(device) ? drawn_in_browser(browser, device, scene, state, first)
+                                   : drawn_on(device, scene, state, first);
 }
 
 const image::Image& image_of(const scene::Scene& scene, const std::vector<PassPicture>& passes) {
@@ -263,7 +269,7 @@ const image::Image& image_of(const scene::Scene& scene, const std::vector<PassPi
 
 /// Finds the causes of a difference on the first device, in a child process.
 Result<void> explain_apart(DeviceDifference& difference, const std::string& device, const scene::Scene& scene,
-                           const render::FrameState& state, const lab::FramePictures& there,
+                           const render::FrameState& state, int first, const lab::FramePictures& there,
                            lab::OtherDevice other) {
     const auto json_of = [](const DeviceDifference& found) {
         Json causes = Json::array();
@@ -272,12 +278,14 @@ Result<void> explain_apart(DeviceDifference& difference, const std::string& devi
         return dump(Json{{"explained", found.explained},
                          {"left_out", found.problem},
                          {"too_slow", found.too_slow},
+                         {"begins_earlier", found.begins_earlier},
                          {"causes", causes}});
     };
     const auto explain = [&](DeviceDifference& found, const Tell& tell) -> Result<void> {
         host::compile_for_few_drawings();
         const auto context = TRY(host::HeadlessContext::create({device}));
         lab::ProbeBench bench(scene, {});
+        bench.start_at(first);
         return lab::explain(found, bench, state, there, other,
                             [&](const DeviceDifference& so_far) { tell(json_of(so_far)); });
     };
@@ -288,39 +296,83 @@ Result<void> explain_apart(DeviceDifference& difference, const std::string& devi
                 found = {.problem = to_string(done.error())};
             tell(json_of(found));
         },
-        {k_patience_seconds},
+        {.seconds = k_patience_seconds, .memory = memory_of_a_part()},
         [&](std::string_view line) {
             const Json json = parse_json(line);
             difference.explained = json.at("explained");
             difference.problem = json.at("left_out");
             difference.too_slow = json.at("too_slow");
+            difference.begins_earlier = json.at("begins_earlier");
             difference.causes.clear();
             for (const Json& cause : json.at("causes"))
                 difference.causes.push_back(cause_of(cause));
         }));
-    if (run.timed_out && difference.explained < lab::k_explained_share) {
+    if (run.timed_out && difference.explained < lab::k_explained_share)
         difference.problem = fmt::format("causes were searched for {:.0f} s only", k_patience_seconds);
-    } else if (!run.crash.empty()) {
-        difference.problem = run.crash;
-    }
+    else if (const std::string end = end_of(run); !end.empty())
+        difference.problem = end;
     return {};
 }
 
-/// Does the same; where that takes too long, with both devices' pictures of half the width and height, and
-/// again half.
+/// Returns whether a pass, Image or a buffer, differs between two devices.
+bool differ(const scene::Scene& scene, const lab::FramePictures& here, const lab::FramePictures& there) {
+    return std::ranges::any_of(here.passes, [&](const PassPicture& pass) {
+        const bool is_image = pass.pass == scene.image().name;
+        const auto kind = is_image ? lab::PictureKind::image : lab::PictureKind::buffer;
+        const image::Image* const other = lab::picture_of(there.passes, pass.pass);
+        return other && other->extent == pass.picture.extent &&
+               lab::count(lab::differing(pass.picture, *other, lab::same_pixel(kind), kind)) > 0;
+    });
+}
+
+/// Finds the causes at the frame at which the devices begin to differ: they draw the frame before it alike.
+Result<void> explain_beginning(const DevicesRequest& request, std::optional<web::Browser>& browser,
+                               DeviceDifference& difference, const scene::Scene& scene, const fs::path& path,
+                               lab::OtherDevice other) {
+    const render::FrameState& last = request.sequence.state;
+    const int first = lab::first_frame_of(last);
+    DevicesRequest earlier = request;
+    lab::FramePictures found; // of the second device in frame `unlike`
+    for (int same = first - 1, unlike = last.frame; unlike - same > 1;) {
+        const render::FrameState state = last.at_frame(same + (unlike - same) / 2);
+        earlier.sequence.state = state;
+        const Drawn here = TRY(drawn_on(request.devices[0], scene, state, first));
+        Drawn there = TRY(drawn_there(earlier, browser, scene, path, first));
+        if (!here.problem.empty() || !there.problem.empty())
+            return {};
+        if (differ(scene, here.frame, there.frame)) {
+            unlike = state.frame;
+            difference.frame = unlike;
+            found = std::move(there.frame);
+        } else {
+            same = state.frame;
+        }
+    }
+    if (difference.frame)
+        return explain_apart(difference, request.devices[0], scene, last.at_frame(*difference.frame), first,
+                             found, other);
+    difference.problem = "no frame before differs visibly; later ones amplify what is too small to be seen";
+    return {};
+}
+
+/// Finds the causes; where that takes too long, in pictures of half the width and height, and again half.
 Result<void> explain_in_time(const DevicesRequest& request, std::optional<web::Browser>& browser,
                              DeviceDifference& difference, const scene::Scene& scene, const fs::path& path,
                              lab::FramePictures there, lab::OtherDevice other) {
     DevicesRequest smaller = request;
     Extent& extent = smaller.sequence.state.extent;
     for (;;) {
-        TRY(explain_apart(difference, request.devices[0], scene, smaller.sequence.state, there, other));
+        const int first = lab::first_frame_of(smaller.sequence.state);
+        TRY(explain_apart(difference, request.devices[0], scene, smaller.sequence.state, first, there,
+                          other));
+        if (difference.begins_earlier)
+            return explain_beginning(smaller, browser, difference, scene, path, other);
         if (!difference.too_slow || request.devices[1].starts_with(k_pictures_prefix))
             return {};
         extent = {extent.width / 2, extent.height / 2};
         if (std::min(extent.width, extent.height) < 1)
             return {};
-        Drawn drawn = TRY(drawn_there(smaller, browser, scene, path));
+        Drawn drawn = TRY(drawn_there(smaller, browser, scene, path, first));
         if (!drawn.problem.empty())
             return {};
         there = std::move(drawn.frame);
@@ -339,8 +391,9 @@ Result<SceneOutcome> outcome_of(const DevicesRequest& request, std::optional<web
         return result;
     }
     const render::FrameState& state = request.sequence.state;
-    const Drawn here = TRY(drawn_on(request.devices[0], *scene, state));
-    const Drawn there = TRY(drawn_there(request, browser, *scene, path));
+    const int first = lab::first_frame_of(state);
+    const Drawn here = TRY(drawn_on(request.devices[0], *scene, state, first));
+    const Drawn there = TRY(drawn_there(request, browser, *scene, path, first));
     result.problem_a = here.problem;
     result.problem_b = there.problem;
     if (!here.problem.empty() || !there.problem.empty()) {
@@ -363,15 +416,9 @@ Result<SceneOutcome> outcome_of(const DevicesRequest& request, std::optional<web
 }
 
 std::string_view name_of(Outcome outcome) {
-    switch (outcome) {
-    case Outcome::same: return "same";
-    case Outcome::close: return "within one level";
-    case Outcome::explained: return "explained";
-    case Outcome::unexplained: return "unexplained";
-    case Outcome::one_side: return "one side only";
-    case Outcome::neither: return "neither";
-    }
-    return "neither";
+    constexpr std::string_view k_names[] = {"same",        "within one level", "explained",
+                                            "unexplained", "one side only",    "neither"};
+    return k_names[size_t(outcome)];
 }
 
 std::string places_of(const DeviceCause& cause) {
@@ -405,6 +452,8 @@ std::string text_of(const DevicesRequest& request, const SceneOutcome& scene) {
             text += fmt::format("  {}\n", words_for(cause));
         if (const Extent size = scene.difference.examined; size.width > 0)
             text += fmt::format("  examined at {}x{}: a frame takes long\n", size.width, size.height);
+        if (scene.difference.frame)
+            text += fmt::format("  examined in frame {}, the first that differs\n", *scene.difference.frame);
         if (scene.outcome == Outcome::unexplained && !scene.difference.problem.empty())
             text += fmt::format("  left out: {}\n", scene.difference.problem);
     }
@@ -433,6 +482,8 @@ Json json_of(const DevicesRequest& request, const SceneOutcome& scene) {
             json["left_out"] = found.problem;
         if (found.examined.width > 0)
             json["examined"] = {found.examined.width, found.examined.height};
+        if (found.frame)
+            json["examined_frame"] = *found.frame;
     }
     if (!scene.problem_a.empty())
         json["problems"][request.devices[0]] = scene.problem_a;
@@ -533,7 +584,8 @@ Result<int> compare_on_devices(const DevicesRequest& request) {
     std::vector<std::string> words;
     for (const auto& [outcome, number] : counts)
         words.push_back(fmt::format("{} {}", number, name_of(outcome)));
-    const std::string summary = fmt::format("{} scenes: {}", request.scenes.size(), fmt::join(words, ", "));
+    const std::string summary = fmt::format("{} scene{}: {}", request.scenes.size(),
+                                            request.scenes.size() == 1 ? "" : "s", fmt::join(words, ", "));
     if (request.json)
         TRY(put(dump(json, 2) + "\n"));
     else if (request.scenes.size() > 1)

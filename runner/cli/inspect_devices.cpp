@@ -8,6 +8,7 @@
 #include "host/gl_context.hpp"
 #include "host/json.hpp"
 #include "lab/device_check.hpp"
+#include "web/page.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -214,6 +216,13 @@ Result<int> inspect_devices(const std::string& only, bool self_test, bool as_jso
         }
         if (!as_json)
             TRY(put(text));
+    }
+    if (only == "auto") {
+        const std::vector<std::string> browsers = web::usable_browsers();
+        report["browsers"] = browsers;
+        if (!as_json && !browsers.empty())
+            TRY(put(fmt::format("{:<14} Chromium's WebGL 2, for `compare --devices` only; also {}\n",
+                                browsers[0], fmt::join(std::span(browsers).subspan(1), ", "))));
     }
     if (as_json)
         TRY(put(dump(report, 2) + "\n"));

@@ -6,6 +6,7 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GL/gl.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -224,10 +225,12 @@ struct MesaDriver {
     std::string_view package; ///< Debian's
 };
 
+constexpr std::string_view k_zink = "mesa:zink"; ///< OpenGL on Vulkan
+
 constexpr MesaDriver k_mesa_drivers[] = {
     {"mesa:llvmpipe", {{{"GALLIUM_DRIVER", "llvmpipe"}, {"LIBGL_ALWAYS_SOFTWARE", "1"}}}, "libgl1-mesa-dri"},
     {"mesa:softpipe", {{{"GALLIUM_DRIVER", "softpipe"}, {"LIBGL_ALWAYS_SOFTWARE", "1"}}}, "libgl1-mesa-dri"},
-    {"mesa:zink",
+    {k_zink,
      {{{"MESA_LOADER_DRIVER_OVERRIDE", "zink"}, {"LIBGL_ALWAYS_SOFTWARE", "1"}}},
      "mesa-vulkan-drivers"},
 };
@@ -257,6 +260,34 @@ std::vector<Place> list_places() {
     return places;
 }
 
+/// Returns whether Vulkan has a driver. It is asked before zink starts: without one, Mesa 25's zink waits for
+/// ever.
+bool has_vulkan_driver() {
+    struct InstanceInfo { // VkInstanceCreateInfo, for Vulkan 1.0 without layers and extensions
+        int type = 1;
+        const void* next = nullptr;
+        uint32_t flags = 0;
+        const void* application = nullptr;
+        uint32_t layer_count = 0;
+        const char* const* layers = nullptr;
+        uint32_t extension_count = 0;
+        const char* const* extensions = nullptr;
+    };
+    void* const library = ::dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+    if (!library)
+        return false;
+    const auto create = reinterpret_cast<int (*)(const InstanceInfo*, const void*, void**)>(
+        ::dlsym(library, "vkCreateInstance"));
+    const auto destroy =
+        reinterpret_cast<void (*)(void*, const void*)>(::dlsym(library, "vkDestroyInstance"));
+    const InstanceInfo info;
+    void* instance = nullptr;
+    if (!create || !destroy || create(&info, nullptr, &instance) != 0)
+        return false;
+    destroy(instance, nullptr);
+    return true;
+}
+
 /// Returns the place's initialised display, or the reason why there is none. The display is never terminated:
 /// EGL returns the same one to every caller in the process, and eglTerminate would end their contexts too.
 tl::expected<EGLDisplay, std::string> open_display(const Place& place) {
@@ -266,6 +297,11 @@ tl::expected<EGLDisplay, std::string> open_display(const Place& place) {
                              : eglGetPlatformDisplay(place.platform, place.device, nullptr);
     if (display == EGL_NO_DISPLAY)
         return tl::unexpected(fmt::format("no driver offers it ({})", last_egl_error()));
+    if (place.name == k_zink) {
+        static const bool has_driver = has_vulkan_driver(); // a display is opened more than once
+        if (!has_driver)
+            return tl::unexpected(std::string("there is no Vulkan driver"));
+    }
     if (!eglInitialize(display, nullptr, nullptr))
         return tl::unexpected(fmt::format("the driver does not start ({})", last_egl_error()));
     return display;

@@ -409,6 +409,14 @@ std::string crash_text(int signal, const std::string& doing) {
                        hint);
 }
 
+namespace {
+uint64_t g_memory = 0; ///< of the supervised command that this process belongs to
+}
+
+uint64_t memory_of_a_part() {
+    return g_memory / 4 * 3;
+}
+
 std::optional<int> supervise(const Limits& limits) {
     DoingPage* page = DoingPage::make();
     sigset_t before;
@@ -429,6 +437,7 @@ std::optional<int> supervise(const Limits& limits) {
         ::setpgid(0, 0);
         std::signal(SIGTTOU, SIG_IGN); // lets a background process group write to the terminal
         Doing::note_on(page);
+        g_memory = limits.memory;
     }
     ::sigprocmask(SIG_SETMASK, &before, nullptr);
     return std::nullopt;

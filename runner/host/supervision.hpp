@@ -163,6 +163,10 @@ int last_resort();
 /// killed if the parent ends, however the parent ends.
 std::optional<int> supervise(const Limits& limits);
 
+/// Returns a limit for one part of a supervised command, run by run_forked, so that only that part ends where
+/// the command would: three quarters of the memory that it may take. 0: no limit.
+uint64_t memory_of_a_part();
+
 /// Returns for example "the driver crashed (SIGSEGV) compiling Image of 'a.glsl'"; `doing` may be empty.
 std::string crash_text(int signal, const std::string& doing);
 

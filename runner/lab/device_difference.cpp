@@ -14,7 +14,9 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <list>
 #include <map>
+#include <memory>
 #include <set>
 #include <span>
 #include <utility>
@@ -48,38 +50,6 @@ constexpr double k_enough_seconds = 60;
 constexpr double k_slow_pass_seconds = 1;
 constexpr int k_least_side = 24; ///< pictures are not made smaller than this
 
-/// A freedom of devices that a changed text imitates; the cause is named as `check` names its probe.
-struct Model {
-    std::string name;
-    glsl::VariedArithmetic arithmetic;
-};
-
-/// `functions`: also tries other sines, quotients, roots, powers and logarithms.
-std::vector<Model> device_models(bool functions) {
-    std::vector<Model> models;
-    for (glsl::VariedArithmetic& formulas : glsl::varied_formulas())
-        models.push_back({"rounding", std::move(formulas)});
-    if (functions)
-        models.push_back({"sine", glsl::varied_sines()});
-    for (glsl::VariedArithmetic& operations : functions ? glsl::varied_operations() : glsl::varied_sums())
-        models.push_back({"rounding", std::move(operations)});
-    models.push_back(
-        {"mipmaps",
-         {glsl::vary_mipmaps, {{1, "a mipmap half a level coarser"}, {2, "a mipmap half a level finer"}}}});
-    models.push_back(
-        {"derivatives",
-         {glsl::vary_derivatives,
-          {{1, "derivatives of each pixel of a block of 2x2"}, {2, "one derivative for a block of 2x2"}}}});
-    models.push_back({"mediump", {glsl::vary_halves, {{1, "`mediump` numbers in half floats"}}}});
-    return models;
-}
-
-/// Returns the models that are tried beside SwiftShader's own arithmetic.
-std::vector<Model> models_beside_swiftshader() {
-    return {{"rounding", {glsl::vary_precision, {{0, "everything `precise`"}}}},
-            {"rounding", {glsl::vary_order, {{0, "sums added in reverse order"}}}}};
-}
-
 /// Beside the bits of glsl::SwiftShaderPart: the texels of mipmaps (ExactMipmaps).
 constexpr int k_mipmap_contents = 1 << glsl::k_swiftshader_parts;
 
@@ -101,35 +71,11 @@ constexpr SwiftPart k_swift_parts[] = {
      "SwiftShader's values where a function or an operator is undefined"},
     {int(glsl::SwiftShaderPart::order), "order", "a variable read before the same expression sets it"},
     {int(glsl::SwiftShaderPart::powers), "functions", "SwiftShader's pow, exp and log"},
-    {int(glsl::SwiftShaderPart::arcs), "functions", "SwiftShader's atan, asin and acos"},
+    {int(glsl::SwiftShaderPart::arcs), "functions",
+     "SwiftShader's atan, asin and acos, and functions of constants"},
     {int(glsl::SwiftShaderPart::sines), "sine", "SwiftShader's sines, which are up to 1.5e-4 off"},
 };
 static_assert(std::size(k_swift_parts) == glsl::k_swiftshader_parts + 1);
-
-/// The last resort: a text that amplifies the last bits of what it computes or is given.
-std::vector<Model> last_bit_models() {
-    return {
-        {"rounding", {glsl::vary_last_bits, {{1, "the last bits of what it computes, which it amplifies"}}}},
-        {"rounding", glsl::varied_inputs()}};
-}
-
-size_t count(const Mask& mask) {
-    return size_t(std::ranges::count(mask, true));
-}
-
-Mask both(const Mask& left, const Mask& right) {
-    Mask result(left.size());
-    for (size_t i = 0; i < left.size(); ++i)
-        result[i] = left[i] && right[i];
-    return result;
-}
-
-Mask either(const Mask& left, const Mask& right) {
-    Mask result(left.size());
-    for (size_t i = 0; i < left.size(); ++i)
-        result[i] = left[i] || right[i];
-    return result;
-}
 
 /// The effect of a model on the pixels in question.
 struct Effect {
@@ -146,11 +92,11 @@ struct Effect {
 /// Tries models on one pass.
 class Explainer {
 public:
-    Explainer(const PassPreview& preview, const PassText& text, const image::Image& here,
+    Explainer(const PassPreview& preview, const PassText& text, int filters, image::Image here,
               const image::Image& there, PictureKind kind, Mask question, const Stopwatch& watch, bool strict)
-        : preview_(preview), text_(text), here_(here), there_(there), kind_(kind), watch_(watch),
-          strict_(strict), question_(std::move(question)), near_(grown(question_, here.extent)),
-          asked_(count(question_)) {}
+        : preview_(&preview), text_(text), here_(std::move(here)), there_(there), kind_(kind), watch_(watch),
+          strict_(strict), filters_(filters), question_(std::move(question)),
+          near_(grown(question_, here_.extent)), asked_(count(question_)) {}
 
     /// Stops early when a model reproduces the other device.
     void try_models(const std::vector<Model>& models) {
@@ -169,14 +115,17 @@ public:
     /// most of it, are causes.
     void try_swiftshader(ExactMipmaps& mipmaps) {
         int present = mipmaps.any() ? k_mipmap_contents : 0;
-        for (const int parts : glsl::swiftshader_parts(*text_.text, text_.facts))
+        const auto parts_of =
+            std::make_shared<const std::vector<int>>(glsl::swiftshader_parts(*text_.text, text_.facts));
+        for (const int parts : *parts_of)
             present |= parts;
-        if (!mipmaps.any())
+        if (!mipmaps.any_levels())
             present &= ~int(glsl::SwiftShaderPart::mipmaps);
         std::optional<SwiftDrawing> best, plain;
         int parts = present;
-        for (const bool precise : {false, true}) {
-            auto drawing = has_time() ? link_swiftshader(present, precise) : std::nullopt;
+        for (const glsl::SwiftOrder order :
+             {glsl::SwiftOrder::driver, glsl::SwiftOrder::text, glsl::SwiftOrder::compiler}) {
+            auto drawing = has_time() ? link_swiftshader(present, order) : std::nullopt;
             if (!drawing)
                 continue;
             const int used = draw_with_fewest(*drawing, present, mipmaps);
@@ -184,23 +133,25 @@ public:
                 continue;
             parts = used;
             plain = std::exchange(best, std::move(drawing));
+            if (order == glsl::SwiftOrder::compiler)
+                plain.reset(); // what the driver merges is not a cause
             if (best->share() >= k_all_met)
                 break;
         }
         if (best && best->share() >= k_least_gain)
-            add_swift_effects(*best, plain ? &*plain : nullptr, parts, mipmaps);
+            add_swift_effects(*best, plain ? &*plain : nullptr, parts, parts_of, mipmaps);
         mipmaps.use(false);
     }
 
     /// Tries other values for each call outside of a function's domain.
     void try_undefined() {
-        auto watched = WatchedDomains::link(preview_, text_, here_.extent);
+        auto watched = WatchedDomains::link(*preview_, text_, here_.extent);
         if (!watched) {
             problem_ = to_string(watched.error());
             return;
         }
         const PixelGrid whole{};
-        const std::vector<uint32_t> words = watched->draw(preview_, whole);
+        const std::vector<uint32_t> words = watched->draw(*preview_, whole);
         const auto& sites = watched->watch().sites;
         for (size_t i = 0; i < sites.size(); ++i) {
             const glsl::DomainReading reading = reading_of(watched->watch(), words, i);
@@ -210,7 +161,7 @@ public:
             says = says.substr(0, says.rfind(" ("));
             for (const double value : {std::numeric_limits<double>::quiet_NaN(), 0.0, 1.0}) {
                 Effect effect =
-                    measured(watched->picture_with(preview_, whole, i, value), {"undefined", says});
+                    measured(watched->picture_with(*preview_, whole, i, value), {"undefined", says});
                 effect.cause.places = {location_of_site(*text_.text, sites[i])};
                 if (effect.cause.moved > 0)
                     effects_.push_back(std::move(effect));
@@ -261,14 +212,18 @@ public:
             causes.push_back(effect->cause);
         return causes;
     }
-    void find_lines(std::span<DeviceCause> causes) {
-        for (size_t i = 0; i < causes.size(); ++i)
+    /// `preview`: of the same pass. `causes`: begin with those of this pass. `mipmaps`: of the textures that
+    /// it reads; null: they stay as they are.
+    void find_lines(const PassPreview& preview, std::span<DeviceCause> causes, ExactMipmaps* mipmaps) {
+        preview_ = &preview;
+        for (size_t i = 0; i < chosen_.size(); ++i)
             if (causes[i].places.empty())
-                causes[i].places = lines_of(*chosen_[i]);
+                causes[i].places = lines_of(*chosen_[i], mipmaps);
     }
 
     const std::string& problem() const { return problem_; }
     bool asked() const { return asked_ > 0; }
+    size_t pass() const { return text_.pass; }
 
 private:
     bool has_time() const { return watch_.elapsed().wall < 1000 * k_enough_seconds; }
@@ -278,31 +233,33 @@ private:
         glsl::Variation varied;
         StandIn stand_in;
         int parts;
-        bool precise;
+        glsl::SwiftOrder order;
         size_t asked;
         Mask met{};
         double share() const { return double(count(met)) / double(asked); }
     };
 
-    std::optional<SwiftDrawing> link_swiftshader(int parts, bool precise) {
-        glsl::Variation varied = glsl::vary_like_swiftshader(*text_.text, text_.facts, parts, precise);
-        auto stand_in = StandIn::link(preview_, varied.text, "a variation of the text");
+    std::optional<SwiftDrawing> link_swiftshader(int parts, glsl::SwiftOrder order,
+                                                 const glsl::MayVary& may = {}) {
+        glsl::Variation varied = glsl::vary_like_swiftshader(*text_.text, text_.facts, parts, order, may);
+        auto stand_in = StandIn::link(*preview_, varied.text, "a variation of the text");
         if (!stand_in) {
             problem_ = to_string(stand_in.error());
             return std::nullopt;
         }
-        return SwiftDrawing{std::move(varied), *std::move(stand_in), parts, precise, asked_};
+        stand_in->set(varied.filters_uniform, filters_);
+        return SwiftDrawing{std::move(varied), *std::move(stand_in), parts, order, asked_};
     }
 
     Mask met_with(SwiftDrawing& drawing, int parts, ExactMipmaps& mipmaps) {
-        // No mode of a text undoes its order: drivers copy a variable where the text does.
-        constexpr int k_order = int(glsl::SwiftShaderPart::order);
-        if ((drawing.parts & ~parts & k_order) != 0)
-            if (auto other = link_swiftshader(drawing.parts & ~k_order, drawing.precise))
+        // No mode of a text undoes its order, nor arcs of constants.
+        constexpr int k_fixed = int(glsl::SwiftShaderPart::order) | int(glsl::SwiftShaderPart::arcs);
+        if (const int undone = drawing.parts & ~parts & k_fixed)
+            if (auto other = link_swiftshader(drawing.parts & ~undone, drawing.order))
                 return met_with(*other, parts, mipmaps);
         mipmaps.use((parts & k_mipmap_contents) != 0);
         drawing.stand_in.set(drawing.varied.mode_uniform, parts);
-        drawing.stand_in.draw(preview_);
+        drawing.stand_in.draw(*preview_);
         return met(drawing.stand_in.picture());
     }
 
@@ -340,10 +297,10 @@ private:
         return mask;
     }
 
-    /// Leaves out parts that are not needed, and adds an effect for each of the others. `plain`: without
-    /// `precise`.
+    /// Leaves out parts that are not needed, and adds an effect for each of the others. `plain`: in the
+    /// driver's order, if `best` is in the text's; else null. `parts_of`: those of each node.
     void add_swift_effects(SwiftDrawing& best, const SwiftDrawing* plain, int present,
-                           ExactMipmaps& mipmaps) {
+                           const std::shared_ptr<const std::vector<int>>& parts_of, ExactMipmaps& mipmaps) {
         const double enough = double(count(best.met)) - k_least_gain * double(asked_);
         int needed = present;
         for (const SwiftPart& part : k_swift_parts)
@@ -354,7 +311,7 @@ private:
                 }
         const auto add = [&](DeviceCause cause, const Mask& others, Effect effect) {
             effect.cause = std::move(cause);
-            effect.cause.pass = kind_ == PictureKind::image ? "" : preview_.pass().name;
+            effect.cause.pass = kind_ == PictureKind::image ? "" : preview_->pass().name;
             effect.moved = best.met;
             for (size_t i = 0; i < others.size(); ++i)
                 effect.moved[i] = best.met[i] && !others[i]; // the pixels that need it
@@ -363,28 +320,59 @@ private:
             effect.together = best.met;
             effects_.push_back(std::move(effect));
         };
+        // In some of its places only, with all other parts everywhere.
+        const auto with_places = [&](auto is_place) {
+            Effect effect;
+            effect.mode = needed;
+            effect.arithmetic.vary = [=, order = best.order](const auto& text, const auto& facts,
+                                                             const auto& may) {
+                return glsl::vary_like_swiftshader(text, facts, needed, order,
+                                                   [&](glsl::NodeId id) { return !is_place(id) || may(id); });
+            };
+            std::ranges::copy_if(best.varied.places, std::back_inserter(effect.places), is_place);
+            return effect;
+        };
         if (plain)
-            add({"rounding", "every operation in the order of the text, and none left out"}, plain->met, {});
-        const std::vector<int> parts_of = glsl::swiftshader_parts(*text_.text, text_.facts);
+            add({"rounding", "every operation in the order of the text, and none left out"}, plain->met,
+                with_places([this](glsl::NodeId id) {
+                    return text_.text->tree()[id].kind == glsl::NodeKind::declaration;
+                }));
         for (const SwiftPart& part : k_swift_parts) {
             if ((needed & part.part) == 0)
                 continue;
-            Effect effect;
-            effect.mode = part.part;
-            effect.arithmetic.vary = [part, precise = best.precise](const glsl::ParsedText& text,
-                                                                    const glsl::TreeFacts& facts,
-                                                                    const glsl::MayVary& may) {
-                return glsl::vary_like_swiftshader(text, facts, part.part, precise, may);
-            };
-            const int uses = part.part == k_mipmap_contents ? int(glsl::SwiftShaderPart::mipmaps) : part.part;
-            for (const glsl::NodeId id : best.varied.places)
-                if ((parts_of[id] & uses) != 0)
-                    effect.places.push_back(id);
+            const bool contents = part.part == k_mipmap_contents; // of all look-ups
+            const int uses = contents ? int(glsl::SwiftShaderPart::mipmaps) : part.part;
+            Effect effect =
+                with_places([parts_of, uses](glsl::NodeId id) { return ((*parts_of)[id] & uses) != 0; });
+            if (contents)
+                effect.arithmetic.vary = [](auto&&...) { return glsl::Variation{}; };
             add({part.name, part.says}, met_with(best, needed & ~part.part, mipmaps), std::move(effect));
         }
         if (needed == 0 && !plain)
-            add({"rounding", "every operation drawn in the order of the text, none left out"},
-                Mask(question_.size()), {});
+            add_without_parts(add, best, enough, *parts_of, mipmaps);
+    }
+
+    /// Adds an effect of a text that draws what the other device draws with any functions.
+    void add_without_parts(const auto& add, const SwiftDrawing& best, double enough,
+                           const std::vector<int>& parts_of, ExactMipmaps& mipmaps) {
+        constexpr int k_undefined =
+            int(glsl::SwiftShaderPart::products) | int(glsl::SwiftShaderPart::outside);
+        const auto is_quotient = [&](glsl::NodeId id) { return (parts_of[id] & k_undefined) == k_undefined; };
+        Effect effect;
+        effect.arithmetic.vary = [parts = best.parts, order = best.order](const auto& text, const auto& facts,
+                                                                          const auto& may) {
+            return glsl::vary_like_swiftshader(text, facts, parts, order, may);
+        };
+        auto quotients = link_swiftshader(best.parts, best.order, is_quotient);
+        const auto met_by = [&](int mode) { return double(count(met_with(*quotients, mode, mipmaps))); };
+        const bool by_zero = quotients && met_by(0) >= enough && met_by(glsl::k_opposite_quotients) < enough;
+        effect.places = by_zero ? quotients->varied.places : best.varied.places;
+        add({by_zero ? "undefined" : "rounding",
+             by_zero ? "quotients by zero, which are infinite or NaN there"
+             : best.order == glsl::SwiftOrder::compiler
+                 ? "operations in the order of the text, only known numbers merged"
+                 : "every operation drawn in the order of the text, none left out"},
+            Mask(question_.size()), std::move(effect));
     }
 
     double share(const Mask& moved) const {
@@ -394,7 +382,7 @@ private:
     Effect measured(const image::Image& varied, DeviceCause cause) const {
         const Mask moved = differing(here_, varied, k_moved * same_pixel(kind_), kind_);
         Effect effect{std::move(cause), strict_ ? met(varied) : grown(moved, here_.extent)};
-        effect.cause.pass = kind_ == PictureKind::image ? "" : preview_.pass().name;
+        effect.cause.pass = kind_ == PictureKind::image ? "" : preview_->pass().name;
         effect.cause.moved = share(effect.moved);
         effect.cause.reproduced = double(count(differing(varied, there_, same_pixel(kind_), kind_))) <=
                                   k_left_over * double(asked_);
@@ -407,13 +395,14 @@ private:
     std::optional<image::Image> picture_with(const glsl::Variation& varied, int mode) {
         if (varied.places.empty())
             return std::nullopt;
-        auto stand_in = StandIn::link(preview_, varied.text, "a variation of the text");
+        auto stand_in = StandIn::link(*preview_, varied.text, "a variation of the text");
         if (!stand_in) {
             problem_ = to_string(stand_in.error());
             return std::nullopt;
         }
         stand_in->set(varied.mode_uniform, mode);
-        stand_in->draw(preview_);
+        stand_in->set(varied.filters_uniform, filters_);
+        stand_in->draw(*preview_);
         return stand_in->picture();
     }
 
@@ -432,7 +421,7 @@ private:
 
     /// Returns up to three lines that carry an effect: it is switched on in ever fewer lines, as long as
     /// those move nearly as many pixels.
-    std::vector<SourceLocation> lines_of(const Effect& effect) {
+    std::vector<SourceLocation> lines_of(const Effect& effect, ExactMipmaps* mipmaps) {
         using Line = std::pair<std::pair<std::string, int>, std::set<glsl::NodeId>>;
         std::map<std::pair<std::string, int>, std::set<glsl::NodeId>> by_line;
         for (const glsl::NodeId id : effect.places) {
@@ -446,9 +435,13 @@ private:
             };
             const auto picture =
                 picture_with(effect.arithmetic.vary(*text_.text, text_.facts, may), effect.mode);
-            return picture ? measured(*picture, {}).cause.moved : 0.0;
+            if (!picture)
+                return 0.0;
+            return strict_ ? share(both(met(*picture), effect.moved)) : measured(*picture, {}).cause.moved;
         };
         std::vector<Line> left(by_line.begin(), by_line.end());
+        if (mipmaps)
+            mipmaps->use((effect.mode & k_mipmap_contents) != 0);
         for (size_t parts = 2; parts <= std::min(left.size(), k_most_parts) && has_time();) {
             bool smaller = false; // one of the parts was left out
             for (size_t i = 0; i < parts && !smaller && has_time(); ++i) {
@@ -467,13 +460,14 @@ private:
         return places;
     }
 
-    const PassPreview& preview_;
+    const PassPreview* preview_;
     const PassText& text_;
-    const image::Image& here_;
+    const image::Image here_;
     const image::Image& there_;
     PictureKind kind_;
     const Stopwatch& watch_;
     bool strict_; ///< a model counts where it draws what the other device draws, not where it moves pixels
+    int filters_;
     Mask question_, near_;
     size_t asked_;
     std::vector<Effect> effects_;
@@ -510,6 +504,9 @@ Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const Fram
     const auto run_up = in_order && !there.before.empty() && !has_cubemap ? ProbeBench::RunUp::left_out
                                                                           : ProbeBench::RunUp::drawn;
     std::optional<double> least; // of the shares of the passes
+    // Lines take long: they are searched when all passes are explained.
+    std::list<Explainer> explainers;
+    std::vector<std::pair<Explainer*, size_t>> without_lines; // with the number of the first cause
     for (const PassText& text : *texts) {
         const bool is_image = text.pass == bench.scene().image_index();
         const std::string& name = bench.scene().passes[text.pass].name;
@@ -523,8 +520,9 @@ Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const Fram
         if (is_fed)
             own = &fed;
         const image::Image asked = is_image ? comparable(*own, *others) : *own;
-        Explainer explainer(preview, text, *own, *others, kind,
-                            differing(asked, *others, same_pixel(kind), kind), watch, known);
+        Explainer& explainer = explainers.emplace_back(
+            preview, text, filters_of(*renderer, preview.pass(), text.pass), *own, *others, kind,
+            differing(asked, *others, same_pixel(kind), kind), watch, known);
         if (!explainer.asked())
             continue;
         const Stopwatch drawing; // the first drawing included compilation
@@ -550,10 +548,9 @@ Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const Fram
         }
         if (difference.problem.empty())
             difference.problem = explainer.problem();
-        size_t old = 0; // causes of other passes
         if (in_order) {
-            old = difference.causes.size();
             least = std::min(least.value_or(1), explained);
+            without_lines.emplace_back(&explainer, difference.causes.size());
             std::ranges::move(explainer.causes(), std::back_inserter(difference.causes));
             difference.explained = &text == &texts->back() ? *least : 0;
         } else if (explained > difference.explained) {
@@ -564,12 +561,25 @@ Result<void> explain(DeviceDifference& difference, ProbeBench& bench, const Fram
         }
         if (see)
             see(difference);
-        explainer.find_lines(std::span(difference.causes).subspan(old));
-        if (!in_order && difference.explained >= k_explained_share)
+        if (in_order)
+            continue;
+        explainer.find_lines(preview, difference.causes, nullptr);
+        if (difference.explained >= k_explained_share)
             break;
     }
-    if (in_order)
-        difference.explained = least.value_or(0);
+    for (const auto& [explainer, first] : without_lines) {
+        const auto preview = TRY(bench.preview(state, explainer->pass(), run_up));
+        use_pictures(*renderer, explainer->pass(), there);
+        std::optional<ExactMipmaps> mipmaps;
+        if (known)
+            mipmaps.emplace(*renderer, explainer->pass());
+        explainer->find_lines(preview, std::span(difference.causes).subspan(first),
+                              mipmaps ? &*mipmaps : nullptr);
+        if (mipmaps)
+            mipmaps->use(false);
+    }
+    difference.explained = in_order ? least.value_or(0) : difference.explained;
+    difference.begins_earlier = !least && !there.before.empty();
     return {};
 }
 

@@ -6,8 +6,10 @@
 #include "base/error.hpp"
 #include "lab/probe_bench.hpp"
 #include "render/frame_state.hpp"
+#include "shader/variation.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +20,19 @@ namespace tidemark::lab {
 inline constexpr double k_same_pixel = 1.0 / 255;
 /// The share of the differing pixels that causes have to move to explain the difference.
 inline constexpr double k_explained_share = 0.9;
+
+/// A freedom of devices that a changed text imitates; the cause is named as `check` names its probe.
+struct Model {
+    std::string name;
+    glsl::VariedArithmetic arithmetic;
+};
+/// Returns the models of any device (device_drawing.cpp). `functions`: also other sines, quotients, roots,
+/// powers and logarithms.
+std::vector<Model> device_models(bool functions);
+/// Returns the models that are tried beside SwiftShader's own arithmetic.
+std::vector<Model> models_beside_swiftshader();
+/// Returns the last resort: a text that amplifies the last bits of what it computes or is given.
+std::vector<Model> last_bit_models();
 
 /// Something that GLSL leaves to a device, and its effect on the differing pixels.
 struct DeviceCause {
@@ -44,6 +59,9 @@ struct DeviceDifference {
     std::string problem{}; ///< why the text could not be varied; empty: it could
     bool too_slow = false; ///< a pass takes so long that no model was tried: draw a smaller picture
     Extent examined{0, 0}; ///< the size at which the causes were found; 0x0: that of the pictures
+    /// No pass differs if it reads the other device's previous frame: an earlier frame has the cause.
+    bool begins_earlier = false;
+    std::optional<int> frame{}; ///< the earlier frame at which the causes were found
 };
 
 // Pictures of two devices, and textures (device_drawing.cpp).
@@ -59,6 +77,9 @@ Result<FramePictures> draw_frame(ProbeBench& bench, const FrameState& state);
 
 /// One flag per pixel.
 using Mask = std::vector<bool>;
+size_t count(const Mask& mask);
+Mask both(const Mask& left, const Mask& right);
+Mask either(const Mask& left, const Mask& right);
 
 /// Image is compared as shown, a buffer as the numbers that it holds.
 enum class PictureKind { image, buffer };
@@ -78,16 +99,22 @@ const image::Image* picture_of(const std::vector<PassPicture>& passes, std::stri
 /// the same frame, of itself and of later passes those of the previous frame. Returns whether it put any.
 bool use_pictures(const render::Renderer& renderer, size_t pass, const FramePictures& there);
 
+/// Returns the value of glsl::Variation::filters_uniform for the pass with that number.
+int filters_of(const render::Renderer& renderer, const scene::Pass& pass, size_t number);
+
 /// The mipmaps of a pass's textures of bytes, with each texel rounded to the nearest byte or as the driver
 /// makes them.
 class ExactMipmaps {
 public:
     ExactMipmaps(const render::Renderer& renderer, size_t pass);
     bool any() const { return !textures_.empty(); }
+    /// Returns whether any texture that the pass reads has mipmaps, of bytes or not.
+    bool any_levels() const { return any_levels_; }
     void use(bool exact);
 
 private:
     std::vector<const gl::Texture*> textures_;
+    bool any_levels_ = false;
     bool exact_ = false;
 };
 

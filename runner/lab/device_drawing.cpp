@@ -256,7 +256,37 @@ Result<DeviceAnswer> ask_reset() {
                         "the driver does not report resets: pictures drawn after one may be wrong"};
 }
 
-// Pictures of two devices (lab/device_difference.hpp).
+// Models of devices, and pictures of two of them (lab/device_difference.hpp).
+
+std::vector<Model> device_models(bool functions) {
+    std::vector<Model> models;
+    for (glsl::VariedArithmetic& formulas : glsl::varied_formulas())
+        models.push_back({"rounding", std::move(formulas)});
+    if (functions)
+        models.push_back({"sine", glsl::varied_sines()});
+    for (glsl::VariedArithmetic& operations : functions ? glsl::varied_operations() : glsl::varied_sums())
+        models.push_back({"rounding", std::move(operations)});
+    models.push_back(
+        {"mipmaps",
+         {glsl::vary_mipmaps, {{1, "a mipmap half a level coarser"}, {2, "a mipmap half a level finer"}}}});
+    models.push_back(
+        {"derivatives",
+         {glsl::vary_derivatives,
+          {{1, "derivatives of each pixel of a block of 2x2"}, {2, "one derivative for a block of 2x2"}}}});
+    models.push_back({"mediump", {glsl::vary_halves, {{1, "`mediump` numbers in half floats"}}}});
+    return models;
+}
+
+std::vector<Model> models_beside_swiftshader() {
+    return {{"rounding", {glsl::vary_precision, {{0, "everything `precise`"}}}},
+            {"rounding", {glsl::vary_order, {{0, "sums added in reverse order"}}}}};
+}
+
+std::vector<Model> last_bit_models() {
+    return {
+        {"rounding", {glsl::vary_last_bits, {{1, "the last bits of what it computes, which it amplifies"}}}},
+        {"rounding", glsl::varied_inputs()}};
+}
 
 namespace {
 
@@ -360,6 +390,24 @@ Mask differing(const image::Image& left, const image::Image& right, double limit
     return mask;
 }
 
+size_t count(const Mask& mask) {
+    return size_t(std::ranges::count(mask, true));
+}
+
+Mask both(const Mask& left, const Mask& right) {
+    Mask result(left.size());
+    for (size_t i = 0; i < left.size(); ++i)
+        result[i] = left[i] && right[i];
+    return result;
+}
+
+Mask either(const Mask& left, const Mask& right) {
+    Mask result(left.size());
+    for (size_t i = 0; i < left.size(); ++i)
+        result[i] = left[i] || right[i];
+    return result;
+}
+
 Mask grown(const Mask& mask, Extent extent) {
     Mask result(mask.size());
     for (int y = 0; y < extent.height; ++y)
@@ -418,12 +466,25 @@ bool use_pictures(const render::Renderer& renderer, size_t pass, const FramePict
     return used;
 }
 
+int filters_of(const render::Renderer& renderer, const scene::Pass& pass, size_t number) {
+    int filters = 0;
+    for (int i = 0; i < scene::k_channel_count; ++i) {
+        const auto& [input, sampling, where] = pass.channels[size_t(i)];
+        if (input.index() != scene::k_kind<scene::Unbound> && sampling.minify == sampling.magnify)
+            filters |= 1 << (i + (sampling.minify == scene::Filter::linear ? 16 : 0));
+        if (const gl::Texture* const texture = renderer.texture_at(number, i))
+            filters |= 1 << (i + (gl::holds_bytes(texture->internal_format) ? 4 : 20));
+    }
+    return filters;
+}
+
 ExactMipmaps::ExactMipmaps(const render::Renderer& renderer, size_t pass) {
     for (int unit = 0; unit < scene::k_channel_count; ++unit) {
         const gl::Texture* const texture = renderer.texture_at(pass, unit);
-        constexpr GLenum k_bytes[] = {GL_R8, GL_RG8, GL_RGB8, GL_RGBA8};
-        if (texture && texture->levels > 1 && !texture->es &&
-            std::ranges::find(k_bytes, texture->internal_format) != std::end(k_bytes))
+        if (!texture || texture->levels == 1)
+            continue;
+        any_levels_ = true;
+        if (!texture->es && gl::holds_bytes(texture->internal_format))
             textures_.push_back(texture);
     }
 }

@@ -80,7 +80,7 @@ Result<render::Renderer*> ProbeBench::renderer(const FrameState& state, Entry en
 
 Result<render::PassPreview> ProbeBench::preview(const FrameState& state, size_t pass, RunUp run_up) {
     auto made = TRY(renderer(state, Entry::picture, glsl::Precision::single));
-    const int first = run_up == RunUp::drawn ? first_frame_of(state) : state.frame;
+    const int first = run_up == RunUp::drawn ? start_of(state) : state.frame;
     return render::FrameStepper(*made, state, first).preview(state.frame, pass);
 }
 
@@ -99,7 +99,7 @@ Result<const render::Renderer*> ProbeBench::renderer(const FrameState& state) {
 Result<render::Renderer*> ProbeBench::drawn(const FrameState& state, Entry entry, glsl::Precision precision) {
     auto made = renderer(state, entry, precision);
     if (made)
-        render::FrameStepper(**made, states_of(state, precision), first_frame_of(state)).draw(state.frame);
+        render::FrameStepper(**made, states_of(state, precision), start_of(state)).draw(state.frame);
     return made;
 }
 
@@ -121,7 +121,7 @@ Result<std::vector<PassPicture>> ProbeBench::passes(const FrameState& state) {
 Result<std::vector<PassPicture>> ProbeBench::passes(const FrameState& state,
                                                     std::vector<PassPicture>& before) {
     auto made = TRY(renderer(state, Entry::picture, glsl::Precision::single));
-    render::FrameStepper stepper(*made, states_of(state, glsl::Precision::single), first_frame_of(state));
+    render::FrameStepper stepper(*made, states_of(state, glsl::Precision::single), start_of(state));
     stepper.lead_to(state.frame);
     if (made->plan().feedback)
         before = read_back(*made);
@@ -224,7 +224,7 @@ Result<image::Image> ProbeBench::recorded(const FrameState& state, glsl::RecordA
                                           glsl::Precision precision) {
     auto made = TRY(renderer(state, Entry::recording, precision));
     lab::ask(*made, answer);
-    render::FrameStepper(*made, states_of(state, precision), first_frame_of(state)).draw(state.frame);
+    render::FrameStepper(*made, states_of(state, precision), start_of(state)).draw(state.frame);
     return (made)->read_back();
 }
 

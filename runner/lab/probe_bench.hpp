@@ -75,6 +75,8 @@ public:
 
     const scene::Scene& scene() const { return scene_; }
     const Promises& promises() const { return promises_; }
+    /// Sets the first frame of a scene with feedback; without this call it is first_frame_of(state).
+    void start_at(int frame) { start_ = frame; }
 
     /// Returns Image, RGB floats. A scene with feedback is drawn from frame first_frame_of(state) on. In
     /// double, a scene gets the iTime that floats have.
@@ -159,9 +161,11 @@ private:
     Result<scene::Scene> scene_of(const FrameState& state, Entry entry) const;
     Result<render::Renderer*> drawn(const FrameState& state, Entry entry, glsl::Precision precision);
     std::vector<PassPicture> read_back(render::Renderer& renderer) const;
+    int start_of(const FrameState& state) const { return start_.value_or(first_frame_of(state)); }
     Result<render::Renderer*> renderer(const FrameState& state, Entry entry, glsl::Precision precision);
 
     scene::Scene scene_;
+    std::optional<int> start_; ///< of start_at
     bool hits_tried_ = false;
     std::string hit_problem_, main_hit_problem_;
     std::string_view running_out_reported_;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 
 namespace tidemark::render {
@@ -16,9 +17,36 @@ bool has_element(const gl::Reflection& reflection, std::string_view name, int nu
     return uniform && number < uniform->length;
 }
 
+/// Returns whether the type is a sampler that a text can declare.
+bool is_sampler(GLenum type) {
+    constexpr GLenum k_samplers[] = {GL_SAMPLER_2D,
+                                     GL_SAMPLER_3D,
+                                     GL_SAMPLER_CUBE,
+                                     GL_SAMPLER_2D_ARRAY,
+                                     GL_SAMPLER_2D_SHADOW,
+                                     GL_SAMPLER_CUBE_SHADOW,
+                                     GL_INT_SAMPLER_2D,
+                                     GL_INT_SAMPLER_3D,
+                                     GL_INT_SAMPLER_CUBE,
+                                     GL_UNSIGNED_INT_SAMPLER_2D,
+                                     GL_UNSIGNED_INT_SAMPLER_3D,
+                                     GL_UNSIGNED_INT_SAMPLER_CUBE};
+    return std::ranges::find(k_samplers, type) != std::end(k_samplers);
+}
+
+/// Returns whether the program has a sampler of the author's. It stays at unit 0, that of iChannel0.
+bool has_own_sampler(const gl::Reflection& reflection) {
+    return std::ranges::any_of(reflection.uniforms, [](const gl::Uniform& uniform) {
+        const bool is_host = uniform.name == "iKeyboard" || uniform.name.starts_with("iChannel") ||
+                             (uniform.name.starts_with("iCh") && uniform.name.ends_with(".sampler"));
+        return is_sampler(uniform.type) && !is_host;
+    });
+}
+
 bool samples(const gl::Reflection& reflection, int number) {
     return reflection.has(fmt::format("iChannel{}", number)) ||
-           reflection.has(fmt::format("iCh{}.sampler", number));
+           reflection.has(fmt::format("iCh{}.sampler", number)) ||
+           (number == 0 && has_own_sampler(reflection));
 }
 
 /// Returns whether the program reads the channel's size, its time or whether it is loaded.

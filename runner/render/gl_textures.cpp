@@ -11,6 +11,12 @@
 #include <cstdint>
 
 namespace tidemark::gl {
+
+bool holds_bytes(GLenum internal_format) {
+    return internal_format == GL_R8 || internal_format == GL_RG8 || internal_format == GL_RGB8 ||
+           internal_format == GL_RGBA8;
+}
+
 namespace {
 
 /// The unit for textures that are changed in OpenGL ES; channels use the units from 0 to 10.
@@ -44,12 +50,6 @@ FramebufferHandle new_framebuffer() {
     else
         glCreateFramebuffers(1, &id);
     return FramebufferHandle(id);
-}
-
-/// Samples of the format are bytes; otherwise they are floats.
-bool holds_bytes(GLenum internal_format) {
-    return internal_format == GL_R8 || internal_format == GL_RG8 || internal_format == GL_RGB8 ||
-           internal_format == GL_RGBA8;
 }
 
 /// Reads RGBA from the framebuffer that is bound for reading. OpenGL ES reads bytes from formats of bytes and

@@ -59,6 +59,9 @@ VertexArrayHandle make_vertex_array();
 
 // Creates, fills and reads 2-D, 3-D and cube textures, and creates samplers.
 
+/// Returns whether samples of the format are bytes; otherwise they are floats.
+bool holds_bytes(GLenum internal_format);
+
 struct Texture {
     TextureHandle handle;
     GLenum target = 0; ///< GL_TEXTURE_2D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_3D

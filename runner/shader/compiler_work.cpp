@@ -1,6 +1,7 @@
-// What compilers do with a text. They leave out work whose result is not read, or is known when they compile.
-// And they read variables in orders of their own.
+// Finds what a compiler leaves out of a text: work whose result is not read, and work whose result it knows
+// before the program runs. Finds also which variables it reads earlier than the text says.
 #include "shader/builtin_functions.hpp"
+#include "shader/loops.hpp"
 #include "shader/march_record.hpp"
 #include "shader/source_edits.hpp"
 #include "shader/tree_facts.hpp"
@@ -14,12 +15,7 @@
 #include <utility>
 
 namespace tidemark::glsl {
-namespace {
 
-/// By function.
-using NamesSet = std::map<std::string_view, std::set<std::string_view>>;
-
-/// Returns the global variables that each function sets, those that it calls included.
 NamesSet globals_set(const ParsedText& text, const TreeFacts& facts) {
     const SyntaxTree& tree = text.tree();
     NamesSet sets, calls;
@@ -45,6 +41,34 @@ NamesSet globals_set(const ParsedText& text, const TreeFacts& facts) {
                     grows = sets[caller].insert(global).second || grows;
     return sets;
 }
+
+void add_names_set(const ParsedText& text, const TreeFacts& facts, const NamesSet& globals, NodeId id,
+                   std::set<std::string_view>& names) {
+    for (const std::string_view name : names_set(text, facts, id))
+        names.insert(name);
+    if (!calls_authors_function(text, facts, id))
+        return;
+    if (const auto set = globals.find(called_name(text, id)); set != globals.end())
+        names.insert(set->second.begin(), set->second.end());
+}
+
+bool is_number_read(const ParsedText& text, const TreeFacts& facts, NodeId id) {
+    const SyntaxTree& tree = text.tree();
+    const auto type = expression_type(text, facts, id);
+    if (!type || type->matrix() || (type->base != 'f' && !(type->scalar() && type->base != 'b')))
+        return false;
+    NodeId whole = id;
+    const auto names_part_of_it = [&](NodeId parent) {
+        return tree[parent].kind == NodeKind::member || tree[parent].kind == NodeKind::parenthesis ||
+               (tree[parent].kind == NodeKind::index && tree.child(parent, 0) == whole);
+    };
+    while (names_part_of_it(tree[whole].parent))
+        whole = tree[whole].parent;
+    const NodeId use = tree[whole].parent;
+    return is_change(text, use) ? tree.child(use, 0) != whole : names_set(text, facts, use).empty();
+}
+
+namespace {
 
 /// Marks what is needed until nothing new is. Nothing is at first, but the colour of mainImage.
 class NeededFinder {
@@ -286,7 +310,7 @@ private:
                    std::ranges::all_of(function->definitions, [&](NodeId each) { return is_pure(each); });
         const BuiltinFunction* const builtin = find_builtin(name);
         if (builtin && whom_ == KnownTo::swiftshader && !has_all_children(call, constant_))
-            return std::ranges::find(k_folded, name) != std::end(k_folded);
+            return is_folded_by_swiftshader(name);
         return !builtin || builtin->is(Trait::pure);
     }
 
@@ -380,26 +404,92 @@ std::vector<bool> find_known(const ParsedText& text, const TreeFacts& facts, Kno
     return KnownFinder(text, facts, whom).run();
 }
 
+bool is_folded_by_swiftshader(std::string_view name) {
+    return std::ranges::find(k_folded, name) != std::end(k_folded);
+}
+
 namespace {
 
-class EarlyReads {
+class UnknownFinder {
 public:
-    EarlyReads(const ParsedText& text, const TreeFacts& facts)
-        : text_(text), tree_(text.tree()), facts_(facts), globals_(globals_set(text, facts)) {}
+    UnknownFinder(const ParsedText& text, const TreeFacts& facts, const std::vector<bool>& known)
+        : text_(text), tree_(text.tree()), facts_(facts), known_(known), globals_(globals_set(text, facts)) {}
 
     std::vector<NodeId> run() {
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+            if (tree_[id].kind == NodeKind::call && !known_[id] && is_left_to_run(id))
+                found_.insert(id);
+            if (is_loop(tree_[id].kind))
+                look_at_loop(id);
+        }
+        return {found_.begin(), found_.end()};
+    }
+
+private:
+    /// Returns whether the node calls a built-in function that the compiler does not compute, for floats.
+    bool is_left_to_run(NodeId call) const {
+        const std::string_view name = called_name(text_, call);
+        const BuiltinFunction* const builtin = facts_.function(name) ? nullptr : find_builtin(name);
+        return builtin && builtin->is(Trait::pure) && !is_folded_by_swiftshader(name) && is_float(call);
+    }
+
+    bool is_float(NodeId id) const {
+        const auto type = expression_type(text_, facts_, id);
+        return type && type->base == 'f' && !type->matrix();
+    }
+
+    /// Finds what reads variables that the loop sets, in its body and after it in its function.
+    void look_at_loop(NodeId loop) {
+        std::set<std::string_view> names;
+        const auto add_names = [&](NodeId id) { add_names_set(text_, facts_, globals_, id, names); };
+        const NodeId function = tree_.around(loop, NodeKind::function), body = body_of_loop(tree_, loop);
+        for (NodeId id = loop; id != k_no_node && tree_.is_within(id, loop); --id)
+            add_names(id);
+        for (NodeId id = body; id != k_no_node && tree_.is_within(id, body); --id)
+            if (tree_[id].kind == NodeKind::declarator)
+                names.erase(text_.word_of(id));
+        for (NodeId id = body; id != k_no_node && tree_.is_within(id, body); --id)
+            look_at(id, names);
+        for (NodeId id = loop + 1; id < function; ++id)
+            look_at(id, names);
+    }
+
+    /// Notes a read of one of the variables; if it is an index, the element.
+    void look_at(NodeId id, const std::set<std::string_view>& names) {
+        if (tree_[id].kind != NodeKind::name || !names.contains(text_.word_of(id)))
+            return;
+        NodeId read = id;
+        for (NodeId up = id; is_expression(tree_[up].kind); up = tree_[up].parent)
+            if (const NodeId parent = tree_[up].parent;
+                tree_[parent].kind == NodeKind::index && tree_.child(parent, 1) == up)
+                read = parent;
+        if (is_number_read(text_, facts_, read))
+            found_.insert(read);
+    }
+
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
+    const TreeFacts& facts_;
+    const std::vector<bool>& known_;
+    NamesSet globals_;
+    std::set<NodeId> found_;
+};
+
+class ReadsFinder {
+public:
+    ReadsFinder(const ParsedText& text, const TreeFacts& facts)
+        : text_(text), tree_(text.tree()), facts_(facts), globals_(globals_set(text, facts)) {}
+
+    ReadsBeforeSettings run() {
         for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
             if (!is_expression(tree_[id].kind) || tree_.around(id, NodeKind::function) == k_no_node)
                 continue;
             names_.clear();
-            for (const std::string_view name : names_set(text_, facts_, id))
-                names_.insert(name);
-            if (calls_authors_function(text_, facts_, id))
-                names_.merge(std::set(globals_[called_name(text_, id)]));
+            add_names_set(text_, facts_, globals_, id, names_);
             if (!names_.empty())
                 look_left_of(id);
         }
-        return {found_.begin(), found_.end()};
+        return {{early_.begin(), early_.end()}, {late_.begin(), late_.end()}};
     }
 
 private:
@@ -434,6 +524,8 @@ private:
         while (place != operand_ && is_part(tree_[place].parent))
             place = tree_[place].parent;
         const NodeId parent = tree_[place].parent;
+        if (place == operand_)
+            late_.insert(name);
         if (place == operand_ || (is_change(text_, parent) && tree_.child(parent, 0) == place))
             return;
         if (tree_[parent].kind == NodeKind::call)
@@ -442,7 +534,7 @@ private:
                     (i == 0 || facts_.writes_argument(called_name(text_, parent), i - 1)))
                     return;
         if (expression_type(text_, facts_, place))
-            found_.insert(place);
+            early_.insert(place);
     }
 
     const ParsedText& text_;
@@ -451,13 +543,18 @@ private:
     NamesSet globals_;
     std::set<std::string_view> names_; ///< that an expression sets
     NodeId operand_ = k_no_node;       ///< an operand to the left of it
-    std::set<NodeId> found_;
+    std::set<NodeId> early_, late_;
 };
 
 } // namespace
 
-std::vector<NodeId> early_reads(const ParsedText& text, const TreeFacts& facts) {
-    return EarlyReads(text, facts).run();
+ReadsBeforeSettings reads_before_settings(const ParsedText& text, const TreeFacts& facts) {
+    return ReadsFinder(text, facts).run();
+}
+
+std::vector<NodeId> find_unknown(const ParsedText& text, const TreeFacts& facts,
+                                 const std::vector<bool>& known) {
+    return UnknownFinder(text, facts, known).run();
 }
 
 } // namespace tidemark::glsl

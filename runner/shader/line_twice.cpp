@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "shader/lens_text.hpp"
+#include "shader/loops.hpp"
 #include "shader/source_edits.hpp"
 #include "shader/variables.hpp"
 
@@ -180,17 +181,12 @@ private:
         if (is_expression(kind) && must_stay_constant(text_, id))
             return;
         if (kind == NodeKind::loop_for || kind == NodeKind::loop_while || kind == NodeKind::loop_do)
-            return visit(body_of_loop(id)); // a changed head may not be unrolled
+            return visit(body_of_loop(tree_, id)); // a changed head may not be unrolled
         if (is_expression(kind) && is_on_line(id) && !calls_authors_function(text_, facts_, id) &&
             !known_[id] && repeat(id))
             return;
         for (const NodeId child : tree_.children(id))
             visit(child);
-    }
-
-    NodeId body_of_loop(NodeId loop) const {
-        const auto parts = tree_.children(loop);
-        return tree_[loop].kind == NodeKind::loop_do ? parts.front() : parts.back();
     }
 
     /// Returns false if the operation stays as it is.

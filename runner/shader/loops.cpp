@@ -3,6 +3,8 @@
 #include "shader/tree_facts.hpp"
 #include "shader/vocabulary.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -450,6 +452,117 @@ bool fills(const ParsedText& text, const Shapes& shapes, NodeId loop, NodeId dec
     const Node& length = tree[tree.child(bracket, 0)];
     return length.kind == NodeKind::name && tree[bound].kind == NodeKind::name &&
            text.word(length.word) == text.word_of(bound);
+}
+
+NodeId body_of_loop(const SyntaxTree& tree, NodeId loop) {
+    return tree.child(loop, tree[loop].kind == NodeKind::loop_do ? 0 : tree.child_count(loop) - 1);
+}
+
+namespace {
+
+class LeftLoops {
+public:
+    LeftLoops(const ParsedText& text, const TreeFacts& facts)
+        : text_(text), tree_(text.tree()), facts_(facts), globals_(globals_set(text, facts)) {}
+
+    std::vector<LeftLoop> run() {
+        std::vector<LeftLoop> loops;
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id)
+            if (is_loop(tree_[id].kind) && tree_.around(id, NodeKind::function) != k_no_node)
+                if (LeftLoop loop = look_at(id); !loop.variables.empty())
+                    loops.push_back(std::move(loop));
+        return loops;
+    }
+
+private:
+    LeftLoop look_at(NodeId loop) {
+        LeftLoop found;
+        found.body = body_of_loop(tree_, loop);
+        std::set<std::string_view> names, own;
+        bool left = false;
+        for (NodeId id = loop - 1; id != k_no_node && tree_.is_within(id, loop); --id) {
+            add_names_set(text_, facts_, globals_, id, names);
+            if (tree_[id].kind == NodeKind::declarator)
+                own.insert(text_.word_of(id));
+            if (tree_[id].kind == NodeKind::jump && statement_left_by(id) == loop) {
+                left = left || text_.word_of(id) == "break";
+                if (text_.word_of(id) == "continue")
+                    found.continues.push_back(id);
+            }
+            left = left || tree_[id].kind == NodeKind::return_statement;
+        }
+        for (const std::string_view name : names)
+            if (left && !own.contains(name) && !name.starts_with("gl_"))
+                for (const LeftLoop::Variable& part : parts_of(name))
+                    found.variables.push_back(part);
+        return found;
+    }
+
+    /// Returns the variable, or the numbers and vectors of a structure.
+    const std::vector<LeftLoop::Variable>& parts_of(std::string_view name) {
+        const auto [found, is_new] = parts_.try_emplace(name);
+        if (!is_new)
+            return found->second;
+        if (const auto type = type_of(name))
+            found->second.push_back({std::string(name), *type});
+        else if (const auto structure = facts_.structures.find(structure_of(name));
+                 structure != facts_.structures.end())
+            for (const StructureMember& member : structure->second)
+                if (const auto own = value_type(member.type); own && !own->matrix() && !member.array)
+                    found->second.push_back({fmt::format("{}.{}", name, member.name), *own});
+        return found->second;
+    }
+
+    /// Returns the structure that all variables of that name are; empty: there is none.
+    std::string_view structure_of(std::string_view variable) const {
+        std::string_view found;
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+            const bool is_parameter = tree_[id].kind == NodeKind::parameter;
+            if ((!is_parameter && tree_[id].kind != NodeKind::declarator) || text_.word_of(id) != variable)
+                continue;
+            const NodeId type = tree_.child(is_parameter ? id : tree_[id].parent, 0);
+            const std::string_view name = type_name(text_, type);
+            if (dimensions(text_, type, id) > 0 || (!found.empty() && name != found))
+                return {};
+            found = name;
+        }
+        return found;
+    }
+
+    /// Returns the loop, or for `break` the `switch`, that the statement is about.
+    NodeId statement_left_by(NodeId jump) const {
+        NodeId id = tree_[jump].parent;
+        while (id != k_no_node && !is_loop(tree_[id].kind) &&
+               (tree_[id].kind != NodeKind::switch_on || text_.word_of(jump) != "break"))
+            id = tree_[id].parent;
+        return id;
+    }
+
+    /// Returns nothing for a name that has several types, or another than a number's or a vector's.
+    std::optional<ValueType> type_of(std::string_view variable) const {
+        std::optional<ValueType> type;
+        for (NodeId id = 1; id < tree_.nodes.size(); ++id) {
+            if (tree_[id].kind != NodeKind::name || text_.word_of(id) != variable)
+                continue;
+            const auto own = expression_type(text_, facts_, id);
+            if (!own || own->matrix() || (type && *type != *own))
+                return std::nullopt;
+            type = own;
+        }
+        return type;
+    }
+
+    const ParsedText& text_;
+    const SyntaxTree& tree_;
+    const TreeFacts& facts_;
+    NamesSet globals_;
+    std::map<std::string_view, std::vector<LeftLoop::Variable>> parts_;
+};
+
+} // namespace
+
+std::vector<LeftLoop> left_loops(const ParsedText& text, const TreeFacts& facts) {
+    return LeftLoops(text, facts).run();
 }
 
 } // namespace tidemark::glsl

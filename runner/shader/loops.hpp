@@ -4,6 +4,7 @@
 #include "shader/parsed_text.hpp"
 #include "shader/tree_facts.hpp"
 #include "shader/variables.hpp"
+#include "shader/vocabulary.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -23,6 +24,8 @@ struct LoopBound {
 /// the counter). A counter without a value in the head starts at 0.
 std::optional<LoopBound> loop_bound(const ParsedText& text, NodeId loop);
 
+/// Returns the body of any loop.
+NodeId body_of_loop(const SyntaxTree& tree, NodeId loop);
 /// Returns the condition of any loop; k_no_node if it has none.
 NodeId loop_condition(const ParsedText& text, NodeId loop);
 
@@ -83,5 +86,20 @@ struct LoopEnds {
     static size_t counted_out(size_t i) { return 2 * i + 1; }
 };
 LoopEnds record_loop_ends(const ParsedText& text, const TreeFacts& facts);
+
+// Pixels that leave a loop within an iteration, by `break` or `return`.
+
+/// A loop with such a statement, and the variables from outside that its iterations set.
+struct LeftLoop {
+    struct Variable {
+        std::string name; ///< of a structure's member: `ray.from`
+        ValueType type;   ///< a number or a vector
+    };
+    NodeId body = k_no_node;
+    std::vector<NodeId> continues; ///< statements
+    std::vector<Variable> variables;
+};
+/// Returns these loops, in text order. Leaves out variables whose names have several types.
+std::vector<LeftLoop> left_loops(const ParsedText& text, const TreeFacts& facts);
 
 } // namespace tidemark::glsl

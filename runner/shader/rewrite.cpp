@@ -86,12 +86,17 @@ private:
     }
 
     /// Removes #version and #line, which Tidemark writes itself. Moves an #extension to the top, or drops it
-    /// if no driver of that kind can support it.
+    /// if no driver of that kind can support it. ShaderToy's preprocessor ignores a `;` after a #pragma,
+    /// and an `#elseif` in a part that it leaves out: these are removed, too.
     void directive(size_t hash) {
         const size_t end = text::end_of_directive(tokens_, hash);
         if (hash + 1 >= end)
             return;
         const Token& keyword = tokens_[hash + 1];
+        if (keyword.is("pragma") && tokens_[end - 1].is(";"))
+            rename(tokens_[end - 1], " ");
+        if (preprocessed_.activity[hash] == Activity::inactive)
+            remove(tokens_[hash].begin, tokens_[end - 1].end());
         if (!keyword.is("version") && !keyword.is("line") && !keyword.is("extension"))
             return;
         remove(tokens_[hash].begin, tokens_[end - 1].end());

@@ -266,6 +266,8 @@ private:
             mark(hash, end);
             if (here_ != Activity::inactive)
                 statement(keyword, hash, end);
+            else if (keyword.starts_with("else")) // `#elseif`
+                result_.directives.push_back(hash);
         }
     }
 

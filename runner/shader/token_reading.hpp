@@ -42,7 +42,7 @@ struct Preprocessed {
     std::vector<Activity> activity; ///< one entry for each token
     std::vector<size_t> code;       ///< the tokens that are neither inactive nor in a directive
     std::vector<MacroLine> macros;  ///< in text order
-    std::vector<size_t> directives; ///< the `#` of every other directive that is not inactive
+    std::vector<size_t> directives; ///< the `#` of others, if active or `#elseif`
 };
 
 /// With `all_known`, only the macros in `known` are predefined; without it, the driver may also define names

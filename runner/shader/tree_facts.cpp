@@ -124,11 +124,10 @@ public:
         case NodeKind::parenthesis:
         case NodeKind::prefix:
         case NodeKind::postfix: return of(tree_.child(id, 0));
-        case NodeKind::conditional: return of(tree_.child(id, 1));
-        case NodeKind::binary: {
-            const auto left = of(tree_.child(id, 0)), right = of(tree_.child(id, 1));
-            return left && right ? type_of_operation(text_.word_of(id), *left, *right) : std::nullopt;
-        }
+        case NodeKind::conditional:
+        case NodeKind::comma: return of(tree_.child(id, 1));
+        case NodeKind::assign: return of(tree_.child(id, 0));
+        case NodeKind::binary: return of_operation(id);
         case NodeKind::member: return of_member(id);
         case NodeKind::index: return of_index(id);
         case NodeKind::call: return of_call(id);
@@ -237,6 +236,25 @@ private:
         return agreed(types);
     }
 
+    std::optional<ValueType> of_operation(NodeId id) const {
+        constexpr std::string_view k_tests[] = {"==", "!=", "<", ">", "<=", ">=", "&&", "||", "^^"};
+        const std::string_view op = text_.word_of(id);
+        if (std::ranges::find(k_tests, op) != std::end(k_tests))
+            return ValueType{'b', 1, 1};
+        const auto left = of(tree_.child(id, 0)), right = of(tree_.child(id, 1));
+        if (!left || !right)
+            return std::nullopt;
+        const auto is_whole = [](const ValueType& type) { return type.base == 'i' || type.base == 'u'; };
+        if (op == "<<" || op == ">>")
+            return is_whole(*left) && is_whole(*right) ? left : std::nullopt;
+        if (op != "%" && op != "&" && op != "|" && op != "^")
+            return type_of_operation(op, *left, *right);
+        if (!is_whole(*left) || left->base != right->base ||
+            (!left->scalar() && !right->scalar() && left->rows != right->rows))
+            return std::nullopt;
+        return left->scalar() ? right : left;
+    }
+
     /// Returns the type of an element of an array, of a vector's component or of a matrix's column.
     std::optional<ValueType> of_index(NodeId id) const {
         if (const auto element = declared(id))
@@ -256,6 +274,9 @@ private:
 
     std::optional<ValueType> of_call(NodeId id) const {
         const std::string_view name = called_name(text_, id);
+        if (const NodeId callee = tree_.child(id, 0);
+            tree_[callee].kind == NodeKind::member && text_.word_of(callee) == "length")
+            return ValueType{'i', 1, 1};
         if (facts_.function(name))
             return value_of(declared_call(id));
         if (const auto constructed = value_type(name))

@@ -1,5 +1,6 @@
 #include "shader/variables.hpp"
 
+#include "shader/source_edits.hpp"
 #include "shader/tree_facts.hpp"
 #include "shader/vocabulary.hpp"
 
@@ -245,6 +246,29 @@ Part Shapes::part_of(const Shape& shape, NodeId place) const {
     case NodeKind::index: return element(part_of(shape, tree_.child(place, 0)), tree_.child(place, 1));
     default: return {all_slots(shape.slots), &shape, true};
     }
+}
+
+int channels_of(const ParsedText& text, const TreeFacts& facts, NodeId sampler, int depth) {
+    constexpr int k_all = 15, k_deepest = 8;
+    const SyntaxTree& tree = text.tree();
+    const std::string_view word = text.word_of(sampler);
+    if (tree[sampler].kind != NodeKind::name || depth > k_deepest)
+        return k_all;
+    if (word.starts_with("iChannel") && word.size() == 9)
+        return 1 << (word.back() - '0');
+    const NodeId function = tree.around(sampler, NodeKind::function);
+    const std::vector<NodeId> parameters = parameters_of(text, function);
+    const auto found =
+        std::ranges::find_if(parameters, [&](NodeId each) { return text.word_of(each) == word; });
+    if (found == parameters.end())
+        return k_all;
+    int channels = 0;
+    for (NodeId id = 1; id < tree.nodes.size() && channels != k_all; ++id)
+        if (calls_authors_function(text, facts, id) && called_name(text, id) == text.word_of(function)) {
+            const NodeId given = tree.child(id, size_t(found - parameters.begin()) + 1);
+            channels |= given == k_no_node ? k_all : channels_of(text, facts, given, depth + 1);
+        }
+    return channels == 0 ? k_all : channels;
 }
 
 std::string constructor_of(const Shape& shape) {

@@ -10,7 +10,9 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -138,6 +140,23 @@ struct Assignment {
 /// Analyses the whole text. Without a `main`, every function counts as reached. `shapes` must belong to the
 /// same text.
 Assignment find_assignment(const ParsedText& text, const TreeFacts& facts, Shapes& shapes);
+
+/// Names of variables, by function.
+using NamesSet = std::map<std::string_view, std::set<std::string_view>>;
+
+/// Returns the global variables that each function sets, those that it calls included.
+NamesSet globals_set(const ParsedText& text, const TreeFacts& facts);
+/// Adds the names that the node sets, itself or as a call of an author's function. `globals`: globals_set of
+/// the text.
+void add_names_set(const ParsedText& text, const TreeFacts& facts, const NamesSet& globals, NodeId id,
+                   std::set<std::string_view>& names);
+
+/// Returns whether the node, a number or a vector of floats, is only read.
+bool is_number_read(const ParsedText& text, const TreeFacts& facts, NodeId id);
+
+/// Returns the channels that a sampler may stand for, as bits: of a parameter, those that calls give it.
+/// `depth`: calls that were followed.
+int channels_of(const ParsedText& text, const TreeFacts& facts, NodeId sampler, int depth = 0);
 
 // Finds work that no compiler leaves in a program, because nothing reads its result.
 

@@ -358,9 +358,6 @@ Variation vary_halves(const ParsedText& text, const TreeFacts& facts, const MayV
     return vary_results(text, may, k_half, [&](NodeId id) { return is_operation(text, facts, id); });
 }
 
-namespace {
-
-/// Declares a float variable of a function `precise`. Returns whether the node declares one.
 bool make_precise(const ParsedText& text, NodeId id, SourceRewriter& edits) {
     const SyntaxTree& tree = text.tree();
     if (tree[id].kind != NodeKind::declaration || tree.around(id, NodeKind::function) == k_no_node)
@@ -372,6 +369,8 @@ bool make_precise(const ParsedText& text, NodeId id, SourceRewriter& edits) {
     edits.wrap(type, "precise ", "");
     return true;
 }
+
+namespace {
 
 constexpr std::string_view k_precise_header = "#extension GL_ARB_gpu_shader5 : enable\n";
 

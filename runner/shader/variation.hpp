@@ -8,14 +8,20 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tidemark::glsl {
+
+class SourceRewriter;
 
 struct Variation {
     std::string text;
     std::string mode_uniform;   ///< int; 0: unchanged
     std::vector<NodeId> places; ///< the changed nodes
+    /// int, of vary_like_swiftshader: bit N is set if iChannelN takes the nearest texel, bit 16 + N if it
+    /// filters linearly; bit 4 + N if its texels are bytes, bit 20 + N if they are others.
+    std::string filters_uniform{};
 };
 
 /// Returns whether a variation may change a node; empty: it may change all.
@@ -68,6 +74,8 @@ Variation vary_derivatives(const ParsedText& text, const TreeFacts& facts, const
 
 /// Declares float variables `precise`: nothing is contracted or reordered. It has no modes.
 Variation vary_precision(const ParsedText& text, const TreeFacts& facts, const MayVary& may = {});
+/// Declares a float variable of a function `precise`. Returns whether the node declares one.
+bool make_precise(const ParsedText& text, NodeId id, SourceRewriter& edits);
 
 /// Formulas that a compiler chooses for built-in functions, as bits of a mode.
 enum class FormulaPart {
@@ -85,7 +93,7 @@ Variation vary_precise_formulas(const ParsedText& text, const TreeFacts& facts, 
 /// Kinds of operations that SwiftShader computes in its own way, as bits.
 enum class SwiftShaderPart {
     sines = 1,         ///< a polynomial of degree 5: up to 1.5e-4 off
-    arcs = 2,          ///< atan, asin and acos
+    arcs = 2,          ///< atan, asin and acos, and functions of constants, which its compiler computes
     powers = 4,        ///< pow, exp, log and what is made of them
     products = 8,      ///< dot products, matrices, quotients, mix: the order of operations
     outside = 16,      ///< pow and log of negative numbers, clamp and min of NaN, %
@@ -95,19 +103,40 @@ enum class SwiftShaderPart {
     order = 256,       ///< an operator reads its variables before an expression to its right sets them
 };
 inline constexpr int k_swiftshader_parts = 9;
+/// A further bit of a mode: quotients by zero have the opposite sign, and zero by zero is 0.5. A picture that
+/// changes shows them.
+inline constexpr int k_opposite_quotients = 0x40000;
+
+/// The order of operations in a text of vary_like_swiftshader.
+enum class SwiftOrder {
+    driver,   ///< the driver chooses it, except within functions of SwiftShader's
+    text,     ///< that of the text: float variables are `precise`
+    compiler, ///< the driver merges only what SPIRV-Tools merges: a constant with that of an operand
+};
 
 /// Computes as SwiftShader does, bit for bit except for textures, the `parts` whose bits the mode has.
-/// `precise` also declares float variables so: SwiftShader reorders nothing.
-Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, int parts, bool precise,
-                                const MayVary& may = {});
+Variation vary_like_swiftshader(const ParsedText& text, const TreeFacts& facts, int parts,
+                                SwiftOrder order = SwiftOrder::driver, const MayVary& may = {});
 /// Returns the parts that each node of the text belongs to.
 std::vector<int> swiftshader_parts(const ParsedText& text, const TreeFacts& facts);
 
-/// Returns variables, or parts of variables, that an operator or a function reads although an expression to
-/// its right sets them: `c` in `c * 2.0 + c++`. ANGLE reads them before; Mesa sets them before, because it
-/// puts off operators. Neither puts off calls of the author's functions, and both read the operands of `c +
-/// c++` last.
-std::vector<NodeId> early_reads(const ParsedText& text, const TreeFacts& facts);
+/// Reads of variables, or of parts of variables, to the left of an expression that sets them, sorted.
+struct ReadsBeforeSettings {
+    /// An operator or a function reads them: `c` in `c * 2.0 + c++`. ANGLE reads them before; Mesa sets them
+    /// before, because it puts off operators. Neither puts off calls of the author's functions.
+    std::vector<NodeId> early;
+    /// Names that are operands themselves: `c` in `c + c++`. Both read them last.
+    std::vector<NodeId> late;
+};
+ReadsBeforeSettings reads_before_settings(const ParsedText& text, const TreeFacts& facts);
+
+/// Returns whether SwiftShader's compiler computes the built-in function of values that it knows.
+bool is_folded_by_swiftshader(std::string_view name);
+/// Returns expressions, sorted, whose values SwiftShader's compiler does not know, although a driver's
+/// compiler may: calls of functions that it does not compute, and variables that a loop sets, in the loop and
+/// after it. `known`: find_known of the text.
+std::vector<NodeId> find_unknown(const ParsedText& text, const TreeFacts& facts,
+                                 const std::vector<bool>& known);
 
 /// A mode of a variation, with its name for reports.
 struct VariationMode {

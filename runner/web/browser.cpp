@@ -22,9 +22,11 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <thread>
 #include <utility>
 
@@ -47,6 +49,15 @@ const std::array<BrowserDriver, 3>& browser_drivers() {
 }
 
 constexpr std::string_view k_programs[] = {"chromium", "chromium-browser", "google-chrome"};
+
+bool is_in_path(std::string_view program) {
+    const char* const path = std::getenv("PATH");
+    std::istringstream folders(path ? path : "");
+    for (std::string folder; std::getline(folders, folder, ':');)
+        if (::access(fmt::format("{}/{}", folder, program).c_str(), X_OK) == 0)
+            return true;
+    return false;
+}
 
 /// Draws frames in the page's own renderer, with Image in floats, and returns every pass but cubemaps; with
 /// feedback also those of the previous frame.
@@ -137,6 +148,14 @@ Json frames_json(const render::FrameState& state, int first) {
 
 bool is_browser(std::string_view device) {
     return std::ranges::count(browser_drivers(), device, &BrowserDriver::name) > 0;
+}
+
+std::vector<std::string> usable_browsers() {
+    std::vector<std::string> names;
+    if (std::ranges::any_of(k_programs, is_in_path))
+        for (const BrowserDriver& driver : browser_drivers())
+            names.emplace_back(driver.name);
+    return names;
 }
 
 /// The running program and the pipe to it.

@@ -40,6 +40,9 @@ Result<std::string> make_page(const scene::Scene& scene, PageForm form, const Js
 /// "chromium:swiftshader" or "chromium:egl" (with the machine's EGL driver).
 bool is_browser(std::string_view device);
 
+/// Returns the names that is_browser knows, or none if Chromium is not installed.
+std::vector<std::string> usable_browsers();
+
 /// A running browser. It ends with the object.
 class Browser {
 public:

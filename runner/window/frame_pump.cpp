@@ -77,7 +77,7 @@ bool FramePump::wants_frame(const Around& around, double now) const {
 }
 
 double FramePump::due(const Around& around, double now) const {
-    if ((around.watched && goes_on(around, now)) || seek_)
+    if ((around.watched && goes_on(around, now)) || seek_ || around.events_held)
         return now;
     if (!around.watched || driver_held(now))
         return std::numeric_limits<double>::infinity();

@@ -109,6 +109,7 @@ public:
         bool plays = true;           ///< there is a scene, and its time is not paused
         bool compiles = false;       ///< a reload is being compiled
         bool panels_changed = false; ///< the panels must be shown again
+        bool events_held = false;    ///< events wait until the driver is free
     };
 
     /// A complete frame.
@@ -135,7 +136,7 @@ public:
     void end_round() { listened_at_ = clock_(); }
     /// Returns whether to draw now: a frame, a part of one, or the panels alone.
     bool wants_frame(const Around& around, double now) const;
-    /// Returns the time of the next frame or part; infinity: none is due.
+    /// Returns the time of the next round: of a frame, a part or a held event; infinity: none is due.
     double due(const Around& around, double now) const;
 
     // Frames

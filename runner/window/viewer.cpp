@@ -392,7 +392,8 @@ FramePump::Around Viewer::around() const {
     return {.watched = screen_->is_watched(),
             .plays = stage_ && !timeline_.paused(),
             .compiles = scene_.building_since().has_value(),
-            .panels_changed = overlay_.changed() || screen_->wants_frame()};
+            .panels_changed = overlay_.changed() || screen_->wants_frame(),
+            .events_held = !events_held_.empty()};
 }
 
 double Viewer::seconds_to_sleep(double now) const {

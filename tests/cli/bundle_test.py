@@ -121,6 +121,7 @@ def found_by(judge, *recorded) -> dict:
     class Recorder(verify.Findings):
         def __init__(self) -> None:
             self.found = {"said": [], "notes": [], "problems": [], "tables": [], "figures": []}
+            self.late = []
 
         def add(self, kind: str, what) -> None:
             self.found[kind].append(what)
@@ -221,6 +222,13 @@ class Verify(ProgramTest):
         self.assertEqual((code, report["failed"]), (1, ["self_test", "conformance"]))
         self.assertIn("before it was done", report["parts"][0]["problems"][-1])
         self.assertLess(report["seconds"], 60)
+
+    def test_a_part_without_a_step_done_in_time_fails(self) -> None:
+        slow = self.write("slow", "#!/bin/sh\ncase $* in *--version*) echo tidemark 1;; inspect*) exit 3;; *) exec sleep 100;; esac\n")
+        slow.chmod(0o755)
+        _, report, _ = self.verified("--parts", "checks", "--seconds", "18", program=str(slow))
+        self.assertEqual(report["failed"], ["checks"])
+        self.assertIn("no step was done in time", report["parts"][0]["problems"][-1])
 
     @unittest.skipUnless(has_context(), "no OpenGL context")
     def test_sines_and_roundings_of_this_device(self) -> None:

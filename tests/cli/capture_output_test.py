@@ -342,7 +342,7 @@ class CannotWrite(CaptureTest):
         line = f'("$0" capture wave.glsl {" ".join(SIZE)} --frames 0-99999 -o - 2>err; echo $? >code) | head -c 105'
         done = subprocess.run(["bash", "-c", line, PROGRAM], cwd=self.folder, env=environment(),
                               stdout=subprocess.PIPE, timeout=120)
-        self.assertEqual(len(done.stdout), 105)
+        self.assertEqual(len(done.stdout), 105, (self.folder / "err").read_text())
         self.assertEqual((self.folder / "code").read_text(), "4\n")
         self.assertEqual((self.folder / "err").read_text().splitlines()[-1],
                          "tidemark: error: cannot write to standard output: Broken pipe")

@@ -338,19 +338,39 @@ class Browsers(OnDevices):
         self.write("levels.glsl", '#iChannel0 "noise.png"\n#iChannel0::MinFilter "LinearMipMapLinear"\n'
                                   "void mainImage(out vec4 c, in vec2 p) {\n    float step = (int(p.x) & 2) == 0 ? 0.011 : 0.037;\n"
                                   "    c = 8.0 * texture(iChannel0, step * p) - 3.5;\n}\n")
+        self.write("known.glsl", "float wave(float x, float y) {\n    return fract(43758.5 * sin(x) + sin(y));\n}\n"
+                                 "void mainImage(out vec4 c, in vec2 p) {\n    float t = 0.0;\n"
+                                 "    c = vec4(wave(0.5 + t * 2.0, p.x), wave(p.y, 0.5), 0.5, 1.0);\n}\n")
+        self.write("arc.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    float a = acos(0.3);\n"
+                               "    c = vec4(fract(437.5 * cos(a) * a + p.x / 40.0), 0.5, 0.5, 1.0);\n}\n")
+        self.write("steps.glsl", "float random(inout float seed) {\n    return fract(sin(seed += 0.1) * 43758.5453);\n}\n"
+                                 "void mainImage(out vec4 c, in vec2 p) {\n    float seed = p.x * p.y * 0.37;\n"
+                                 "    c = vec4(random(seed) * random(seed) * random(seed), 0.5, 0.5, 1.0);\n}\n")
+        self.write("late/image.glsl", '#iChannel0 "buffer_a.glsl"\nvoid mainImage(out vec4 c, in vec2 p) {'
+                                      " c = texelFetch(iChannel0, ivec2(p), 0); }\n")
+        self.write("late/buffer_a.glsl", f'#iChannel0 "self"\n{hash}\nvoid mainImage(out vec4 c, in vec2 p) {{'
+                                         " c = iFrame % 4 == 2 ? vec4(step(0.5, hash(p))) : texelFetch(iChannel0, ivec2(p), 0); }\n")
+        # Both compilers multiply by 0.3 * 0.7; the sine of the model must not keep the driver from it.
+        self.write("merged.glsl", "float third(float x) { return x * 0.3; }\nvoid mainImage(out vec4 c, in vec2 p) {\n"
+                                  "    float v = third(p.x * 1.37 + p.y * 0.11) * 0.7;\n"
+                                  "    c = vec4(fract(sin(v) * 43758.5), 0.5, 0.5, 1.0);\n}\n")
         self.write("wrong.glsl", "void mainImage(out vec4 c, in vec2 p) {\n    float f = 1;\n    c = vec4(f);\n}\n")
         found = self.outcomes("surfaceless,chromium:swiftshader", ".", code=1)
         for name, cause, place, line in (
                 ("hash.glsl", "sine", "", 1), ("project", "sine", "Buffer A", 2), ("remainder.glsl", "undefined", "", 3),
                 ("derivative.glsl", "derivatives", "", 3), ("zero.glsl", "undefined", "", 2), ("order.glsl", "order", "", 3),
                 ("repeated.glsl", "undefined", "", 3), ("branch.glsl", "undefined", "", 6), ("quotient.glsl", "derivatives", "", 4),
-                ("nearest.glsl", "filter", "", 5), ("levels.glsl", "filter", "", 5)):
+                ("nearest.glsl", "filter", "", 5), ("levels.glsl", "filter", "", 5), ("known.glsl", "sine", "", 2),
+                ("arc.glsl", "functions", "", 2), ("steps.glsl", "sine", "", 2), ("late", "sine", "Buffer A", 2),
+                ("merged.glsl", "sine", "", 4)):
             with self.subTest(scene=name):
                 scene = found[name]
                 first = scene["causes"][0]
                 self.assertEqual((scene["verdict"], first["cause"], first["pass"], first["places"][0]["line"]),
                                  ("explained", cause, place, line))
         self.assertGreater(found["project"]["differing"], 500)
+        self.assertEqual(found["late"]["examined_frame"], 594)  # of 592 to 600, the frames that are drawn
+        self.assertNotIn("examined_frame", found["project"])
         self.assertEqual(found["wrong.glsl"]["verdict"], "one side only")
         self.assertIn("wrong.glsl:2", found["wrong.glsl"]["problems"]["chromium:swiftshader"])
 

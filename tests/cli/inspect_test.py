@@ -326,11 +326,24 @@ class Devices(ProgramTest):
         self.assertRegex(self.succeed("inspect", "--devices", "--device", "mesa:llvmpipe").stdout.decode(), ", OpenGL ES 3")
 
     def test_without_a_driver_the_reason_is_printed(self):
-        done = self.succeed("inspect", "--devices", env=environment(__EGL_VENDOR_LIBRARY_FILENAMES="/dev/null"))
-        lines = done.stdout.decode().splitlines()
-        self.assertEqual([line.split()[0] for line in lines], ["surfaceless", "display", "mesa:llvmpipe", "mesa:softpipe", "mesa:zink"])
-        for line in lines:
-            self.assertRegex(line, r"^\S+ +unusable: no driver offers it \(EGL_BAD_PARAMETER\)$")
+        """Chromium needs none of these drivers; it is listed where it is installed."""
+        chromium = self.write("bin/chromium", "#!/bin/false\n")
+        chromium.chmod(0o755)
+        for path, browsers in (("/nowhere", []), (str(chromium.parent), ["chromium"])):
+            done = self.succeed("inspect", "--devices", env=environment(__EGL_VENDOR_LIBRARY_FILENAMES="/dev/null", PATH=path))
+            lines = done.stdout.decode().splitlines()
+            drivers = ["surfaceless", "display", "mesa:llvmpipe", "mesa:softpipe", "mesa:zink"]
+            self.assertEqual([line.split()[0] for line in lines], drivers + browsers)
+            for line in lines[:len(drivers)]:
+                self.assertRegex(line, r"^\S+ +unusable: no driver offers it \(EGL_BAD_PARAMETER\)$")
+            for line in lines[len(drivers):]:
+                self.assertRegex(line, "`compare --devices` only; also chromium:swiftshader, chromium:egl$")
+
+    def test_zink_needs_a_vulkan_driver(self):
+        """Mesa 25's zink would wait for ever without one."""
+        done = self.succeed("inspect", "--devices", "--device", "mesa:zink",
+                            env=environment(VK_DRIVER_FILES="/dev/null", VK_ICD_FILENAMES="/dev/null"))
+        self.assertEqual(done.stdout.decode(), "mesa:zink      unusable: there is no Vulkan driver\n")
 
     def test_selects_one_device_by_name(self):
         done = self.succeed("inspect", "--devices", "--device", "mesa:llvmpipe")

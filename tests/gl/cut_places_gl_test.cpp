@@ -1,6 +1,8 @@
-// The cuts of a scene's texts, drawn: what a texture's level changes.
+// The cuts of a scene's texts, drawn: what a texture's level changes. And texts that do one line twice.
 #include "gl_test.hpp"
+#include "lab/instrumented_pass.hpp"
 #include "lab/simplify.hpp"
+#include "shader/lens_text.hpp"
 #include "support/scene_of.hpp"
 
 #include <algorithm>
@@ -170,6 +172,72 @@ TEST(CutSwitches, make_several_cuts_together_and_none_again) {
     EXPECT_NEAR(error({0}) + error({1}), 0.75 / std::sqrt(3.0), 1e-4) << "RMSE over three channels";
     EXPECT_NEAR(error({0, 1}), std::sqrt((0.25 * 0.25 + 0.5 * 0.5) / 3), 1e-4);
     EXPECT_EQ(error({}), 0);
+}
+
+/// Operations of each kind: floats, vectors, whole numbers, conditions, matrices, calls, compound
+/// assignments.
+constexpr const char* k_many_lines = R"(struct Hit { float d; vec3 n; };
+float f(vec3 p) { return length(p) - 1.0 / (1.0 + dot(p, p)); }
+Hit g(vec3 p) { return Hit(f(p) * 0.5, normalize(p + 0.1)); }
+void mainImage(out vec4 c, in vec2 p) {
+    vec2 q = (2.0 * p - iResolution.xy) / iResolution.y;
+    vec3 ro = vec3(q, 0.3) * mat3(cos(q.x), sin(q.x), 0.0, -sin(q.x), cos(q.x), 0.0, 0.0, 0.0, 1.0);
+    float t = 0.0, s[2];
+    s[1] = sin(q.x) * 3.0;
+    int n = int(p.x) % 7 + (int(p.y) & 3);
+    for (int i = 0; i < 8 && t < 9.0; ++i) {
+        t += 0.25 * f(ro + t * vec3(0.6, 0.0, 0.8)) + 0.01 * float(i);
+        ro.xy *= mat2(0.8, 0.6, -0.6, 0.8);
+    }
+    bool far = t * 1.5 > 2.0 || q.x * q.y > 0.5;
+    vec3 k = far ? g(ro * 2.0).n * 0.5 + 0.5 : mix(vec3(0.1), ro, clamp(t * 0.3, 0.0, 1.0));
+    c = vec4(k * fract(s[1] + float(n) * 0.37), g(ro).d * 2.0);
+}
+)";
+
+class LineTwice : public render::RenderTest {};
+
+TEST_F(LineTwice, KeepsThePicture) {
+    render::Renderer drawing = renderer(std::string(k_many_lines), {32, 16});
+    const auto text = read_text(drawing, 0);
+    ASSERT_TRUE(text);
+    const glsl::TreeFacts facts = glsl::find_facts(**text);
+    const auto counted = glsl::count_operations(**text, facts, glsl::WorkAnswer::sites);
+    ASSERT_TRUE(counted);
+    const PassPreview preview(drawing, 0, {});
+    const auto bytes = [&](const std::string& made) {
+        auto stand_in = StandIn::link(preview, made, "a text");
+        if (!stand_in) {
+            ADD_FAILURE() << to_string(stand_in.error()) << "\n" << made;
+            return std::vector<int>{};
+        }
+        stand_in->draw(preview);
+        std::vector<int> shown; // drivers may add in another order, so the last digits of floats may differ
+        const image::Image picture = stand_in->picture();
+        for (const float sample : picture.f32())
+            shown.push_back(int(std::lround(255.0f * std::clamp(sample, 0.0f, 1.0f))));
+        return shown;
+    };
+    /// Samples that differ by more than a level: another CPU's code may round the last digit otherwise, and
+    /// `fract` makes a jump of it.
+    const auto unlike = [](const std::vector<int>& a, const std::vector<int>& b) {
+        EXPECT_EQ(a.size(), b.size());
+        size_t count = 0;
+        for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+            count += std::abs(a[i] - b[i]) > 1;
+        return count;
+    };
+    const auto plain = bytes(glsl::do_no_line_twice(**text));
+    ASSERT_EQ(plain.size(), 32u * 16 * 4);
+    const std::string file = (*text)->spelled((*text)->tree()[glsl::find_main_image(**text)].word).file;
+    std::vector<int> lines;
+    for (int line = 1; line <= 17; ++line)
+        if (const auto twice = glsl::do_line_twice(**text, facts, *counted, {file, line})) {
+            lines.push_back(line);
+            EXPECT_LE(unlike(bytes(twice->text), plain), 5u) << "line " << line;
+            EXPECT_LE(unlike(bytes(twice->control), plain), 5u) << "control of line " << line;
+        }
+    EXPECT_EQ(lines, (std::vector{2, 3, 5, 6, 8, 9, 11, 12, 14, 15, 16}));
 }
 
 } // namespace tidemark::lab::cut_places_gl_test

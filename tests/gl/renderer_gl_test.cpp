@@ -65,6 +65,16 @@ TEST_F(RendererTest, frame_after_steps_equals_frame_drawn_directly) {
     EXPECT_EQ(frame(stepping, inputs_of_frame(9, 24)), frame(asked, inputs_of_frame(9, 24)));
 }
 
+/// Buffer A, which iChannel0 reads, is drawn although the text does not say iChannel0.
+TEST_F(RendererTest, a_sampler_of_the_author_s_reads_channel_0) {
+    put("buffer_a.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(0.25, p.x, 0.75, 1.0); }\n");
+    Renderer drawing =
+        renderer("#iChannel0 \"buffer_a.glsl\"\nuniform sampler2D picture;\n"
+                 "void mainImage(out vec4 c, in vec2 p) { c = texelFetch(picture, ivec2(p), 0); }\n",
+                 {3, 2});
+    EXPECT_EQ(floats_at(frame(drawing), 2, 1), (Floats4{0.25f, 2.5f, 0.75f, 1.0f}));
+}
+
 TEST_F(RendererTest, alpha_is_always_1) {
     for (const char* alpha : {"0.0", "0.5", "-3.0", "7.0"}) {
         const std::string text =

@@ -61,10 +61,12 @@ class Moments(OverlayTest):
         self.assertEqual(probe.read(png.read(self.folder / "again.png"), VALUES), probe.read(saved, VALUES))
 
     def test_the_command_omits_a_camera_that_the_scene_does_not_read(self):
-        self.write("flat.glsl", "void mainImage(out vec4 c, in vec2 p) { c = vec4(iMouse.xy / iResolution.xy, 0.0, 1.0); }\n")
+        mouse = {"x": "iMouse.x"}
+        self.write("flat.glsl", probe.shader(mouse))
         view = self.open("flat.glsl", "--size", "640x360")
         view.drag((450, 150), (420, 170))
         view.drag((450, 150), (480, 130), 2)
+        view.wait_until_told(mouse, lambda told: told["x"] == 420) # the command is that of the frame that is shown
         view.key("c")
         command = view.wait_for_words("^copied: (tidemark capture flat.glsl .*)$").group(1)
         self.assertIn("--mouse ", command)

@@ -85,6 +85,7 @@ class Knobs(OverlayTest):
         view.wait_for_words("^reloaded in ")
         self.assertEqual(view.told(VALUES)["on"], 0)
         view.drag_row(HEIGHT, 0.3, 0.9)
+        view.wait_until_told(VALUES, lambda told: told["height"] == 2)  # the button that resets all is off until then
         view.click_row(0, 0.1)
         view.wait_until_told(VALUES, lambda told: told["height"] == 0.5)
 

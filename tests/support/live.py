@@ -5,6 +5,7 @@ import ctypes
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import struct
 import subprocess
@@ -46,6 +47,9 @@ def wait_for(condition: Callable[[], T], what: str, patience: float = PATIENCE) 
 IGNORE_ERRORS = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)(lambda _display, _error: 0)
 
 
+SCREEN_SIZE = "1280 800\n"  # of a screen, as xdotool says it
+
+
 class Screen:
     """An X server that shows nothing to anybody. Its frame buffer is a file in XWD format."""
 
@@ -53,13 +57,14 @@ class Screen:
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="tidemark-screen-"))
         reader, writer = os.pipe()
         self.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(writer), "-screen", "0", "1280x800x24", "-nolisten", "tcp", "-noreset", "-fbdir",
+            ["Xvfb", "-displayfd", str(writer), "-screen", "0", SCREEN_SIZE.strip().replace(" ", "x") + "x24", "-nolisten", "tcp", "-noreset", "-fbdir",
              str(self.folder)], pass_fds=[writer], stderr=subprocess.DEVNULL)
         os.close(writer)
         with os.fdopen(reader) as answer:
             self.display = f":{answer.readline().strip()}"
         if self.display == ":":
             raise AssertionError("Xvfb does not start")
+        self.processes: dict[bool, subprocess.Popen] = {}
         self.x11, self.connection = self.open_display()
         self.x11.XGetWindowProperty.argtypes = [
             ctypes.c_void_p, ctypes.c_ulong, ctypes.c_ulong, ctypes.c_long, ctypes.c_long, ctypes.c_int, ctypes.c_ulong,
@@ -69,6 +74,8 @@ class Screen:
     def close(self) -> None:
         if self.connection and self.server.poll() is None:  # Xlib would end this process
             self.x11.XCloseDisplay(self.connection)
+        for process in self.processes.values():
+            process.communicate()  # it ends with its input
         self.server.terminate()
         self.server.wait()
         shutil.rmtree(self.folder, ignore_errors=True)
@@ -78,10 +85,25 @@ class Screen:
         return {"DISPLAY": self.display}
 
     def xdotool(self, *arguments: str) -> str:
-        """What xdotool says; nothing where it fails (a window that is not there yet)."""
-        done = subprocess.run(["xdotool", *arguments], env=environment(DISPLAY=self.display), timeout=PATIENCE,
-                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        return done.stdout.strip() if done.returncode == 0 else ""
+        """What xdotool says; nothing where it fails (a window that is not there yet). Processes serve many calls, as a new one
+        takes ten times as long as a key. One ends where a command fails; the next call starts another."""
+        searches = arguments[0] == "search"  # a process of its own: where it finds a window, keys would be sent to that
+        process = self.processes.get(searches)
+        if not process or process.poll() is not None:
+            process = self.processes[searches] = subprocess.Popen(
+                ["xdotool", "-"], env=environment(DISPLAY=self.display), stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL, text=True, bufsize=1)
+        said = []
+        try:
+            process.stdin.write(" ".join(map(shlex.quote, arguments)) + "\ngetdisplaygeometry\n")
+            while (line := process.stdout.readline()) != SCREEN_SIZE:
+                if not line:
+                    raise BrokenPipeError
+                said.append(line)
+        except BrokenPipeError:
+            process.communicate()
+            return ""
+        return "".join(said).strip()
 
     def title(self, window: int) -> str:
         """The name of a window; empty if it is not there. It is read without a process, because tests wait for names."""
@@ -206,6 +228,7 @@ class View:
     """A running `tidemark view`."""
 
     save_key = "s"
+    window = 0  # none yet
 
     def __init__(self, screen: Screen, folder: pathlib.Path, scene: str, *options: str,
                  first_title: str | None = " (fps|still)(, .*)?$", text: Any = subprocess.DEVNULL,
@@ -243,10 +266,7 @@ class View:
         return pathlib.Path(self.words.name).read_text()
 
     def wait_for_words(self, pattern: str) -> re.Match:
-        try:
-            return wait_for(lambda: self.running() and re.search(pattern, self.stderr(), re.MULTILINE), pattern)
-        except AssertionError as error:
-            raise AssertionError(f"{error}; it said:\n{self.stderr()}") from None
+        return self.wait_for_match(lambda: re.search(pattern, self.stderr(), re.MULTILINE), pattern)
 
     def wait_for_end(self) -> int:
         wait_for(lambda: self.program.poll() is not None, "the end of the program")
@@ -256,7 +276,13 @@ class View:
         return self.screen.title(self.window)
 
     def wait_for_title(self, pattern: str) -> re.Match:
-        return wait_for(lambda: self.running() and re.search(pattern, self.title()), f"the title {pattern}")
+        return self.wait_for_match(lambda: re.search(pattern, self.title()), f"the title {pattern}")
+
+    def wait_for_match(self, find: Callable[[], re.Match | None], what: str) -> re.Match:
+        try:
+            return wait_for(lambda: self.running() and find(), what)
+        except AssertionError as error:
+            raise AssertionError(f"{error}; its title: {self.title()}; it said:\n{self.stderr()}") from None
 
     def place(self) -> dict[str, int]:
         """X, Y, WIDTH and HEIGHT of the window on the screen."""

@@ -92,12 +92,12 @@ class WaylandView(View):
         self.point(SIZE[0] - 1, SIZE[1] - 1)  # over no window; keys go to the newest
 
     def title(self) -> str:
-        titles = re.findall(r'xdg_toplevel@\d+\.set_title\("(.*)"\)', super().stderr())
+        titles = re.findall(r'xdg_toplevel[@#]\d+\.set_title\("(.*)"\)', super().stderr())
         return titles[-1] if titles else ""
 
     def stderr(self) -> str:
-        """Without what libwayland says of its messages."""
-        return re.sub(r"^\[ *\d+\.\d+\].*\n", "", super().stderr(), flags=re.MULTILINE)
+        """Without what libwayland says of its messages, and libdecor of its plug-ins, which draw title bars, if there are none."""
+        return re.sub(r"^(\[ *\d+\.\d+\]|Couldn't open plugin directory: |No plugins found, ).*\n", "", super().stderr(), flags=re.MULTILINE)
 
     def find(self) -> tuple[int, int]:
         """Where it is, by a picture that stands still."""

@@ -93,6 +93,20 @@ TEST(FileCache, least_recently_used_entries_are_removed_first) {
     EXPECT_EQ(files_in(folder.path()), 6u);
 }
 
+TEST(FileCache, small_entries_are_removed_many_at_a_time) {
+    const TemporaryFolder folder;
+    const FileCache cache(folder.path(), 25'600);
+    size_t most = 0;
+    for (int i = 0; i < 600; ++i) { // 256 of them fit
+        cache.keep(key(std::to_string(i)), std::string(36, 'x'));
+        if (i % 8 == 0)
+            most = std::max(most, files_in(folder.path()));
+    }
+    EXPECT_GT(most, 258u) << "a look at each one would cost more than to keep it";
+    EXPECT_LT(most, 350u);
+    EXPECT_TRUE(cache.find(key("599")));
+}
+
 TEST(FileCache, partial_files_of_dead_processes_are_removed) {
     const TemporaryFolder folder;
     const fs::path half = folder / ("." + key("a") + ".part-1-1");

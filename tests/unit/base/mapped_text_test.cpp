@@ -106,6 +106,20 @@ TEST(MappedText, edits_move_no_line) {
     EXPECT_EQ(at(text.lines(), 4), "a:4");
 }
 
+TEST(MappedText, a_token_that_a_line_end_splits_is_joined) {
+    MappedText text;
+    text.append("#def\\\n\\\nine A \\\n 1\na +\\\n= 2; /\\\n/ c\nd \\\n e;\\\nf\n", "a", 1);
+    EXPECT_EQ(text.text(), "#define A  1\n\n\n\na += 2; // c\n\n\nd \\\n e;\\\nf\n");
+    EXPECT_EQ(at(text.lines(), 5), "a:5");
+    EXPECT_EQ(at(text.lines(), 10), "a:10");
+    text.append("x\\\ny", "b", 1);
+    EXPECT_EQ(at(text.lines(), 12), "b:2");
+    EXPECT_THAT(text.text(), testing::EndsWith("f\nxy\n\n"));
+    text.append("g\\", "c", 1); // the last line of a file
+    text.append("h", "c", 2);
+    EXPECT_THAT(text.text(), testing::EndsWith("g\\\nh\n"));
+}
+
 TEST(PlainLineEnds, line_ends_of_every_system_become_newlines) {
     EXPECT_EQ(with_plain_line_ends("a\r\nb\rc\nd\n\re\r\r\nf\r"), "a\nb\nc\nd\n\ne\n\nf\n");
     EXPECT_EQ(with_plain_line_ends(""), "");

@@ -86,6 +86,23 @@ TEST(PlanFrame, a_sampler_of_a_struct_reads_its_texture) {
     EXPECT_NE(plan.find(0), nullptr);
 }
 
+/// On ShaderToy, too, a sampler that no host sets stays at unit 0.
+TEST(PlanFrame, a_sampler_of_the_author_s_reads_channel_0) {
+    scene::Scene scene = scene_of(2);
+    scene.passes[1].channels[0] = reads(0);
+    gl::Reflection reflection = with({"picture"});
+    reflection.uniforms[0].type = GL_SAMPLER_2D;
+    const FramePlan plan = plan_frame(scene, Reflections{with({}), reflection}, 1);
+    EXPECT_THAT(plan.passes.back().channels, ElementsAre(0));
+    EXPECT_NE(plan.find(0), nullptr);
+    for (const char* const name : {"iKeyboard", "iChannel2", "iCh2.sampler"}) {
+        reflection.uniforms[0].name = name;
+        EXPECT_EQ(plan_frame(scene, Reflections{with({}), reflection}, 1).find(0), nullptr) << name;
+    }
+    reflection.uniforms[0] = {"picture", GL_FLOAT};
+    EXPECT_EQ(plan_frame(scene, Reflections{with({}), reflection}, 1).find(0), nullptr);
+}
+
 TEST(PlanFrame, passes_are_drawn_in_the_scene_s_order) {
     scene::Scene scene = scene_of(3);
     scene.passes[2].channels[1] = reads(0);

@@ -66,6 +66,24 @@ TEST(ExpressionType, FollowsDeclarationsAndFunctions) {
     EXPECT_EQ(type_of("five(p, 1)"), "vec3"); // 1 becomes a float
 }
 
+TEST(ExpressionType, FollowsOperatorsOfWholeNumbersTestsAndAssignments) {
+    EXPECT_EQ(type_of("7 % 3"), "int");
+    EXPECT_EQ(type_of("i % 3"), "ivec2");
+    EXPECT_EQ(type_of("7 % i"), "ivec2");
+    EXPECT_EQ(type_of("(7u & 3u | 4u) ^ 1u"), "uint");
+    EXPECT_EQ(type_of("i << 2"), "ivec2");
+    EXPECT_EQ(type_of("7u >> 2"), "uint");
+    EXPECT_EQ(type_of("x < 1.0 && missing"), "bool");
+    EXPECT_EQ(type_of("missing == p"), "bool");
+    EXPECT_EQ(type_of("(x += 1.0)"), "float");
+    EXPECT_EQ(type_of("(x += 1.0, p)"), "vec3");
+    EXPECT_EQ(type_of("a.length()"), "int");
+    EXPECT_EQ(type_of("7 % 3u"), ""); // drivers differ in whether 7 becomes unsigned
+    EXPECT_EQ(type_of("7 % missing"), "");
+    EXPECT_EQ(type_of("x % 3"), "");
+    EXPECT_EQ(type_of("i % ivec3(3)"), "");
+}
+
 TEST(ExpressionType, NestedCallsAreTypedOnce) {
     std::string nested = "missing";
     for (int i = 0; i < 50; ++i)

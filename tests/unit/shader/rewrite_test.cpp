@@ -39,6 +39,14 @@ TEST(Rewrite, version_and_extension_directives_are_blanked) {
     EXPECT_GT(source.find("#extension GL_ARB_y"), source.find("uniform"));
 }
 
+TEST(Rewrite, parts_ignored_by_the_site_are_blanked) {
+    EXPECT_EQ(rewritten("#pragma optimize(off);\n"), "#pragma optimize(off) \n");
+    EXPECT_EQ(rewritten("#if 0\nfloat a;\n#elseif b\nfloat c;\n#endif\n"),
+              "#if 0\nfloat a;\n\nfloat c;\n#endif\n");
+    EXPECT_EQ(rewritten("#if 1\n#elseif b\n#endif\n"), "#if 1\n#elseif b\n#endif\n")
+        << "an error on the site";
+}
+
 TEST(Rewrite, names_reserved_by_the_driver_are_renamed) {
     EXPECT_EQ(rewritten("float packed = sample;\n"), "float st_packed = st_sample;\n");
     EXPECT_EQ(rewritten("precise float a = 1.;\n"), "precise float a = 1.;\n");

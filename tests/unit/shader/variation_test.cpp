@@ -47,7 +47,7 @@ TEST(Variation, ReadsThatAnExpressionToTheRightPrecedesInMesaAreFound) {
              "float d = c * 2.0 + c++; d = c + c++; d = g * 3.0 + next(); d = a[i] + float(i++);\n"
              "d = c * 2.0, c++; d = v.x * 2.0 + (v.x = 1.0); return (c++, c * 2.0); }\n");
     std::vector<std::string> found;
-    for (const NodeId id : early_reads(*of.text, of.facts))
+    for (const NodeId id : reads_before_settings(*of.text, of.facts).early)
         found.push_back(of.text->excerpt(id));
     EXPECT_EQ(found, (std::vector<std::string>{"c", "g", "i", "v.x"}));
 }

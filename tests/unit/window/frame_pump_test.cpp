@@ -218,6 +218,26 @@ TEST_F(FramePumpTest, a_cancelled_frame_returns_its_number) {
     EXPECT_FALSE(pump.cancel()) << "there is nothing any more";
 }
 
+/// Nothing else wakes the window then, and a held key would wait for the next event.
+TEST_F(FramePumpTest, a_held_event_is_due_as_soon_as_the_driver_is_free) {
+    driver.frame_seconds = 5;
+    EXPECT_FALSE(begin(0));
+    EXPECT_FALSE(advance());
+    driver.hangs_until = driver.now + 3;
+    pump.cancel();
+    pump.stop(driver.now);
+    around.events_held = true;
+    driver.now += 2;
+    EXPECT_TRUE(pump.driver_held(driver.now));
+    EXPECT_TRUE(due()) << "each round asks the driver again";
+    driver.now += 2;
+    pump.begin_round(k_extent);
+    EXPECT_FALSE(pump.ending());
+    EXPECT_TRUE(due());
+    around.events_held = false;
+    EXPECT_EQ(pump.due(around, driver.now), k_never);
+}
+
 TEST_F(FramePumpTest, stopped_frames_are_restarted_on_request) {
     driver.frame_seconds = 5;
     EXPECT_FALSE(begin(0));
