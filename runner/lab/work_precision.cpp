@@ -92,6 +92,8 @@ void judge(WorkPrecisionSet& set) {
 namespace {
 
 constexpr unsigned k_seed = 20261;
+/// Share of the budget that the second warm-up may take of points whose first drawing was too slow for more.
+constexpr double k_second_round = 0.5;
 
 double load_average() {
     double load = 0;
@@ -140,6 +142,7 @@ public:
             if (!watch_.keep_going())
                 return false;
             const Cost cost = run_(index, place % views, !keep || gpu_);
+            spent_ += cost.elapsed.wall * 1e-3;
             if (keep)
                 note(set_.points[index], place % views, cost);
             else
@@ -149,14 +152,28 @@ public:
         return true;
     }
 
-    /// Returns the seconds that round 0 took for a point, over all views.
+    /// Returns the seconds that a point took in the warm-up, over all views: the shortest run of each, because
+    /// the first one may hold the driver's compiler.
     double seconds(size_t point) const {
         double sum = 0;
         const size_t views = set_.study.views.size();
         for (size_t place = point * views; place < (point + 1) * views; ++place)
-            sum += trial_[place].empty() ? 0 : trial_[place].front().elapsed.wall * 1e-3;
+            if (!trial_[place].empty())
+                sum += 1e-3 * std::ranges::min(trial_[place], {}, wall_of).elapsed.wall;
         return sum;
     }
+
+    /// Returns how many of `total` rounds each point can take part in.
+    std::vector<size_t> affordable(double budget, size_t total) const {
+        const double share = budget / double(std::max<size_t>(1, set_.points.size()));
+        std::vector<size_t> rounds;
+        for (size_t i = 0; i < set_.points.size(); ++i)
+            rounds.push_back(size_t(std::clamp(share / std::max(seconds(i), 1e-6), 1.0, double(total))));
+        return rounds;
+    }
+
+    /// Returns the seconds of all runs.
+    double spent() const { return spent_; }
 
     /// Chooses the clock, after the warm-up.
     void choose_clock() {
@@ -176,6 +193,8 @@ public:
     }
 
 private:
+    static double wall_of(const Cost& cost) { return cost.elapsed.wall; }
+
     static void note(WorkPrecision& point, size_t view, const Cost& cost) {
         point.wall[view].back() = cost.elapsed.wall;
         point.cpu[view].back() = cost.elapsed.cpu;
@@ -199,6 +218,7 @@ private:
     const Run& run_;
     WorkPrecisionSet& set_;
     std::vector<std::vector<Cost>> trial_; ///< of the warm-up, by point and view
+    double spent_ = 0;
     bool gpu_ = false;
 };
 
@@ -236,20 +256,19 @@ bool time_points(const Timing& timing, const Watch& watch, const Run& run, WorkP
     Timer timer(watch, run, set);
     watch.begin("trial round", 1);
     bool going = timer.round(0, false, [](size_t) { return true; });
-    const double share = timing.budget / double(std::max<size_t>(1, set.points.size()));
     const size_t total = timing.warm_up_rounds + timing.rounds;
-    std::vector<size_t> affordable;
-    for (size_t i = 0; i < set.points.size(); ++i) {
-        const double rounds = share / std::max(timer.seconds(i), 1e-6);
-        affordable.push_back(size_t(std::clamp(rounds, 1.0, double(total))));
-    }
+    const double second_ends = timer.spent() + k_second_round * timing.budget;
+    std::vector<size_t> affordable = timer.affordable(timing.budget, total);
     watch.begin("rounds timed", total - 1);
     for (size_t number = 1; going && number < total; ++number) {
-        const bool keep = number >= timing.warm_up_rounds;
+        const bool keep = number >= timing.warm_up_rounds, second = number == 1 && !keep;
         if (number == timing.warm_up_rounds)
             timer.choose_clock();
-        going = timer.round(number, keep,
-                            [&](size_t point) { return takes_part(number, affordable[point], total); });
+        going = timer.round(number, keep, [&](size_t point) {
+            return (second && timer.spent() < second_ends) || takes_part(number, affordable[point], total);
+        });
+        if (second)
+            affordable = timer.affordable(timing.budget, total);
         facts.timed_rounds += keep && going;
     }
     facts.warm_up_rounds = timing.warm_up_rounds;

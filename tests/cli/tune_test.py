@@ -36,7 +36,9 @@ class Tune(ProgramTest):
 
     def tune(self, *arguments: str) -> tuple[dict, str]:
         done = self.succeed("tune", "sum.glsl", "--json", *QUICK, *arguments)
-        return json.loads(done.stdout), done.stderr
+        found = json.loads(done.stdout)
+        self.assertTrue(found["chosen"], done.stderr)
+        return found, done.stderr
 
     def test_fewer_steps_are_offered_within_an_allowed_error(self):
         found, said = self.tune("--max-error", "psnr=50dB")

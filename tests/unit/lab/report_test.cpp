@@ -256,6 +256,30 @@ TEST(Data, missing_measures_are_left_out) {
     EXPECT_THAT(sentences(set), ElementsAre(HasSubstr("faster than the bake's own setting: 16")));
 }
 
+TEST(Timing, a_slow_first_drawing_does_not_take_the_rounds_of_a_fast_scene) {
+    WorkPrecisionSet set = set_of({point(1, "defaults", 0.01, 20), point(0, "8", 0.1, 5)});
+    for (WorkPrecision& p : set.points)
+        p.wall.clear(), p.cpu.clear(), p.views[0].wall = p.all.wall = {};
+    const Watch watch{[](const std::string&, size_t) {}, [] {}, [] { return true; }};
+    std::array<size_t, 2> runs{};
+    const auto run = [&](size_t index, size_t, bool) {
+        const double wall = runs[index]++ == 0 ? 9000 : 20; // the driver compiles for nine seconds
+        return Cost{{wall, wall}, {}};
+    };
+    EXPECT_TRUE(time_points({2, 7, 1}, watch, run, set)); // half a second for each point: 25 drawings
+    EXPECT_THAT(runs, ElementsAre(9, 9));
+    EXPECT_EQ(set.points[1].all.time().median, 20);
+}
+
+TEST(Timing, slow_scenes_are_not_drawn_beyond_the_budget) {
+    WorkPrecisionSet set = set_of({point(1, "defaults", 0.01, 20), point(0, "8", 0.1, 5)});
+    const Watch watch{[](const std::string&, size_t) {}, [] {}, [] { return true; }};
+    size_t runs = 0;
+    const auto run = [&](size_t, size_t, bool) { return ++runs, Cost{{9000, 9000}, {}}; };
+    EXPECT_TRUE(time_points({2, 7, 1}, watch, run, set));
+    EXPECT_EQ(runs, 2 + 1 + 2u); // the trial, one warm drawing, and the last round
+}
+
 // ---- Clocks ---------------------------------------------------------------------------------------------
 
 /// A set of two points on one view, timed by a machine whose runs take 10 and 20 ms and whose driver says
