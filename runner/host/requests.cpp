@@ -561,10 +561,11 @@ void add_memory_option(Command command, LimitOptions& options) {
 
 void add_limit_options(Command app, LimitOptions& options) {
     for (Command command : app.subcommands()) {
-        if (!compiles_scenes(command) || command.has_option("--memory")) // `view` adds its own
+        const bool compiles = compiles_scenes(command), compares = command.has_option("--devices");
+        if (!(compiles || compares) || command.has_option("--memory")) // `view` adds its own
             continue;
         add_memory_option(command, options);
-        if (!command.has_option("--timeout"))
+        if (compiles && !command.has_option("--timeout"))
             command
                 .add_option(
                     "--timeout", options.timeout,

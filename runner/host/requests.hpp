@@ -160,7 +160,8 @@ bool compiles_scenes(Command command);
 
 void add_memory_option(Command command, LimitOptions& options);
 
-/// Adds --memory and --timeout to every sub-command that compiles scenes and does not have its own.
+/// Adds --memory and --timeout to every sub-command that compiles scenes and does not have its own; --memory
+/// also to the one that draws them on two devices.
 void add_limit_options(Command app, LimitOptions& options);
 
 /// Returns the limits; without --memory, half of the machine's memory.

@@ -6,6 +6,7 @@
 #include "lab/text_findings.hpp"
 #include "render/frame_plan.hpp"
 #include "render/frame_stepper.hpp"
+#include "render/gl_context.hpp"
 #include "scene/host_uniforms.hpp"
 #include "shader/cuts.hpp"
 #include "shader/rewrite.hpp"
@@ -240,7 +241,9 @@ namespace {
 
 constexpr size_t k_fewest_trials = 3, k_most_trials = 25;
 constexpr double k_enough_milliseconds = 120; ///< for the timing rounds
-/// A trial is not timed again if one round takes more than this share of the former time by both clocks.
+/// The same by wall clock where CPU times are compared, which a busy machine stretches.
+constexpr double k_longest_milliseconds = 480;
+/// A long trial is not timed again if one round takes more than this share of the former time by both clocks.
 constexpr double k_hopeless = 1.1;
 /// Limit of the other views, and their last moment in seconds: later a float's rounding shows in many scenes.
 constexpr size_t k_most_others = 160;
@@ -254,11 +257,6 @@ double error_of(Measure measure, const Outcome& outcome) {
     if (outcome.picture.samples.equal())
         return 0;
     return std::max(error_by(measure, outcome), std::numeric_limits<double>::min());
-}
-
-/// Returns the CPU time if the CPU draws, else the wall time.
-double clocked(const Elapsed& elapsed, bool by_cpu) {
-    return by_cpu ? elapsed.cpu : elapsed.wall;
 }
 
 double displayed(const image::Image& picture, int x, int y, int channel) {
@@ -424,6 +422,10 @@ void CutSwitches::make(std::span<const size_t> cuts) {
     specimen_.turn(knobs_);
 }
 
+CutBench::CutBench(const scene::Scene& scene, Extent extent, std::vector<View> views, Specimen own)
+    : scene_(&scene), extent_(extent), views_(std::move(views)), own_(std::move(own)),
+      by_cpu_(gl::is_software_renderer(gl::query_capabilities().renderer)) {}
+
 Result<CutBench> CutBench::create(const scene::Scene& scene, Extent extent, std::vector<View> views,
                                   double seconds) {
     auto own = TRY(Specimen::create(scene, {}, extent));
@@ -488,9 +490,9 @@ double CutBench::time_of_switched(CutSwitches& switches, size_t cut) {
     double with = 0, without = 0;
     for (const View& view : views_) {
         switches.make(std::span(&cut, 1));
-        with += switches.specimen().time(view, false).elapsed.wall;
+        with += clocked(switches.specimen().time(view, false).elapsed);
         switches.make({});
-        without += switches.specimen().time(view, false).elapsed.wall;
+        without += clocked(switches.specimen().time(view, false).elapsed);
     }
     return with / without;
 }
@@ -535,12 +537,17 @@ double CutBench::seconds_of_trial() {
     return milliseconds() * 1e-3 * drawn;
 }
 
+double CutBench::clocked(const Elapsed& elapsed) const {
+    return by_cpu_ ? elapsed.cpu : elapsed.wall;
+}
+
 /// Returns the median ratio of the times, over rounds that draw both alternately.
 double CutBench::relative_time(Specimen& one, Specimen& other) const {
-    std::vector<Elapsed> ones, others;
-    const Stopwatch clock;
+    std::vector<double> ratios;
+    Elapsed spent{};
     for (size_t round = 0; round < k_most_trials; ++round) {
-        if (round >= k_fewest_trials && clock.elapsed().wall > k_enough_milliseconds)
+        const bool enough = clocked(spent) > k_enough_milliseconds || spent.wall > k_longest_milliseconds;
+        if (round >= k_fewest_trials && enough)
             break;
         Elapsed sums[2]{};
         for (const View& view : views_)
@@ -549,20 +556,15 @@ double CutBench::relative_time(Specimen& one, Specimen& other) const {
                 sums[each == &other].wall += elapsed.wall;
                 sums[each == &other].cpu += elapsed.cpu;
             }
-        ones.push_back(sums[0]);
-        others.push_back(sums[1]);
-        if (sums[0].wall > k_hopeless * sums[1].wall && sums[0].cpu > k_hopeless * sums[1].cpu)
+        for (const Elapsed& sum : sums) {
+            spent.wall += sum.wall;
+            spent.cpu += sum.cpu;
+        }
+        ratios.push_back(clocked(sums[0]) / clocked(sums[1]));
+        if (clocked(spent) > k_enough_milliseconds && sums[0].wall > k_hopeless * sums[1].wall &&
+            sums[0].cpu > k_hopeless * sums[1].cpu)
             break;
     }
-    double wall = 0, cpu = 0;
-    for (const Elapsed& elapsed : others) {
-        wall += elapsed.wall;
-        cpu += elapsed.cpu;
-    }
-    const bool by_cpu = cpu > 0.5 * wall;
-    std::vector<double> ratios;
-    for (size_t i = 0; i < ones.size(); ++i)
-        ratios.push_back(clocked(ones[i], by_cpu) / clocked(others[i], by_cpu));
     return median(ratios);
 }
 

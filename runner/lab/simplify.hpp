@@ -61,13 +61,13 @@ std::vector<View> other_views(const scene::Scene& scene, const std::vector<View>
 /// change. Its times say little about a cut's own program.
 class CutSwitches {
 public:
-    /// /// Compiles those of the cuts `which`, indices into `cuts` of cuts with a switched form, that the
+    /// Compiles those of the cuts `which`, indices into `cuts` of cuts with a switched form, that the
     /// driver accepts. Returns nullopt if there are none, or if `keep_going` ends it.
     static std::optional<CutSwitches> create(const scene::Scene& scene, Extent extent,
                                              std::span<const glsl::Cut> cuts, std::vector<size_t> which,
                                              const KeepGoing& keep_going);
 
-    /// /// Returns the indices of the accepted cuts, in ascending order.
+    /// Returns the indices of the accepted cuts, in ascending order.
     const std::vector<size_t>& which() const { return which_; }
     /// Makes the cuts with these indices from the next picture on, and no others.
     void make(std::span<const size_t> cuts);
@@ -105,7 +105,7 @@ public:
     double compile_seconds() const { return compile_seconds_; }
     /// Seconds to draw one view of it; rough.
     double draw_seconds() const { return draw_seconds_; }
-    /// /// Draws the switches without a cut, for error_of_switched(). Returns false if that exceeds the goal.
+    /// Draws the switches without a cut, for error_of_switched(). Returns false if that exceeds the goal.
     bool take_as_reference(CutSwitches& switches, const Goal& goal);
     /// Returns the error of the cuts in the worst view, or nullopt if it exceeds the goal. The other views do
     /// not count.
@@ -120,9 +120,10 @@ public:
                                      bool everywhere = true);
 
 private:
-    CutBench(const scene::Scene& scene, Extent extent, std::vector<View> views, Specimen own)
-        : scene_(&scene), extent_(extent), views_(std::move(views)), own_(std::move(own)) {}
+    CutBench(const scene::Scene& scene, Extent extent, std::vector<View> views, Specimen own);
 
+    /// Returns the CPU time if the CPU draws, else the wall time.
+    double clocked(const Elapsed& elapsed) const;
     double relative_time(Specimen& one, Specimen& other) const;
     std::optional<double> error_in(Specimen& specimen, std::span<const View> views, const Truth& truth,
                                    const Goal& goal) const;
@@ -131,6 +132,7 @@ private:
     Extent extent_;
     std::vector<View> views_;
     Specimen own_;
+    bool by_cpu_; ///< other work of the machine does not count
     Truth truth_{};
 
     double compile_seconds_ = 0, draw_seconds_ = 0;

@@ -152,8 +152,8 @@ public:
         return true;
     }
 
-    /// Returns the seconds that a point took in the warm-up, over all views: the shortest run of each, because
-    /// the first one may hold the driver's compiler.
+    /// Returns the seconds that a point took in the warm-up, over all views: the shortest run of each,
+    /// because the first one may hold the driver's compiler.
     double seconds(size_t point) const {
         double sum = 0;
         const size_t views = set_.study.views.size();

@@ -441,20 +441,23 @@ private:
             edits_.replace(tree_[tree_.child(id, 0)].word, ours("exact_") + std::string(function->name));
             return true;
         }
-        bool varied = false;
-        if (function && (function->parts & parts_) != 0)
-            varied = vary_call(id, *function);
-        else if (const auto name = swift_operator(text_, facts_, &known_, id);
-                 !name.empty() && (parts_ & operator_parts(name)) != 0)
-            varied = vary_operator(id, name);
-        else if ((parts_ & int(outside)) != 0 && is_element(text_, facts_, id))
-            varied = vary_element(id);
-        else if (order_ == SwiftOrder::compiler)
-            keep_apart(id);
-        return keep_early(id) || varied;
+        bool place = true;
+        if (function && (function->parts & parts_) != 0) {
+            vary_call(id, *function);
+        } else if (const auto name = swift_operator(text_, facts_, &known_, id);
+                   !name.empty() && (parts_ & operator_parts(name)) != 0) {
+            place = vary_operator(id, name);
+        } else if ((parts_ & int(outside)) != 0 && is_element(text_, facts_, id)) {
+            vary_element(id);
+        } else {
+            place = false; // what is kept apart has its value
+            if (order_ == SwiftOrder::compiler)
+                keep_apart(id);
+        }
+        return keep_early(id) || place;
     }
 
-    bool vary_call(NodeId id, const SwiftFunction& function) {
+    void vary_call(NodeId id, const SwiftFunction& function) {
         const auto name = is_known_below(text_, facts_, known_, id) ? "bound" : function.name;
         edits_.replace(tree_[tree_.child(id, 0)].word, ours(name));
         has_lookup_ = has_lookup_ || (function.parts & (int(mipmaps) | int(weights))) != 0;
@@ -462,9 +465,9 @@ private:
             edits_.wrap(tree_.child(id, 2),
                         fmt::format("{}via({},", prefix_, channels_of(text_, facts_, tree_.child(id, 1))),
                         ")");
-        return true;
     }
 
+    /// Returns whether the operator is a place; one that the driver computes alike stays.
     bool vary_operator(NodeId id, std::string_view name) {
         const bool assigns = tree_[id].kind == NodeKind::assign;
         if (name == "over" && order_ == SwiftOrder::compiler && is_scalar(text_, facts_, id)) {
@@ -483,12 +486,11 @@ private:
         return true;
     }
 
-    bool vary_element(NodeId id) {
+    void vary_element(NodeId id) {
         if ((all_parts_ & k_of_neighbours) != 0 && is_number_read(text_, facts_, id))
             edits_.wrap(id, ours("kept("), ")");
         edits_.wrap(tree_.child(id, 1), ours("place("),
                     fmt::format(",({}).length())", words_of(text_, tree_.child(id, 0))));
-        return true;
     }
 
     /// Hides operands from the driver where it would merge more than SPIRV-Tools does.

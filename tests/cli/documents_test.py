@@ -182,7 +182,7 @@ class Explained(unittest.TestCase):
         self.needs_the_window()
         for page, text in option_table.written_anew().items():
             with self.subTest(page=relative(page)):
-                self.assertEqual(page.read_text(), text, "python3 tests/support/option_table.py writes it anew")
+                self.assertEqual(page.read_text(), text, "PYTHONPATH=tests python3 tests/support/option_table.py writes it anew")
 
     def test_every_option_is_in_a_table(self) -> None:
         tables = "\n".join(block[3] for page in option_table.PAGES
