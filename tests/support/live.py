@@ -32,14 +32,18 @@ def main() -> None:
     unittest.main()
 
 
+OPEN_VIEWS: list[View] = []
+
+
 def wait_for(condition: Callable[[], T], what: str, patience: float = PATIENCE) -> T:
-    """What the condition gives once that is true."""
+    """What the condition gives once that is true. Where it waits in vain, it says what the windows show."""
     deadline = time.monotonic() + patience
     while True:
         if found := condition():
             return found
         if time.monotonic() > deadline:
-            raise AssertionError(f"waited {patience:.0f} s in vain for {what}")
+            shown = [f"{view.scene} has the title {view.title()!r} and said:\n{view.stderr()}" for view in OPEN_VIEWS]
+            raise AssertionError("\n".join([f"waited {patience:.0f} s in vain for {what}", *shown]))
         time.sleep(0.02)
 
 
@@ -241,6 +245,7 @@ class View:
         variables.setdefault("TIDEMARK_MESSAGES", "off")  # tests compare pictures
         self.program = subprocess.Popen([PROGRAM, "view", scene, *options], cwd=folder, stdin=text,
                                         env=environment(**screen.variables(), **variables), stderr=self.words)
+        OPEN_VIEWS.append(self)
         if first_title is not None:
             self.wait_for_window(first_title)
 
@@ -252,6 +257,8 @@ class View:
         self.point(5, 5)  # keys go to the window under the pointer
 
     def close(self) -> None:
+        if self in OPEN_VIEWS:
+            OPEN_VIEWS.remove(self)
         self.program.kill()
         self.program.wait()
         self.words.close()
@@ -266,7 +273,7 @@ class View:
         return pathlib.Path(self.words.name).read_text()
 
     def wait_for_words(self, pattern: str) -> re.Match:
-        return self.wait_for_match(lambda: re.search(pattern, self.stderr(), re.MULTILINE), pattern)
+        return wait_for(lambda: self.running() and re.search(pattern, self.stderr(), re.MULTILINE), pattern)
 
     def wait_for_end(self) -> int:
         wait_for(lambda: self.program.poll() is not None, "the end of the program")
@@ -276,13 +283,7 @@ class View:
         return self.screen.title(self.window)
 
     def wait_for_title(self, pattern: str) -> re.Match:
-        return self.wait_for_match(lambda: re.search(pattern, self.title()), f"the title {pattern}")
-
-    def wait_for_match(self, find: Callable[[], re.Match | None], what: str) -> re.Match:
-        try:
-            return wait_for(lambda: self.running() and find(), what)
-        except AssertionError as error:
-            raise AssertionError(f"{error}; its title: {self.title()}; it said:\n{self.stderr()}") from None
+        return wait_for(lambda: self.running() and re.search(pattern, self.title()), f"the title {pattern}")
 
     def place(self) -> dict[str, int]:
         """X, Y, WIDTH and HEIGHT of the window on the screen."""
