@@ -545,10 +545,8 @@ double CutBench::clocked(const Elapsed& elapsed) const {
 double CutBench::relative_time(Specimen& one, Specimen& other) const {
     std::vector<double> ratios;
     Elapsed spent{};
-    for (size_t round = 0; round < k_most_trials; ++round) {
-        const bool enough = clocked(spent) > k_enough_milliseconds || spent.wall > k_longest_milliseconds;
-        if (round >= k_fewest_trials && enough)
-            break;
+    bool enough = false;
+    for (size_t round = 0; round < k_most_trials && !(enough && round >= k_fewest_trials); ++round) {
         Elapsed sums[2]{};
         for (const View& view : views_)
             for (Specimen* const each : {&one, &other}) {
@@ -561,8 +559,9 @@ double CutBench::relative_time(Specimen& one, Specimen& other) const {
             spent.cpu += sum.cpu;
         }
         ratios.push_back(clocked(sums[0]) / clocked(sums[1]));
-        if (clocked(spent) > k_enough_milliseconds && sums[0].wall > k_hopeless * sums[1].wall &&
-            sums[0].cpu > k_hopeless * sums[1].cpu)
+        enough = std::min(spent.wall, clocked(spent)) > k_enough_milliseconds ||
+                 spent.wall > k_longest_milliseconds;
+        if (enough && sums[0].wall > k_hopeless * sums[1].wall && sums[0].cpu > k_hopeless * sums[1].cpu)
             break;
     }
     return median(ratios);
