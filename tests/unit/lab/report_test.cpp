@@ -256,27 +256,33 @@ TEST(Data, missing_measures_are_left_out) {
     EXPECT_THAT(sentences(set), ElementsAre(HasSubstr("faster than the bake's own setting: 16")));
 }
 
-TEST(Timing, a_slow_first_drawing_does_not_take_the_rounds_of_a_fast_scene) {
+/// Two points of one view that have no times yet.
+WorkPrecisionSet untimed() {
     WorkPrecisionSet set = set_of({point(1, "defaults", 0.01, 20), point(0, "8", 0.1, 5)});
     for (WorkPrecision& p : set.points)
         p.wall.clear(), p.cpu.clear(), p.views[0].wall = p.all.wall = {};
-    const Watch watch{[](const std::string&, size_t) {}, [] {}, [] { return true; }};
+    return set;
+}
+
+const Watch k_unwatched{[](const std::string&, size_t) {}, [] {}, [] { return true; }};
+
+TEST(Timing, a_slow_first_drawing_does_not_take_the_rounds_of_a_fast_scene) {
+    WorkPrecisionSet set = untimed();
     std::array<size_t, 2> runs{};
     const auto run = [&](size_t index, size_t, bool) {
         const double wall = runs[index]++ == 0 ? 9000 : 20; // the driver compiles for nine seconds
         return Cost{{wall, wall}, {}};
     };
-    EXPECT_TRUE(time_points({2, 7, 1}, watch, run, set)); // half a second for each point: 25 drawings
+    EXPECT_TRUE(time_points({2, 7, 1}, k_unwatched, run, set)); // half a second for each point: 25 drawings
     EXPECT_THAT(runs, ElementsAre(9, 9));
     EXPECT_EQ(set.points[1].all.time().median, 20);
 }
 
 TEST(Timing, slow_scenes_are_not_drawn_beyond_the_budget) {
-    WorkPrecisionSet set = set_of({point(1, "defaults", 0.01, 20), point(0, "8", 0.1, 5)});
-    const Watch watch{[](const std::string&, size_t) {}, [] {}, [] { return true; }};
+    WorkPrecisionSet set = untimed();
     size_t runs = 0;
     const auto run = [&](size_t, size_t, bool) { return ++runs, Cost{{9000, 9000}, {}}; };
-    EXPECT_TRUE(time_points({2, 7, 1}, watch, run, set));
+    EXPECT_TRUE(time_points({2, 7, 1}, k_unwatched, run, set));
     EXPECT_EQ(runs, 2 + 1 + 2u); // the trial, one warm drawing, and the last round
 }
 
@@ -285,11 +291,8 @@ TEST(Timing, slow_scenes_are_not_drawn_beyond_the_budget) {
 /// A set of two points on one view, timed by a machine whose runs take 10 and 20 ms and whose driver says
 /// `ratio` of that; 0: it has no timer.
 WorkPrecisionSet timed_with(double ratio, size_t& asked) {
-    WorkPrecisionSet set = set_of({point(1, "defaults", 0.01, 20), point(0, "8", 0.1, 5)});
-    for (WorkPrecision& p : set.points)
-        p.wall.clear(), p.cpu.clear(), p.views[0].wall = p.all.wall = {};
+    WorkPrecisionSet set = untimed();
     asked = 0;
-    const Watch watch{[](const std::string&, size_t) {}, [] {}, [] { return true; }};
     const Run run = [&](size_t index, size_t, bool ask_gpu) {
         const double wall = index == 0 ? 20 : 10;
         asked += ask_gpu;
@@ -298,7 +301,7 @@ WorkPrecisionSet timed_with(double ratio, size_t& asked) {
             cost.gpu = ratio * wall;
         return cost;
     };
-    EXPECT_TRUE(time_points({4, 6, 1000}, watch, run, set));
+    EXPECT_TRUE(time_points({4, 6, 1000}, k_unwatched, run, set));
     return set;
 }
 
